@@ -1,0 +1,7 @@
+//! Stability of thin, fast, guided circular saws in the frequency domain.
+
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod plate;
+pub mod scene;

@@ -1,0 +1,233 @@
+//! The physics of the spinning plate: each file builds one named matrix.
+//!
+//! Deflection w = Σ qᵢ φᵢ(r, θ), φ = R_nj(r)·{cos nθ, sin nθ}, scaled so that the
+//! mass matrix is the identity. Order of the unknowns: n = 0: J cosines; then for
+//! each n ≥ 1: J cosines, J sines.
+
+mod harmonic;
+mod pad;
+mod quadrature;
+mod radial;
+mod stress;
+
+pub use harmonic::HarmonicBlock;
+pub use radial::{RadialBasis, RadialValues};
+pub use stress::CentrifugalStress;
+
+use faer::Mat;
+
+use crate::scene::{Accuracy, Blade, Damping, Guide, Scene};
+
+/// How many functions describe the deflection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resolution {
+    /// Largest number of nodal diameters n_max.
+    pub max_diameters: usize,
+    /// Radial functions J for each.
+    pub radial_functions: usize,
+}
+
+impl Resolution {
+    /// The basis of a named accuracy.
+    pub fn of(accuracy: Accuracy) -> Self {
+        let (max_diameters, radial_functions) = match accuracy {
+            Accuracy::Draft => (8, 5),
+            Accuracy::Design => (16, 8),
+            Accuracy::Reference => (24, 12),
+        };
+        Resolution { max_diameters, radial_functions }
+    }
+
+    /// Number of unknowns, J (2 n_max + 1).
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.radial_functions * (2 * self.max_diameters + 1)
+    }
+}
+
+/// The matrices of a scene in a basis, M = 1. Only what the scene names is there.
+#[derive(Debug, Clone)]
+pub struct Plate {
+    /// The moving annulus.
+    pub blade: Blade,
+    /// Size of the basis.
+    pub resolution: Resolution,
+    /// Radial functions.
+    pub basis: RadialBasis,
+    /// K_b and K_σ − N of n = 0 … n_max.
+    pub harmonics: Vec<HarmonicBlock>,
+    /// K_g, in 1/s², when a guide has a stiffness.
+    pub guide_stiffness: Option<Mat<f64>>,
+    /// Damping of the guides, in 1/s, when a guide has one.
+    pub guide_damping: Option<Mat<f64>>,
+    /// Material and air damping, when the scene names them.
+    pub damping: Option<Damping>,
+}
+
+impl Plate {
+    /// Assembles the matrices that the scene asks for.
+    pub fn new(scene: &Scene, resolution: Resolution) -> Self {
+        let basis = RadialBasis::new(&scene.blade, resolution.radial_functions);
+        let harmonics = (0..=resolution.max_diameters)
+            .map(|n| HarmonicBlock::new(&scene.blade, &basis, n))
+            .collect();
+        let mut plate = Plate {
+            blade: scene.blade,
+            resolution,
+            basis,
+            harmonics,
+            guide_stiffness: None,
+            guide_damping: None,
+            damping: scene.damping,
+        };
+        for guide in &scene.guides {
+            plate.add_guide(guide);
+        }
+        plate
+    }
+
+    fn add_guide(&mut self, guide: &Guide) {
+        let coupling = pad::coupling(&self.blade, &self.basis, self, guide);
+        let add = |sum: &mut Option<Mat<f64>>, factor: f64| {
+            if factor > 0.0 {
+                let term = faer::Scale(factor) * &coupling;
+                *sum = Some(match sum.take() {
+                    Some(sum) => sum + term,
+                    None => term,
+                });
+            }
+        };
+        add(&mut self.guide_stiffness, guide.stiffness_n_per_m);
+        add(&mut self.guide_damping, guide.damping_n_s_per_m);
+    }
+
+    /// n_max.
+    pub fn max_diameters(&self) -> usize {
+        self.resolution.max_diameters
+    }
+
+    /// Number of unknowns N.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.resolution.degrees_of_freedom()
+    }
+
+    /// Index of the first cosine of n nodal diameters.
+    pub fn offset(&self, n: usize) -> usize {
+        let size = self.basis.len();
+        if n == 0 { 0 } else { size * (2 * n - 1) }
+    }
+
+    /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh π(1+δ_n0)), in √(kg/m²).
+    pub fn angular_norm(&self, n: usize) -> f64 {
+        let two = if n == 0 { 2.0 } else { 1.0 };
+        (self.blade.mass_per_area_kg_per_m2() * std::f64::consts::PI * two).sqrt()
+    }
+
+    /// Whether anything fixed in space couples the harmonics.
+    pub fn is_axisymmetric(&self) -> bool {
+        self.guide_stiffness.is_none() && self.guide_damping.is_none()
+    }
+
+    /// Every basis function at a point of the blade, in 1/√kg.
+    pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.degrees_of_freedom());
+        for n in 0..=self.max_diameters() {
+            let radial = self.basis.evaluate(n, radius_m).value;
+            let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+            let norm = self.angular_norm(n);
+            values.extend(radial.iter().map(|r| r * cos / norm));
+            if n > 0 {
+                values.extend(radial.iter().map(|r| r * sin / norm));
+            }
+        }
+        values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{BladeFile, SceneFile};
+
+    fn plate_with(guides: &[Guide]) -> Plate {
+        let scene = Scene { guides: guides.to_vec(), ..Scene::paper() };
+        Plate::new(&scene, Resolution { max_diameters: 5, radial_functions: 4 })
+    }
+
+    fn relative_distance(left: &Mat<f64>, right: &Mat<f64>) -> f64 {
+        (left - right).norm_l2() / right.norm_l2()
+    }
+
+    /// The pad's integral by brute force: midpoint rule over the rectangle.
+    #[test]
+    fn a_clipped_pad_equals_its_midpoint_sum() {
+        let pad = Guide {
+            radius_m: 0.32,
+            angle_rad: -0.9,
+            radial_length_m: 0.15,
+            tangential_length_m: 0.30,
+            stiffness_n_per_m: 2.0e7,
+            damping_n_s_per_m: 0.0,
+        };
+        let plate = plate_with(&[pad]);
+        let cells = 400;
+        let mut sum: Mat<f64> = Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
+        let (dx, dy) = (0.15 / f64::from(cells), 0.30 / f64::from(cells));
+        for i in 0..cells {
+            for k in 0..cells {
+                let x = 0.245 + (f64::from(i) + 0.5) * dx;
+                let y = -0.15 + (f64::from(k) + 0.5) * dy;
+                let (r, psi) = (x.hypot(y), y.atan2(x));
+                if (plate.blade.inner_radius_m..=plate.blade.outer_radius_m).contains(&r) {
+                    let f = plate.functions_at(r, psi + pad.angle_rad);
+                    let f = faer::Col::from_fn(f.len(), |i| f[i]);
+                    sum += faer::Scale(2.0e7 * dx * dy / (0.15 * 0.30)) * &f * f.transpose();
+                }
+            }
+        }
+        let distance = relative_distance(plate.guide_stiffness.as_ref().unwrap(), &sum);
+        // The rim cuts cells: the midpoint sum itself is good to about one cell in 400².
+        assert!(distance < 2e-4, "{distance}");
+    }
+
+    #[test]
+    fn a_pad_larger_than_the_blade_is_a_uniform_bed() {
+        let pad = Guide {
+            radius_m: 0.0,
+            angle_rad: 0.3,
+            radial_length_m: 2.0,
+            tangential_length_m: 2.0,
+            stiffness_n_per_m: 4.0e6,
+            damping_n_s_per_m: 0.0,
+        };
+        let plate = plate_with(&[pad]);
+        let per_mass = 1.0e6 / plate.blade.mass_per_area_kg_per_m2();
+        let bed = faer::Scale(per_mass) * Mat::<f64>::identity(plate.degrees_of_freedom(), plate.degrees_of_freedom());
+        let distance = relative_distance(plate.guide_stiffness.as_ref().unwrap(), &bed);
+        assert!(distance < 1e-12, "{distance}");
+    }
+
+    #[test]
+    fn a_small_pad_tends_to_a_point_spring() {
+        let pad = |size: f64| Guide {
+            radius_m: 0.2,
+            angle_rad: 1.1,
+            radial_length_m: size,
+            tangential_length_m: size,
+            stiffness_n_per_m: 1.0e6,
+            damping_n_s_per_m: 0.0,
+        };
+        let point = plate_with(&[pad(0.0)]).guide_stiffness.unwrap();
+        let distance = |size| relative_distance(&plate_with(&[pad(size)]).guide_stiffness.unwrap(), &point);
+        let (coarse, fine) = (distance(0.02), distance(0.01));
+        let order = (coarse / fine).log2();
+        assert!((order - 2.0).abs() < 0.1, "second order in the size, not {order}");
+    }
+
+    #[test]
+    fn what_the_scene_does_not_name_is_not_assembled() {
+        let plate = plate_with(&[]);
+        assert!(plate.is_axisymmetric() && plate.damping.is_none());
+        let SceneFile { blade: BladeFile { teeth, .. }, .. } = Scene::paper().file;
+        assert_eq!(teeth, Some(42));
+    }
+}

@@ -1,0 +1,83 @@
+//! In-plane stress of the steadily spinning annulus, in closed form.
+
+use crate::scene::{Blade, Bore, InPlane};
+
+/// Centrifugal plane stress σ̂ = σ/(ρΩ²), in m²:
+/// σ̂_rr = A − B/r² − p r², σ̂_θθ = A + B/r² − q r², with p = (3+ν)/8, q = (1+3ν)/8
+/// (Timoshenko & Goodier, *Theory of Elasticity*, section 32).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CentrifugalStress {
+    uniform_m2: f64,
+    inverse_m4: f64,
+    p: f64,
+    q: f64,
+}
+
+impl CentrifugalStress {
+    /// Stress of a blade with a free rim; the bore is free (spline, or a collar
+    /// that lets the blade slide) or has u(a) = 0.
+    pub fn new(blade: &Blade) -> Self {
+        let nu = blade.material.poisson_ratio;
+        let (aa, bb) = (blade.inner_radius_m.powi(2), blade.outer_radius_m.powi(2));
+        let (p, q) = ((3.0 + nu) / 8.0, (1.0 + 3.0 * nu) / 8.0);
+        let inverse_m4 = match blade.bore {
+            Bore::Free | Bore::Clamped(InPlane::Free) => p * aa * bb,
+            // u(a) = 0 means σ_θθ = ν σ_rr there; σ_rr(b) = 0 gives A = B/b² + p b².
+            Bore::Clamped(InPlane::Fixed) => {
+                ((1.0 - nu * nu) * aa / 8.0 - (1.0 - nu) * p * bb)
+                    / ((1.0 - nu) / bb + (1.0 + nu) / aa)
+            }
+        };
+        CentrifugalStress {
+            uniform_m2: inverse_m4 / bb + p * bb,
+            inverse_m4,
+            p,
+            q,
+        }
+    }
+
+    /// σ_rr / ρΩ² at radius r, in m².
+    pub fn radial_m2(&self, r: f64) -> f64 {
+        self.uniform_m2 - self.inverse_m4 / (r * r) - self.p * r * r
+    }
+
+    /// σ_θθ / ρΩ² at radius r, in m².
+    pub fn hoop_m2(&self, r: f64) -> f64 {
+        self.uniform_m2 + self.inverse_m4 / (r * r) - self.q * r * r
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn blade(bore: Bore) -> Blade {
+        Blade { bore, ..Scene::paper().blade }
+    }
+
+    /// d(r σ_rr)/dr − σ_θθ + ρΩ²r² = 0, by a central difference.
+    #[test]
+    fn the_stress_is_in_equilibrium() {
+        for bore in [Bore::Free, Bore::Clamped(InPlane::Fixed)] {
+            let stress = CentrifugalStress::new(&blade(bore));
+            let (r, step) = (0.2, 2e-6);
+            let traction = |r: f64| r * stress.radial_m2(r);
+            let slope = (traction(r + step) - traction(r - step)) / (2.0 * step);
+            let residual = slope - stress.hoop_m2(r) + r * r;
+            assert!(residual.abs() < 1e-9 * stress.hoop_m2(r), "{residual}");
+        }
+    }
+
+    #[test]
+    fn the_edges_hold_what_they_should() {
+        let free = CentrifugalStress::new(&blade(Bore::Free));
+        let fixed = CentrifugalStress::new(&blade(Bore::Clamped(InPlane::Fixed)));
+        let Blade { inner_radius_m: a, outer_radius_m: b, material, .. } = blade(Bore::Free);
+        let scale = 1e-14 * b * b;
+        assert!(free.radial_m2(a).abs() < scale && free.radial_m2(b).abs() < scale);
+        assert!(fixed.radial_m2(b).abs() < scale);
+        let hoop_strain = fixed.hoop_m2(a) - material.poisson_ratio * fixed.radial_m2(a);
+        assert!(hoop_strain.abs() < scale);
+    }
+}

@@ -1,0 +1,227 @@
+//! The report: everything found out about a saw, complete enough that every
+//! figure can be drawn from it alone.
+
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Accuracy, SceneFile};
+
+/// `report.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Terms of the equation of motion that were assembled.
+    pub terms: Vec<String>,
+    /// The lowest modes of the blade at rest, ascending.
+    pub modes_at_rest: Vec<RestMode>,
+    /// Every critical speed up to the end of the sweep, ascending.
+    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    /// Every band of instability within the sweep, ascending.
+    pub instabilities: Vec<InstabilityEntry>,
+    /// Onset of the first flutter band whose peak growth reaches the threshold.
+    pub flutter_speed_rpm: Option<f64>,
+    /// Onset of the first flutter band of all, whatever its growth.
+    pub first_merge_rpm: Option<f64>,
+    /// Growth rate from which a band counts as flutter of the saw.
+    pub flutter_threshold_per_s: f64,
+    /// The operating speed against the 85 % rule, when the scene gives one.
+    pub operating: Option<OperatingEntry>,
+    /// How fine the computation was, and how far it may be off.
+    pub accuracy: AccuracyEntry,
+    /// Proof that no unstable or reflected mode was missed.
+    pub certificate: CertificateEntry,
+    /// Branches over speed.
+    pub campbell: CampbellEntry,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// A mode of the blade that does not spin.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RestMode {
+    /// Natural frequency.
+    pub frequency_hz: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub nodal_diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub nodal_circles: usize,
+    /// In words.
+    pub name: String,
+    /// ‖L(λ)q‖ relative to the size of its terms.
+    pub backward_error: f64,
+    /// Share of each harmonic in the kinetic energy, largest first.
+    pub harmonics: Vec<HarmonicEntry>,
+    /// Deflection, scaled to a largest value of one.
+    pub shape: Vec<ShapeEntry>,
+}
+
+/// Share of n nodal diameters in a mode.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HarmonicEntry {
+    /// n.
+    pub nodal_diameters: usize,
+    /// Between 0 and 1.
+    pub share: f64,
+}
+
+/// w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeEntry {
+    /// n.
+    pub nodal_diameters: usize,
+    /// Radii.
+    pub radius_m: Vec<f64>,
+    /// Coefficient of cos nθ at these radii.
+    pub cosine: Vec<f64>,
+    /// Coefficient of sin nθ at these radii.
+    pub sine: Vec<f64>,
+}
+
+/// A speed at which a wave stands still in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriticalSpeedEntry {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub nodal_diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub nodal_circles: usize,
+}
+
+/// Kind of an instability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum InstabilityKind {
+    /// Exponential growth without oscillation.
+    Divergence,
+    /// Growing oscillation.
+    Flutter,
+}
+
+/// A band of unstable speeds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InstabilityEntry {
+    /// Divergence or flutter.
+    pub kind: InstabilityKind,
+    /// Onset.
+    pub from_rpm: f64,
+    /// End, or the end of the sweep.
+    pub to_rpm: f64,
+    /// False when the sweep begins or ends inside the band.
+    pub closed: bool,
+    /// Speed of largest growth.
+    pub peak_rpm: f64,
+    /// Largest growth rate.
+    pub peak_growth_per_s: f64,
+    /// Frequency at the peak.
+    pub frequency_hz: f64,
+    /// Names of the modes that meet.
+    pub modes: Vec<String>,
+}
+
+/// The operating speed against the lowest critical speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OperatingEntry {
+    /// The scene's operating speed.
+    pub rpm: f64,
+    /// Operating speed over lowest critical speed.
+    pub of_lowest_critical: Option<f64>,
+    /// Usual limit of that ratio, 0.85.
+    pub limit: f64,
+    /// Whether the ratio is below the limit.
+    pub within_limit: Option<bool>,
+    /// Index into `instabilities` of the band that the operating speed lies in.
+    pub inside_instability: Option<usize>,
+}
+
+/// How fine the computation was.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AccuracyEntry {
+    /// The name asked for.
+    pub name: Accuracy,
+    /// Largest number of nodal diameters.
+    pub max_diameters: usize,
+    /// Radial functions for each.
+    pub radial_functions: usize,
+    /// Size of the basis.
+    pub degrees_of_freedom: usize,
+    /// Estimated relative error of the critical speeds, from a coarser basis.
+    pub estimated_relative_error: Option<f64>,
+}
+
+/// The Krein index held against the spectrum, see [`crate::stability`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CertificateEntry {
+    /// Speeds at which the index was compared; 0 for damped scenes, which have none.
+    pub speeds_checked: usize,
+    /// Speeds at which it did not match; expected 0.
+    pub krein_violations: usize,
+    /// Largest backward error of any mode shown.
+    pub max_backward_error: f64,
+}
+
+/// The Campbell diagram.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CampbellEntry {
+    /// First speed.
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+    /// Highest frequency to which the branches are complete.
+    pub complete_to_hz: f64,
+    /// Tracked branches, by frequency at their lowest speed.
+    pub branches: Vec<BranchEntry>,
+}
+
+/// How a wave runs, seen from the blade and from space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// With the rotation.
+    Forward,
+    /// Against the rotation.
+    Backward,
+    /// Against the rotation on the blade, but carried forward in space: a backward
+    /// wave past its critical speed.
+    Reflected,
+    /// Neither: no nodal diameters, or as much of both.
+    Standing,
+}
+
+/// One mode followed over speed. All lists have one entry a speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BranchEntry {
+    /// In words: "2 diameters, backward".
+    pub name: String,
+    /// Nodal diameters along most of the branch.
+    pub nodal_diameters: usize,
+    /// Nodal circles along most of the branch.
+    pub nodal_circles: usize,
+    /// Direction on the blade along most of the branch: never `Reflected`.
+    pub direction: Direction,
+    /// Rotation speeds, ascending.
+    pub rpm: Vec<f64>,
+    /// |Im λ|/2π in the space-fixed frame.
+    pub frequency_hz: Vec<f64>,
+    /// Frequency of the dominant harmonic in the body frame.
+    pub body_frequency_hz: Vec<f64>,
+    /// Re λ.
+    pub growth_per_s: Vec<f64>,
+    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    pub krein_sign: Vec<i8>,
+    /// Nodal diameters of the dominant and of the next harmonic at each speed.
+    pub dominant_harmonics: Vec<[usize; 2]>,
+}

@@ -1,0 +1,183 @@
+//! The scene as typed: the JSON that a user writes, key by key.
+//!
+//! Every key carries its unit. Unknown keys are refused, so a misspelt
+//! `thicknes_m` is an error and not a silently ignored wish.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A saw and what to find out about it, as written in a scene file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    /// Title of reports and figures.
+    pub name: String,
+    /// Where the numbers come from: measured, assumed, calibrated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// The blade.
+    pub blade: BladeFile,
+    /// How the bore is held.
+    pub mount: Mount,
+    /// Guide pads, fixed in space. None by default.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub guides: Vec<GuideFile>,
+    /// Damping. None by default, as in the classical analysis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<DampingFile>,
+    /// Speed at which the saw is run, held against the 85 % rule.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_rpm: Option<f64>,
+    /// Range of speeds; by default from rest to twice the lowest critical speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<SweepFile>,
+    /// Speed for accuracy.
+    #[serde(default)]
+    pub accuracy: Accuracy,
+    /// Growth rate from which an oscillatory band counts as flutter of the saw.
+    #[serde(default = "default_flutter_threshold_per_s")]
+    pub flutter_threshold_per_s: f64,
+    /// Measured or published frequencies to show beside the computed ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
+}
+
+/// About the decay rate of a lightly damped steel blade: slower growth drowns in it.
+fn default_flutter_threshold_per_s() -> f64 {
+    0.25
+}
+
+/// An annular blade of uniform thickness.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BladeFile {
+    /// Diameter of the rim.
+    pub outer_diameter_m: f64,
+    /// Diameter of the bore.
+    pub inner_diameter_m: f64,
+    /// Thickness of the plate.
+    pub thickness_m: f64,
+    /// Number of teeth; they carry no mass or stiffness in the model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub teeth: Option<u32>,
+    /// Linear elastic, isotropic.
+    pub material: Material,
+}
+
+/// Isotropic elastic material.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E.
+    pub youngs_modulus_pa: f64,
+    /// Poisson's ratio ν, −1 < ν < 0.5.
+    pub poisson_ratio: f64,
+    /// Density ρ.
+    pub density_kg_per_m3: f64,
+}
+
+/// How the bore is held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Mount {
+    /// Loose on a splined arbor: the bore is free in bending and in plane.
+    Spline {},
+    /// Clamped between collars: no deflection and no slope at the collar's edge.
+    Collar {
+        /// Diameter of the collar; the blade inside it does not move.
+        diameter_m: f64,
+        /// Whether the collar also holds the blade in its plane.
+        in_plane: InPlane,
+    },
+}
+
+/// In-plane condition at the edge of a collar. It moves critical speeds by
+/// 15 % on a 400 mm blade, so there is no default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum InPlane {
+    /// No radial displacement at the collar.
+    Fixed,
+    /// No radial stress at the collar.
+    Free,
+}
+
+/// A rectangular guide pad, its sides along and across the radius at its
+/// centre. Without size it is a point spring.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GuideFile {
+    /// Distance of the pad's centre from the axis.
+    pub radius_m: f64,
+    /// Angle of the pad's centre, from the cut (θ = 0), positive with the rotation.
+    pub angle_deg: f64,
+    /// Side along the radius.
+    pub radial_length_m: f64,
+    /// Side across the radius.
+    pub tangential_length_m: f64,
+    /// Lateral stiffness of the whole pad, both faces together.
+    pub stiffness_n_per_m: f64,
+    /// Lateral viscous damping of the whole pad, fixed in space.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub damping_n_s_per_m: f64,
+}
+
+/// Damping of the blade. Each number states the frame it lives in.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DampingFile {
+    /// Kelvin–Voigt retardation time η of the material (turns with the blade).
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub material_retardation_time_s: f64,
+    /// Viscous resistance of the surrounding air per area (fixed in space).
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub air_n_s_per_m3: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// Range of rotation speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SweepFile {
+    /// First speed.
+    #[serde(default)]
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+}
+
+/// Named accuracies: how fine the basis is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Accuracy {
+    /// For looking around.
+    Draft,
+    /// For designing.
+    #[default]
+    Design,
+    /// For comparing with others.
+    Reference,
+}
+
+/// Frequencies from elsewhere, drawn over the chart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// Who measured or published them.
+    pub source: String,
+    /// One row a speed.
+    pub rows: Vec<MeasuredRow>,
+}
+
+/// Frequencies at one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredRow {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Frequencies in the space-fixed frame.
+    pub frequencies_hz: Vec<f64>,
+}

@@ -1,0 +1,23 @@
+//! What the user says about the saw, in two stages: [`SceneFile`] as typed,
+//! then [`Scene`], validated and in SI units and radians.
+
+mod file;
+mod read;
+mod validate;
+
+pub use file::{
+    Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
+    SceneFile, SweepFile,
+};
+pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use validate::{Blade, Bore, Damping, Guide, Scene, SpeedRange};
+
+/// Rotation speed in rad/s from revolutions per minute.
+pub fn rad_per_s(rpm: f64) -> f64 {
+    rpm * std::f64::consts::PI / 30.0
+}
+
+/// Rotation speed in revolutions per minute from rad/s.
+pub fn rpm(rad_per_s: f64) -> f64 {
+    rad_per_s * 30.0 / std::f64::consts::PI
+}
