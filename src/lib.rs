@@ -4,4 +4,7 @@
 #![warn(missing_docs)]
 
 pub mod plate;
+pub mod report;
 pub mod scene;
+pub mod spectrum;
+pub mod system;

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{Accuracy, SceneFile};
+use crate::spectrum::Direction;
 
 /// `report.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -183,21 +184,6 @@ pub struct CampbellEntry {
     pub complete_to_hz: f64,
     /// Tracked branches, by frequency at their lowest speed.
     pub branches: Vec<BranchEntry>,
-}
-
-/// How a wave runs, seen from the blade and from space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Direction {
-    /// With the rotation.
-    Forward,
-    /// Against the rotation.
-    Backward,
-    /// Against the rotation on the blade, but carried forward in space: a backward
-    /// wave past its critical speed.
-    Reflected,
-    /// Neither: no nodal diameters, or as much of both.
-    Standing,
 }
 
 /// One mode followed over speed. All lists have one entry a speed.

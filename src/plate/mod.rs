@@ -61,6 +61,16 @@ pub struct Plate {
     pub guide_damping: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
     pub damping: Option<Damping>,
+    /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
+    samples: [Vec<Vec<f64>>; 2],
+}
+
+/// Enough radii to see every nodal circle of a mode that a chart shows.
+const SAMPLED_RADII: usize = 41;
+
+fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    (0..SAMPLED_RADII).map(move |k| a + (b - a) * k as f64 / (SAMPLED_RADII - 1) as f64)
 }
 
 impl Plate {
@@ -70,6 +80,11 @@ impl Plate {
         let harmonics = (0..=resolution.max_diameters)
             .map(|n| HarmonicBlock::new(&scene.blade, &basis, n))
             .collect();
+        let samples = [0, 1].map(|n| {
+            sampled_radii(&scene.blade)
+                .map(|r| basis.evaluate(n, r).value)
+                .collect()
+        });
         let mut plate = Plate {
             blade: scene.blade,
             resolution,
@@ -78,6 +93,7 @@ impl Plate {
             guide_stiffness: None,
             guide_damping: None,
             damping: scene.damping,
+            samples,
         };
         for guide in &scene.guides {
             plate.add_guide(guide);
@@ -125,6 +141,16 @@ impl Plate {
     /// Whether anything fixed in space couples the harmonics.
     pub fn is_axisymmetric(&self) -> bool {
         self.guide_stiffness.is_none() && self.guide_damping.is_none()
+    }
+
+    /// The radial functions of n nodal diameters at radii evenly spread from edge to edge.
+    pub fn sampled_functions(&self, n: usize) -> &[Vec<f64>] {
+        &self.samples[usize::from(n == 1)]
+    }
+
+    /// Radii of [`Plate::sampled_functions`].
+    pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
+        sampled_radii(&self.blade)
     }
 
     /// Every basis function at a point of the blade, in 1/√kg.

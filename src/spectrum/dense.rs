@@ -1,0 +1,64 @@
+//! All eigenvalues of the quadratic problem, by its companion matrix.
+
+use faer::linalg::solvers::Eigen;
+use faer::reborrow::ReborrowMut;
+use faer::{Col, Mat, Scale, c64};
+
+use crate::scene::rpm;
+use crate::system::GyroscopicSystem;
+
+use super::SpectrumError;
+
+/// λ, in 1/s, and q with (λ² + λD + K) q = 0.
+pub type Eigenpair = (c64, Col<c64>);
+
+/// The power of two next to the root mean square of the natural frequencies.
+/// Dividing time by it is exact, and keeps the blocks of the companion matrix of
+/// one size: faer does not balance, and unscaled SI matrices cost six digits.
+pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
+    let mean_square = stiffness.norm_l2() / (stiffness.nrows().max(1) as f64).sqrt();
+    let frequency = mean_square.sqrt();
+    if frequency > 0.0 { frequency.log2().round().exp2() } else { 1.0 }
+}
+
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
+///
+/// # Errors
+/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
+pub fn companion_eigenpairs(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    let stiffness = system.stiffness_at(speed_rad_per_s);
+    let velocity = system.velocity_at(speed_rad_per_s);
+    let size = system.order();
+    let failed = |variant: fn(usize, f64) -> SpectrumError| variant(2 * size, rpm(speed_rad_per_s));
+    if !(stiffness.is_all_finite() && velocity.is_all_finite()) {
+        return Err(failed(|order, rpm| SpectrumError::NotFinite { order, rpm }));
+    }
+    let scale = time_scale(&stiffness);
+    let mut state = Mat::zeros(2 * size, 2 * size);
+    let (mut top, mut bottom) = state.as_mut().split_at_row_mut(size);
+    top.rb_mut().subcols_mut(size, size).copy_from(Mat::<f64>::identity(size, size));
+    bottom.rb_mut().subcols_mut(0, size).copy_from(Scale(-1.0 / scale.powi(2)) * &stiffness);
+    bottom.rb_mut().subcols_mut(size, size).copy_from(Scale(-1.0 / scale) * &velocity);
+    let eigen = Eigen::new_from_real(state.as_ref())
+        .map_err(|_| failed(|order, rpm| SpectrumError::NoConvergence { order, rpm }))?;
+    let pairs = (0..2 * size)
+        .map(|i| (eigen.S()[i] * scale, eigen.U().col(i).subrows(0, size)))
+        .filter(|(lambda, _)| lambda.im >= 0.0)
+        .map(|(lambda, q)| (lambda, unit(q)))
+        .collect();
+    Ok(by_magnitude(pairs))
+}
+
+pub(super) fn unit(q: faer::ColRef<'_, c64>) -> Col<c64> {
+    let norm = q.norm_l2();
+    let factor = if norm > 0.0 { 1.0 / norm } else { 0.0 };
+    Scale(c64::new(factor, 0.0)) * q
+}
+
+pub(super) fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
+    pairs.sort_by(|x, y| x.0.norm().total_cmp(&y.0.norm()));
+    pairs
+}

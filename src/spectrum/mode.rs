@@ -1,0 +1,191 @@
+//! What kind of mode an eigenpair is, and which sign its energy has.
+
+use faer::{Col, Mat, c64};
+
+use crate::system::GyroscopicSystem;
+
+use super::dense::Eigenpair;
+
+/// Kind of an eigenvalue with Im λ ≥ 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ModeKind {
+    /// λ = iω of an undamped blade, Krein sign +1: forward and backward waves.
+    Positive,
+    /// λ = iω of an undamped blade, Krein sign −1: a reflected wave, whose energy
+    /// in space is negative.
+    Negative,
+    /// λ = σ + iω, σ > 0, of an undamped blade.
+    Flutter,
+    /// λ = −σ + iω: the mirror image of a flutter mode, of no account by itself.
+    Decaying,
+    /// λ = σ > 0 of an undamped blade; its decaying partner is not listed.
+    Divergent,
+    /// λ = 0 of a rigid motion that nothing holds. Never an instability.
+    Rigid,
+    /// Any λ of a damped blade.
+    Damped,
+}
+
+/// A mode of one independent part of the blade.
+#[derive(Debug, Clone)]
+pub struct Mode {
+    /// λ, in 1/s.
+    pub lambda: c64,
+    /// What it is.
+    pub kind: ModeKind,
+    /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
+    pub frequency_slope: f64,
+    /// Index of the part.
+    pub part: usize,
+    /// q in the coordinates of the part, ‖q‖ = 1.
+    pub coordinates: Col<c64>,
+}
+
+/// A growth rate below this share of |λ| + Ω is rounding: at a merging of two modes
+/// eigenvalues are known to √ε only.
+const GROWTH_NOISE: f64 = 1e-7;
+/// Eigenvalues below this share of the mean frequency are zero, where rigid
+/// motions are free: a double zero is known to √ε only.
+const RIGID_NOISE: f64 = 1e-6;
+
+impl Mode {
+    /// ω = |Im λ|, in rad/s.
+    pub fn frequency_rad_per_s(&self) -> f64 {
+        self.lambda.im.abs()
+    }
+
+    /// Krein sign: +1, −1, or 0 where there is none.
+    pub fn krein_sign(&self) -> i8 {
+        match self.kind {
+            ModeKind::Positive => 1,
+            ModeKind::Negative => -1,
+            _ => 0,
+        }
+    }
+
+    /// Re λ of a mode that truly grows, else zero for undamped modes.
+    pub fn growth_per_s(&self) -> f64 {
+        match self.kind {
+            ModeKind::Flutter
+            | ModeKind::Decaying
+            | ModeKind::Divergent
+            | ModeKind::Damped => self.lambda.re,
+            _ => 0.0,
+        }
+    }
+}
+
+/// Sorts the eigenpairs of a part into kinds. The decaying partner of a divergent
+/// mode is dropped: it belongs to the same ±ω pair.
+pub fn classify(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    part: usize,
+    rigid_scale_rad_per_s: Option<f64>,
+    pairs: Vec<Eigenpair>,
+) -> Vec<Mode> {
+    pairs
+        .into_iter()
+        .filter_map(|(lambda, q)| {
+            let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
+            let rigid = rigid_scale_rad_per_s.is_some_and(|w| lambda.norm() < RIGID_NOISE * w);
+            let mut mode = Mode {
+                lambda,
+                kind: ModeKind::Damped,
+                frequency_slope: 0.0,
+                part,
+                coordinates: q,
+            };
+            if rigid {
+                mode.kind = ModeKind::Rigid;
+                mode.lambda = c64::new(0.0, 0.0);
+            } else if system.is_conservative() {
+                let oscillates = lambda.im > noise;
+                if lambda.re > noise {
+                    mode.kind = if oscillates { ModeKind::Flutter } else { ModeKind::Divergent };
+                } else if !oscillates && lambda.re < noise {
+                    return None;
+                } else if lambda.re < -noise {
+                    mode.kind = ModeKind::Decaying;
+                } else {
+                    signed(system, speed_rad_per_s, &mut mode);
+                }
+            }
+            Some(mode)
+        })
+        .collect()
+}
+
+/// Krein sign and slope of a mode on the imaginary axis, λ = iω, ω > 0, qᴴq = 1.
+///
+/// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
+/// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
+fn signed(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
+    let q = &mode.coordinates;
+    let omega = mode.lambda.im;
+    let gamma = quadratic_form(q, &system.gyroscopic).im;
+    let spin = quadratic_form(q, &system.spin).re;
+    let form = omega + speed * gamma;
+    mode.kind = if form >= 0.0 { ModeKind::Positive } else { ModeKind::Negative };
+    mode.lambda = c64::new(0.0, omega);
+    let slope = (speed * spin - omega * gamma) / form;
+    mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
+}
+
+/// qᴴ A q for a real matrix.
+fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
+    let (re, im) = split(q);
+    let (a_re, a_im) = (matrix * &re, matrix * &im);
+    let dot = |x: &Col<f64>, y: &Col<f64>| x.transpose() * y;
+    c64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
+}
+
+/// Real and imaginary parts.
+pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
+    (
+        Col::from_fn(q.nrows(), |i| q[i].re),
+        Col::from_fn(q.nrows(), |i| q[i].im),
+    )
+}
+
+/// L(λ) = λ² + λD + K at one speed, for residuals.
+#[derive(Debug)]
+pub struct DynamicStiffness {
+    stiffness: Mat<f64>,
+    velocity: Mat<f64>,
+    stiffness_norm: f64,
+    velocity_norm: f64,
+}
+
+impl DynamicStiffness {
+    /// Evaluates the matrices once for all modes of a speed.
+    pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Self {
+        let stiffness = system.stiffness_at(speed_rad_per_s);
+        let velocity = system.velocity_at(speed_rad_per_s);
+        DynamicStiffness {
+            stiffness_norm: stiffness.norm_l2(),
+            velocity_norm: velocity.norm_l2(),
+            stiffness,
+            velocity,
+        }
+    }
+
+    /// L(λ)q.
+    pub fn residual(&self, lambda: c64, q: &Col<c64>) -> Col<c64> {
+        let (re, im) = split(q);
+        let (k_re, k_im) = (&self.stiffness * &re, &self.stiffness * &im);
+        let (d_re, d_im) = (&self.velocity * &re, &self.velocity * &im);
+        Col::from_fn(q.nrows(), |i| {
+            let damped = lambda * c64::new(d_re[i], d_im[i]);
+            lambda * lambda * q[i] + damped + c64::new(k_re[i], k_im[i])
+        })
+    }
+
+    /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖) ‖q‖): the relative change of the matrices
+    /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
+    pub fn backward_error(&self, lambda: c64, q: &Col<c64>) -> f64 {
+        let size = lambda.norm_sqr() + lambda.norm() * self.velocity_norm + self.stiffness_norm;
+        let denominator = size * q.norm_l2();
+        if denominator > 0.0 { self.residual(lambda, q).norm_l2() / denominator } else { 0.0 }
+    }
+}

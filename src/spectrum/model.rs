@@ -1,0 +1,300 @@
+//! The spectrum of a saw as a function of speed, by the cheapest sound way.
+//!
+//! Parts that nothing couples are solved apart. Each part is projected on the
+//! lowest modes of a few speeds, chosen until the residuals on the whole basis say
+//! that every mode up to `complete_to` is right at every speed.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use faer::{Col, Mat, MatRef, c64};
+
+use crate::plate::Plate;
+use crate::system::GyroscopicSystem;
+
+use super::mode::{DynamicStiffness, Mode, ModeKind, classify};
+use super::name::ModeName;
+use super::reduction;
+use super::{SpectrumError, companion_eigenpairs, critical_speeds};
+
+/// How the modes of a speed are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Strategy {
+    /// Projection on the low modes of a few speeds.
+    #[default]
+    Reduced,
+    /// Every eigenvalue of the whole basis at every speed: slow, the test oracle.
+    Dense,
+}
+
+/// Work done, so that a silent slow-down fails a test.
+#[derive(Debug, Default)]
+pub struct WorkCounters {
+    /// Eigenproblems solved on the projected matrices.
+    pub reduced_solves: AtomicUsize,
+    /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
+    pub full_solves: AtomicUsize,
+}
+
+/// An independent part of the blade: one harmonic, or all of them coupled by guides.
+#[derive(Debug)]
+pub struct Part {
+    /// Index of its first unknown in the basis of the plate.
+    pub first: usize,
+    /// The whole part.
+    pub full: GyroscopicSystem,
+    /// Orthonormal vectors that span its low modes.
+    pub basis: Mat<f64>,
+    /// The part projected on them.
+    pub reduced: GyroscopicSystem,
+    /// Rigid motions that nothing holds.
+    pub free_rigid: Vec<Col<f64>>,
+}
+
+/// A standing wave at its critical speed.
+#[derive(Debug, Clone)]
+pub struct NamedCriticalSpeed {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub circles: usize,
+    /// Index of the part it belongs to.
+    pub part: usize,
+    /// The standing wave in the unknowns of its part, ‖x‖ = 1.
+    pub shape: Col<f64>,
+}
+
+/// A mode with everything that a reader wants to know of it.
+#[derive(Debug, Clone)]
+pub struct DescribedMode {
+    /// The mode.
+    pub mode: Mode,
+    /// Its name.
+    pub name: ModeName,
+    /// Residual on the whole basis.
+    pub backward_error: f64,
+}
+
+/// Modes of a saw at any speed of a range.
+#[derive(Debug)]
+pub struct SpectralModel {
+    /// The matrices.
+    pub plate: Plate,
+    /// Independent parts.
+    pub parts: Vec<Part>,
+    /// Every critical speed, ascending; each of a free blade is double and stands
+    /// here twice.
+    pub critical: Vec<NamedCriticalSpeed>,
+    /// Frequency up to which the modes are complete and accurate.
+    pub complete_to_rad_per_s: f64,
+    /// Work done so far.
+    pub counters: WorkCounters,
+}
+
+/// At rest the two waves of equal n are degenerate. This share of the blade's
+/// frequency scale, as a rotation, splits them into forward and backward as at any
+/// other speed, and moves frequencies by no more than itself.
+const SPLITTING: f64 = 1e-9;
+
+impl SpectralModel {
+    /// Prepares the modes for speeds from `from` to `to`.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
+        let counters = WorkCounters::default();
+        let mut parts: Vec<Part> = if plate.is_axisymmetric() {
+            (0..=plate.max_diameters())
+                .map(|n| Part::new(&plate, GyroscopicSystem::of_harmonic(&plate, n), plate.offset(n)))
+                .collect()
+        } else {
+            vec![Part::new(&plate, GyroscopicSystem::of_plate(&plate), 0)]
+        };
+        let critical = named_critical_speeds(&plate, &parts)?;
+        let mut complete_to_rad_per_s = f64::INFINITY;
+        if strategy == Strategy::Reduced {
+            let scale = frequency_scale(&plate);
+            for (index, part) in parts.iter_mut().enumerate() {
+                let reduction = if plate.is_axisymmetric() {
+                    reduction::of_harmonic(&plate, index, range)
+                } else {
+                    reduction::of_guided(&part.full, range, scale, &critical, &counters)
+                };
+                part.reduced = part.full.project(reduction.basis.as_ref());
+                part.basis = reduction.basis;
+                complete_to_rad_per_s = complete_to_rad_per_s.min(reduction.complete_to_rad_per_s);
+            }
+        }
+        let mut model = SpectralModel { plate, parts, critical, complete_to_rad_per_s, counters };
+        if model.complete_to_rad_per_s.is_infinite() {
+            model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
+        }
+        Ok(model)
+    }
+
+    /// Frequency of the twelfth mode at the lowest speed: what a chart shows.
+    fn twelfth_frequency(&self, range: (f64, f64)) -> Result<f64, SpectrumError> {
+        let modes = self.all_modes(range.0)?;
+        let twelfth = modes.get(11).or(modes.last());
+        Ok(1.02 * twelfth.map_or(0.0, Mode::frequency_rad_per_s))
+    }
+
+    /// Every mode of the projected system, ordered by |Im λ|; those above
+    /// `complete_to` are not to be trusted.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn all_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let scale = frequency_scale(&self.plate);
+        let speed = speed_rad_per_s.max(SPLITTING * scale);
+        let mut modes = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+            let pairs = companion_eigenpairs(&part.reduced, speed)?;
+            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
+            modes.extend(classify(&part.reduced, speed, index, rigid_scale, pairs));
+        }
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+        Ok(modes)
+    }
+
+    /// Modes up to `complete_to`, without the rigid motions at rest.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let mut modes = self.all_modes(speed_rad_per_s)?;
+        modes.retain(|mode| {
+            mode.kind != ModeKind::Rigid && mode.frequency_rad_per_s() <= self.complete_to_rad_per_s
+        });
+        Ok(modes)
+    }
+
+    /// Names and residuals of modes of one speed.
+    pub fn describe(&self, speed_rad_per_s: f64, modes: Vec<Mode>) -> Vec<DescribedMode> {
+        let dynamic: Vec<DynamicStiffness> = self
+            .parts
+            .iter()
+            .map(|part| DynamicStiffness::new(&part.full, speed_rad_per_s))
+            .collect();
+        modes
+            .into_iter()
+            .map(|mode| {
+                let part = &self.parts[mode.part];
+                let lifted = lift(part.basis.as_ref(), &mode.coordinates);
+                let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
+                let q = self.embed(part.first, &lifted);
+                let name = ModeName::new(&self.plate, &mode, &q, speed_rad_per_s);
+                DescribedMode { mode, name, backward_error }
+            })
+            .collect()
+    }
+
+    /// Coordinates of a mode in the basis of the plate.
+    pub fn plate_coordinates(&self, mode: &Mode) -> Col<c64> {
+        let part = &self.parts[mode.part];
+        self.embed(part.first, &lift(part.basis.as_ref(), &mode.coordinates))
+    }
+
+    fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
+        let range = first..first + q.nrows();
+        Col::from_fn(self.plate.degrees_of_freedom(), |i| {
+            if range.contains(&i) { q[i - first] } else { c64::new(0.0, 0.0) }
+        })
+    }
+
+    /// Negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite
+    /// and K(Ω) = K₀ − Ω²(N − K_σ), so by Sylvester's law of inertia they are the
+    /// critical speeds below Ω: no factorization is needed.
+    pub fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
+        self.critical.partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)
+    }
+}
+
+impl Part {
+    fn new(plate: &Plate, full: GyroscopicSystem, first: usize) -> Self {
+        let order = full.order();
+        Part {
+            first,
+            basis: Mat::identity(order, order),
+            reduced: full.clone(),
+            free_rigid: free_rigid_motions(plate, &full, first),
+            full,
+        }
+    }
+}
+
+/// √(D/ρh)/b² times five: near the lowest frequency of most blades.
+pub(super) fn frequency_scale(plate: &Plate) -> f64 {
+    let blade = &plate.blade;
+    let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
+    5.0 * specific.sqrt() / blade.outer_radius_m.powi(2)
+}
+
+/// Directions of heave and tilt without stiffness, of unit length.
+fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) -> Vec<Col<f64>> {
+    if !plate.basis.has_rigid_motions() {
+        return Vec::new();
+    }
+    let order = system.order();
+    let size = plate.basis.len();
+    let tilts = [plate.offset(1), plate.offset(1) + size];
+    let rigid: Vec<usize> = [0]
+        .into_iter()
+        .chain(tilts)
+        .filter_map(|index| index.checked_sub(first))
+        .filter(|index| *index < order)
+        .collect();
+    let held = nalgebra::DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
+        system.stiffness[(rigid[i], rigid[j])]
+    });
+    let eigen = held.symmetric_eigen();
+    let stiffest = eigen.eigenvalues.iter().fold(0.0_f64, |top, value| top.max(*value));
+    (0..rigid.len())
+        .filter(|&k| eigen.eigenvalues[k] <= 1e-12 * stiffest)
+        .map(|k| {
+            let mut direction = Col::zeros(order);
+            for (i, &index) in rigid.iter().enumerate() {
+                direction[index] = eigen.eigenvectors[(i, k)];
+            }
+            direction
+        })
+        .collect()
+}
+
+fn named_critical_speeds(plate: &Plate, parts: &[Part]) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+    let mut named = Vec::new();
+    for (index, part) in parts.iter().enumerate() {
+        for critical in critical_speeds(&part.full, &part.free_rigid)? {
+            let mut shape = Col::zeros(plate.degrees_of_freedom());
+            for i in 0..critical.shape.nrows() {
+                shape[part.first + i] = c64::new(critical.shape[i], 0.0);
+            }
+            let standing = Mode {
+                lambda: c64::new(0.0, 0.0),
+                kind: ModeKind::Positive,
+                frequency_slope: 0.0,
+                part: 0,
+                coordinates: Col::zeros(0),
+            };
+            let name = ModeName::new(plate, &standing, &shape, critical.speed_rad_per_s);
+            named.push(NamedCriticalSpeed {
+                speed_rad_per_s: critical.speed_rad_per_s,
+                diameters: name.diameters,
+                circles: name.circles,
+                part: index,
+                shape: critical.shape,
+            });
+        }
+    }
+    named.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    Ok(named)
+}
+
+/// V q.
+pub(super) fn lift(basis: MatRef<'_, f64>, q: &Col<c64>) -> Col<c64> {
+    let (re, im) = super::mode::split(q);
+    let (re, im) = (basis * re, basis * im);
+    Col::from_fn(basis.nrows(), |i| c64::new(re[i], im[i]))
+}

@@ -1,0 +1,70 @@
+//! Critical speeds: (K_b + K_g) x = Ω² (N − K_σ) x, without a sweep.
+
+use faer::linalg::solvers::SelfAdjointEigen;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Col, Mat, Par, Scale, Side};
+
+use crate::system::GyroscopicSystem;
+
+use super::SpectrumError;
+
+/// A speed at which K(Ω) is singular: a wave stands still in space.
+#[derive(Debug, Clone)]
+pub struct CriticalSpeed {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// The standing wave, ‖x‖ = 1.
+    pub shape: Col<f64>,
+}
+
+/// Every critical speed of a part of the blade, ascending.
+///
+/// With A = K_b + K_g = LLᵀ and B = N − K_σ the values 1/Ω² are the positive
+/// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
+/// most accurate. `free_rigid` are the rigid motions that no guide holds. A and B
+/// both vanish on them, so stiffening them makes A definite and moves nothing else.
+///
+/// # Errors
+/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
+pub fn critical_speeds(
+    system: &GyroscopicSystem,
+    free_rigid: &[Col<f64>],
+) -> Result<Vec<CriticalSpeed>, SpectrumError> {
+    let order = system.order();
+    let mut stiffness = system.stiffness.clone();
+    let mean = stiffness.norm_l2() / (order as f64).sqrt();
+    for z in free_rigid {
+        stiffness += Scale(mean) * z * z.transpose();
+    }
+    let unstable = || SpectrumError::UnstableAtRest { order };
+    let factor = stiffness.llt(Side::Lower).map_err(|_| unstable())?;
+    let lower = factor.L();
+    let mut whitened = Scale(-1.0) * &system.spin;
+    solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
+    let mut whitened = whitened.transpose().to_owned();
+    solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
+    let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower).map_err(|_| unstable())?;
+    let noise = 1e-14 * whitened.norm_l2();
+    let mut speeds: Vec<CriticalSpeed> = (0..order)
+        .map(|i| (eigen.S()[i], i))
+        .filter(|(inverse_square, _)| *inverse_square > noise)
+        .map(|(inverse_square, i)| CriticalSpeed {
+            speed_rad_per_s: inverse_square.sqrt().recip(),
+            shape: unwhiten(lower, eigen.U().col(i)),
+        })
+        .collect();
+    speeds.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    Ok(speeds)
+}
+
+/// x = L⁻ᵀy, scaled to unit length.
+fn unwhiten(lower: faer::MatRef<'_, f64>, y: faer::ColRef<'_, f64>) -> Col<f64> {
+    let mut x = Mat::from_fn(y.nrows(), 1, |i, _| y[i]);
+    faer::linalg::triangular_solve::solve_upper_triangular_in_place(
+        lower.transpose(),
+        x.as_mut(),
+        Par::Seq,
+    );
+    let x = x.col(0);
+    Scale(1.0 / x.norm_l2()) * x
+}

@@ -1,0 +1,186 @@
+//! The equation of motion at a rotation speed.
+//!
+//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ] q = 0, mass matrix one,
+//! K₀ = K_b + K_g. Terms that the scene does not name are absent.
+
+use faer::{Mat, MatRef, Scale};
+
+use crate::plate::{HarmonicBlock, Plate};
+
+/// Matrices of the gyroscopic system, N × N; projecting them on fewer vectors
+/// gives a system of the same kind.
+#[derive(Debug, Clone)]
+pub struct GyroscopicSystem {
+    /// K₀ = K_b + K_g, in 1/s², symmetric.
+    pub stiffness: Mat<f64>,
+    /// K_σ − N, dimensionless, symmetric.
+    pub spin: Mat<f64>,
+    /// G, dimensionless, skew.
+    pub gyroscopic: Mat<f64>,
+    /// C, in 1/s, symmetric: pads, air and material.
+    pub damping: Option<Mat<f64>>,
+    /// K_circ = η K_b G, in 1/s: material damping turns with the blade.
+    pub circulatory: Option<Mat<f64>>,
+}
+
+impl GyroscopicSystem {
+    /// The whole plate.
+    pub fn of_plate(plate: &Plate) -> Self {
+        let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
+        if let Some(guides) = &plate.guide_stiffness {
+            system.stiffness += guides;
+        }
+        if let Some(guides) = &plate.guide_damping {
+            system.damping = Some(match system.damping.take() {
+                Some(damping) => damping + guides,
+                None => guides.clone(),
+            });
+        }
+        system
+    }
+
+    /// The part of n nodal diameters, which nothing couples to others when the
+    /// plate is axisymmetric.
+    pub fn of_harmonic(plate: &Plate, n: usize) -> Self {
+        Self::of_harmonics(plate, n..=n)
+    }
+
+    fn of_harmonics(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Self {
+        let first = plate.offset(*range.start());
+        let size = plate.offset(range.end() + 1) - first;
+        let radial = plate.basis.len();
+        let mut stiffness = Mat::zeros(size, size);
+        let mut spin = Mat::zeros(size, size);
+        let mut gyroscopic = Mat::zeros(size, size);
+        for harmonic in &plate.harmonics[range] {
+            let n = harmonic.diameters;
+            let cosine = plate.offset(n) - first;
+            put(&mut stiffness, cosine, &harmonic.bending);
+            put(&mut spin, cosine, &harmonic.spin);
+            if n > 0 {
+                put(&mut stiffness, cosine + radial, &harmonic.bending);
+                put(&mut spin, cosine + radial, &harmonic.spin);
+                for j in 0..radial {
+                    // ∂θ sin nθ = n cos nθ, ∂θ cos nθ = −n sin nθ.
+                    gyroscopic[(cosine + j, cosine + radial + j)] = n as f64;
+                    gyroscopic[(cosine + radial + j, cosine + j)] = -(n as f64);
+                }
+            }
+        }
+        let mut system = GyroscopicSystem {
+            stiffness,
+            spin,
+            gyroscopic,
+            damping: None,
+            circulatory: None,
+        };
+        system.add_blade_damping(plate);
+        system
+    }
+
+    /// Called before the guides join the stiffness, so K₀ is K_b here.
+    fn add_blade_damping(&mut self, plate: &Plate) {
+        let Some(damping) = plate.damping else {
+            return;
+        };
+        let size = self.order();
+        let mut total: Mat<f64> = Mat::zeros(size, size);
+        let retardation = damping.material_retardation_time_s;
+        if retardation > 0.0 {
+            total += Scale(retardation) * &self.stiffness;
+            self.circulatory = Some(Scale(retardation) * &self.stiffness * &self.gyroscopic);
+        }
+        let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
+        for i in 0..size {
+            total[(i, i)] += air;
+        }
+        self.damping = Some(total);
+    }
+
+    /// Number of unknowns.
+    pub fn order(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// Whether eigenvalues come in quadruples and modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.damping.is_none() && self.circulatory.is_none()
+    }
+
+    /// K(Ω), in 1/s².
+    pub fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;
+        if let Some(circulatory) = &self.circulatory {
+            stiffness += Scale(speed_rad_per_s) * circulatory;
+        }
+        stiffness
+    }
+
+    /// 2ΩG + C, in 1/s.
+    pub fn velocity_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let mut velocity = Scale(2.0 * speed_rad_per_s) * &self.gyroscopic;
+        if let Some(damping) = &self.damping {
+            velocity += damping;
+        }
+        velocity
+    }
+
+    /// Galerkin projection on the orthonormal columns of V: symmetric stays
+    /// symmetric and skew stays skew, so Krein's theory holds for the small system too.
+    pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
+        let onto = |matrix: &Mat<f64>| basis.transpose() * matrix * basis;
+        GyroscopicSystem {
+            stiffness: symmetric(onto(&self.stiffness)),
+            spin: symmetric(onto(&self.spin)),
+            gyroscopic: skew(onto(&self.gyroscopic)),
+            damping: self.damping.as_ref().map(|c| symmetric(onto(c))),
+            circulatory: self.circulatory.as_ref().map(onto),
+        }
+    }
+}
+
+fn put(matrix: &mut Mat<f64>, offset: usize, block: &nalgebra::DMatrix<f64>) {
+    for j in 0..block.nrows() {
+        for k in 0..block.ncols() {
+            matrix[(offset + j, offset + k)] = block[(j, k)];
+        }
+    }
+}
+
+/// Removes the rounding of a product that is symmetric in exact arithmetic.
+fn symmetric(matrix: Mat<f64>) -> Mat<f64> {
+    Scale(0.5) * (&matrix + matrix.transpose())
+}
+
+fn skew(matrix: Mat<f64>) -> Mat<f64> {
+    Scale(0.5) * (&matrix - matrix.transpose())
+}
+
+/// K₀ and K_σ − N of one harmonic in the body frame, where the undamped free blade
+/// is a symmetric problem: (K_b + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
+pub fn body_frame_stiffness(block: &HarmonicBlock, speed_rad_per_s: f64) -> Mat<f64> {
+    let n2 = (block.diameters * block.diameters) as f64;
+    let speed2 = speed_rad_per_s.powi(2);
+    Mat::from_fn(block.bending.nrows(), block.bending.ncols(), |j, k| {
+        let inertia = if j == k { n2 } else { 0.0 };
+        block.bending[(j, k)] + speed2 * (block.spin[(j, k)] + inertia)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::Resolution;
+    use crate::scene::Scene;
+
+    #[test]
+    fn symmetry_follows_the_physics() {
+        let resolution = Resolution { max_diameters: 4, radial_functions: 4 };
+        let system = GyroscopicSystem::of_plate(&Plate::new(&Scene::paper(), resolution));
+        let asymmetry = |m: &Mat<f64>, sign: f64| (m - Scale(sign) * m.transpose()).norm_max() / m.norm_max();
+        assert!(asymmetry(&system.stiffness, 1.0) < 1e-15);
+        assert!(asymmetry(&system.spin, 1.0) < 1e-15);
+        assert_eq!(asymmetry(&system.gyroscopic, -1.0), 0.0);
+        assert!(system.is_conservative());
+    }
+}
