@@ -3,8 +3,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod campbell;
 pub mod plate;
 pub mod report;
 pub mod scene;
 pub mod spectrum;
+pub mod stability;
 pub mod system;

@@ -1,0 +1,208 @@
+//! Many speeds: modes computed in parallel, and followed as branches.
+//!
+//! Every mode of an undamped blade is brought to positive action: a reflected wave
+//! (ω, q) with Krein sign −1 is the same motion as (−ω, q̄) with sign +1. A backward
+//! wave then passes through its critical speed without changing its shape, and
+//! modes of opposite sign can never be mistaken for each other.
+
+use faer::{Col, c64};
+use rayon::prelude::*;
+
+use crate::spectrum::{DescribedMode, Mode, ModeKind, SpectralModel, SpectrumError};
+
+/// Told how many of how many speeds are done.
+pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
+
+/// All modes of one speed.
+#[derive(Debug, Clone)]
+pub struct SpeedSample {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Modes up to the model's `complete_to`, ordered by frequency.
+    pub modes: Vec<DescribedMode>,
+}
+
+/// One mode followed over speed.
+#[derive(Debug, Clone, Default)]
+pub struct Branch {
+    /// (index of the sample, index of the mode in it), one a speed, without gaps.
+    pub points: Vec<(usize, usize)>,
+}
+
+/// Modes and branches over a range of speeds.
+#[derive(Debug, Clone)]
+pub struct Campbell {
+    /// Samples by ascending speed.
+    pub samples: Vec<SpeedSample>,
+    /// Branches by frequency at their first speed.
+    pub branches: Vec<Branch>,
+}
+
+/// `count` speeds, evenly spread over a range.
+pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
+    let last = count.max(2) - 1;
+    (0..=last)
+        .map(|k| from + (to - from) * k as f64 / last as f64)
+        .collect()
+}
+
+/// Computes the modes at every speed, in parallel; the order of the result, and
+/// every bit in it, is that of the speeds.
+///
+/// # Errors
+/// [`SpectrumError`] of the lowest speed that fails.
+pub fn sample(
+    model: &SpectralModel,
+    speeds: &[f64],
+    progress: Progress<'_>,
+) -> Result<Vec<SpeedSample>, SpectrumError> {
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let samples: Vec<Result<SpeedSample, SpectrumError>> = speeds
+        .par_iter()
+        .map(|&speed_rad_per_s| {
+            let modes = model.modes(speed_rad_per_s)?;
+            let modes = model.describe(speed_rad_per_s, modes);
+            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            progress(so_far, speeds.len());
+            Ok(SpeedSample { speed_rad_per_s, modes })
+        })
+        .collect();
+    samples.into_iter().collect()
+}
+
+impl Campbell {
+    /// Follows the modes of samples at ascending speeds.
+    pub fn track(mut samples: Vec<SpeedSample>) -> Self {
+        samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        let mut branches: Vec<Branch> = Vec::new();
+        // Branch that each mode of the previous sample belongs to.
+        let mut current: Vec<usize> = Vec::new();
+        for index in 0..samples.len() {
+            let previous = index.checked_sub(1).map(|i| &samples[i]);
+            let matches = previous.map_or(Vec::new(), |p| match_modes(p, &samples[index]));
+            let mut next = vec![usize::MAX; samples[index].modes.len()];
+            for (before, after) in matches {
+                next[after] = current[before];
+            }
+            for (mode, branch) in next.iter_mut().enumerate() {
+                if *branch == usize::MAX {
+                    *branch = branches.len();
+                    branches.push(Branch::default());
+                }
+                branches[*branch].points.push((index, mode));
+            }
+            current = next;
+        }
+        Campbell { samples, branches }
+    }
+
+    /// Mode at a point of a branch.
+    pub fn mode(&self, (sample, mode): (usize, usize)) -> &DescribedMode {
+        &self.samples[sample].modes[mode]
+    }
+}
+
+/// A mode brought to positive action.
+struct Carrier<'a> {
+    frequency: f64,
+    slope: f64,
+    part: usize,
+    coordinates: &'a Col<c64>,
+    conjugated: bool,
+}
+
+impl<'a> Carrier<'a> {
+    fn new(mode: &'a Mode) -> Self {
+        // At a merging the + mode goes on as the growing and the − mode as the
+        // decaying member of the pair.
+        let conjugated = matches!(mode.kind, ModeKind::Negative | ModeKind::Decaying);
+        let sign = if conjugated { -1.0 } else { 1.0 };
+        Carrier {
+            frequency: sign * mode.lambda.im,
+            slope: sign * mode.frequency_slope,
+            part: mode.part,
+            coordinates: &mode.coordinates,
+            conjugated,
+        }
+    }
+
+    /// |xᴴy|², 1 for the same shape.
+    fn likeness(&self, other: &Carrier<'_>) -> f64 {
+        if self.part != other.part {
+            return 0.0;
+        }
+        let mut product = c64::new(0.0, 0.0);
+        for (x, y) in self.coordinates.iter().zip(other.coordinates.iter()) {
+            let left = if self.conjugated { *x } else { x.conj() };
+            let right = if other.conjugated { y.conj() } else { *y };
+            product += left * right;
+        }
+        product.norm_sqr()
+    }
+}
+
+/// Shapes less alike than this are not taken for the same mode, unless nothing better is left.
+const LEAST_LIKENESS: f64 = 0.2;
+
+/// Pairs (mode before, mode after): the most alike first, each mode once. Shape
+/// decides; how far the frequency is from where its slope leads breaks near ties.
+fn match_modes(before: &SpeedSample, after: &SpeedSample) -> Vec<(usize, usize)> {
+    let step = after.speed_rad_per_s - before.speed_rad_per_s;
+    let old: Vec<Carrier<'_>> = before.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
+    let new: Vec<Carrier<'_>> = after.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
+    let height = old.iter().chain(&new).fold(f64::MIN_POSITIVE, |top, c| top.max(c.frequency.abs()));
+    let mut candidates = Vec::new();
+    for (i, x) in old.iter().enumerate() {
+        for (k, y) in new.iter().enumerate() {
+            let likeness = x.likeness(y);
+            let miss = x.frequency + 0.5 * (x.slope + y.slope) * step - y.frequency;
+            let score = likeness - miss.abs() / height;
+            if likeness >= LEAST_LIKENESS || miss.abs() < 0.02 * height {
+                candidates.push((score, i, k));
+            }
+        }
+    }
+    candidates.sort_by(|x, y| y.0.total_cmp(&x.0));
+    let mut free = (vec![true; old.len()], vec![true; new.len()]);
+    let mut pairs = Vec::new();
+    for (_, i, k) in candidates {
+        if free.0[i] && free.1[k] {
+            free.0[i] = false;
+            free.1[k] = false;
+            pairs.push((i, k));
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::Strategy;
+
+    #[test]
+    fn branches_of_the_free_blade_are_straight_through_every_crossing() {
+        let scene = Scene { guides: Vec::new(), ..Scene::paper() };
+        let plate = Plate::new(&scene, Resolution { max_diameters: 6, radial_functions: 6 });
+        let range = (0.0, rad_per_s(3000.0));
+        let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+        let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
+        let campbell = Campbell::track(samples);
+        let whole = campbell.branches.iter().filter(|b| b.points.len() == 31);
+        let mut followed = 0;
+        for branch in whole {
+            let names: Vec<_> = branch.points[1..]
+                .iter()
+                .map(|&p| {
+                    let name = &campbell.mode(p).name;
+                    (name.diameters, name.circles, name.direction_on_blade())
+                })
+                .collect();
+            assert!(names.windows(2).all(|pair| pair[0] == pair[1]), "{names:?}");
+            followed += 1;
+        }
+        assert!(followed >= 8, "{followed}");
+    }
+}

@@ -1,0 +1,282 @@
+//! The stability chart of a saw: samples, branches and bands of a range of speeds.
+
+use super::finder::{CRITICAL_GAP, Event, Finder};
+use super::refine;
+use super::station::{Sign, Station};
+use crate::campbell::{self, Campbell, Progress, SpeedSample};
+use crate::spectrum::{SpectralModel, SpectrumError, in_words};
+
+/// Kind of an instability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InstabilityKind {
+    /// Exponential growth without oscillation.
+    Divergence,
+    /// Growing oscillation.
+    Flutter,
+}
+
+/// A band of unstable speeds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instability {
+    /// Divergence or flutter.
+    pub kind: InstabilityKind,
+    /// Onset, in rad/s.
+    pub from: f64,
+    /// End, or the end of the range.
+    pub to: f64,
+    /// False when the range begins or ends inside the band.
+    pub closed: bool,
+    /// Speed of largest growth.
+    pub peak: f64,
+    /// Largest growth rate.
+    pub peak_growth_per_s: f64,
+    /// Frequency at the peak, in rad/s.
+    pub frequency: f64,
+    /// The modes that meet.
+    pub modes: Vec<String>,
+}
+
+/// Proof that the chart missed nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Certificate {
+    /// Speeds at which the Krein index was compared.
+    pub speeds_checked: usize,
+    /// Speeds at which it did not match.
+    pub krein_violations: usize,
+}
+
+/// Everything about the stability of a saw over a range of speeds.
+#[derive(Debug, Clone)]
+pub struct StabilityChart {
+    /// Modes and branches.
+    pub campbell: Campbell,
+    /// Bands by onset.
+    pub instabilities: Vec<Instability>,
+    /// Krein index against spectrum.
+    pub certificate: Certificate,
+}
+
+/// Charts a range of speeds, sampled at `count` even speeds and where it matters.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn analyze(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+    progress: Progress<'_>,
+) -> Result<StabilityChart, SpectrumError> {
+    let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
+    let mut samples = campbell::sample(model, &speeds, progress)?;
+    let finder = Finder::new(model);
+    let stations: Vec<Station> = samples
+        .iter()
+        .map(|s| Station::new(s.speed_rad_per_s, s.modes.iter().map(|m| &m.mode)))
+        .collect();
+    stations.iter().for_each(|station| finder.check(station));
+    let mut instabilities = divergence(model, &finder, &stations)?;
+    instabilities.extend(flutter(model, &finder, &stations)?);
+    instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+    samples.extend(campbell::sample(model, &inside(&instabilities, &samples), &|_, _| ())?);
+    let (speeds_checked, krein_violations) = finder.certificate();
+    Ok(StabilityChart {
+        campbell: Campbell::track(samples),
+        instabilities,
+        certificate: Certificate { speeds_checked, krein_violations },
+    })
+}
+
+/// The speeds, and both sides of each group of critical speeds in the range, and the
+/// middle between groups.
+fn with_critical_speeds(model: &SpectralModel, range: (f64, f64), mut speeds: Vec<f64>) -> Vec<f64> {
+    let mut sides: Vec<f64> = Vec::new();
+    let mut previous: Option<f64> = None;
+    for critical in &model.critical {
+        let speed = critical.speed_rad_per_s;
+        let (below, above) = (speed * (1.0 - CRITICAL_GAP), speed * (1.0 + CRITICAL_GAP));
+        if below <= range.0 || above >= range.1 {
+            continue;
+        }
+        match previous {
+            // Closer than their distances: one group.
+            Some(last) if last >= below => {
+                sides.pop();
+            }
+            Some(last) => sides.extend([0.5 * (last + below), below]),
+            None => sides.push(below),
+        }
+        sides.push(above);
+        previous = Some(above);
+    }
+    speeds.retain(|s| model.critical.iter().all(|c| (s / c.speed_rad_per_s - 1.0).abs() > CRITICAL_GAP));
+    speeds.extend(sides);
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
+}
+
+/// Speeds inside and at the edges of the bands, so that the narrowest one is drawn.
+fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
+    let mut speeds: Vec<f64> = instabilities
+        .iter()
+        .flat_map(|band| {
+            let at = |share: f64| band.from + share * (band.to - band.from);
+            [1e-6, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 - 1e-6].map(at).into_iter().chain([band.peak])
+        })
+        .collect();
+    speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
+}
+
+/// Stretches of speed with a real λ > 0. They begin and end at critical speeds.
+fn divergence(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    stations: &[Station],
+) -> Result<Vec<Instability>, SpectrumError> {
+    let mut bands = Vec::new();
+    let unstable = |s: &Station| s.count(Sign::Real) > 0;
+    let mut start = None;
+    for (index, station) in stations.iter().enumerate() {
+        if unstable(station) && start.is_none() {
+            start = Some(index);
+        }
+        let last = index + 1 == stations.len();
+        if let Some(first) = start
+            && (last || !unstable(&stations[index + 1]))
+            && unstable(station)
+        {
+            let (from, begins) = edge(model, stations, first.checked_sub(1), first);
+            let (to, ends) = edge(model, stations, (!last).then_some(index + 1), index);
+            let growth = |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
+            let (peak, square) = refine::maximise(from, to, growth)?;
+            bands.push(Instability {
+                kind: InstabilityKind::Divergence,
+                from,
+                to,
+                closed: begins && ends,
+                peak,
+                peak_growth_per_s: square.sqrt(),
+                frequency: 0.0,
+                modes: standing_waves(model, from, to),
+            });
+            start = None;
+        }
+    }
+    Ok(bands)
+}
+
+/// The critical speed between a stable and an unstable station, or the end of the range.
+fn edge(model: &SpectralModel, stations: &[Station], stable: Option<usize>, unstable: usize) -> (f64, bool) {
+    let inner = stations[unstable].speed_rad_per_s;
+    let Some(stable) = stable else {
+        return (inner, false);
+    };
+    let outer = stations[stable].speed_rad_per_s;
+    let (low, high) = (inner.min(outer), inner.max(outer));
+    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
+    (critical.into_iter().find(|c| (low..=high).contains(c)).unwrap_or(inner), true)
+}
+
+fn standing_waves(model: &SpectralModel, from: f64, to: f64) -> Vec<String> {
+    let mut names: Vec<String> = model
+        .critical
+        .iter()
+        .filter(|c| (from * (1.0 - CRITICAL_GAP)..=to * (1.0 + CRITICAL_GAP)).contains(&c.speed_rad_per_s))
+        .map(|c| in_words(c.diameters, c.circles, crate::spectrum::Direction::Standing))
+        .collect();
+    names.truncate(2);
+    names
+}
+
+/// Bands in which a + and a − mode have merged.
+fn flutter(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    stations: &[Station],
+) -> Result<Vec<Instability>, SpectrumError> {
+    let Some((first, last)) = stations.first().zip(stations.last()) else {
+        return Ok(Vec::new());
+    };
+    // Pairs merged at the current speed, by frequency, with where they began.
+    let begun = first.speed_rad_per_s;
+    let mut open: Vec<(f64, bool)> = first.merged().map(|_| (begun, false)).collect();
+    let mut ranges: Vec<(f64, f64, bool)> = Vec::new();
+    for events in finder.events(stations)? {
+        for event in events {
+            match event {
+                Event::Begin(index, speed) => open.insert(index.min(open.len()), (speed, true)),
+                Event::End(index, speed) if index < open.len() => {
+                    let (from, begins) = open.remove(index);
+                    ranges.push((from, speed, begins));
+                }
+                Event::End(..) => {}
+                Event::Band(from, to) => ranges.push((from, to, true)),
+            }
+        }
+    }
+    ranges.extend(open.iter().map(|(from, _)| (*from, last.speed_rad_per_s, false)));
+    ranges
+        .into_iter()
+        .map(|(from, to, closed)| band(model, finder, from, to, closed))
+        .collect()
+}
+
+fn band(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    from: f64,
+    to: f64,
+    closed: bool,
+) -> Result<Instability, SpectrumError> {
+    let ends = [from + 1e-6 * (to - from), to - 1e-6 * (to - from)];
+    let mut frequencies = [0.0; 2];
+    for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
+        let station = finder.station(speed)?;
+        // Of several merged pairs the one that has only just merged is the one at its edge.
+        let slowest = station.merged().min_by(|x, y| x.growth.total_cmp(&y.growth));
+        *frequency = slowest.map_or(0.0, |t| t.frequency);
+    }
+    let expected = |speed: f64| {
+        let share = (speed - from) / (to - from);
+        frequencies[0] + share * (frequencies[1] - frequencies[0])
+    };
+    let pair = |speed: f64| -> Result<(f64, f64), SpectrumError> {
+        let near = |f: f64| (f - expected(speed)).abs();
+        let station = finder.station(speed)?;
+        let nearest = station.merged().min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
+        Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
+    };
+    let (peak, _) = refine::maximise(from, to, |speed| Ok(pair(speed)?.0.powi(2)))?;
+    let (peak_growth_per_s, frequency) = pair(peak)?;
+    Ok(Instability {
+        kind: InstabilityKind::Flutter,
+        from,
+        to,
+        closed,
+        peak,
+        peak_growth_per_s,
+        frequency,
+        modes: meeting_modes(model, from, frequencies[0])?,
+    })
+}
+
+/// Names of the + and the − mode next to a frequency just below an onset.
+fn meeting_modes(model: &SpectralModel, onset: f64, frequency: f64) -> Result<Vec<String>, SpectrumError> {
+    let before = onset * (1.0 - 1e-5);
+    let mut modes = model.modes(before)?;
+    modes.retain(|m| m.krein_sign() != 0);
+    let distance = |m: &crate::spectrum::Mode| (m.frequency_rad_per_s() - frequency).abs();
+    modes.sort_by(|x, y| distance(x).total_cmp(&distance(y)));
+    let mut pair = Vec::new();
+    for sign in [1, -1] {
+        pair.extend(modes.iter().find(|m| m.krein_sign() == sign).cloned());
+    }
+    let described = model.describe(before, pair);
+    Ok(described
+        .iter()
+        .map(|m| in_words(m.name.diameters, m.name.circles, m.name.direction))
+        .collect())
+}

@@ -1,0 +1,154 @@
+//! Every instability band of an undamped blade, however narrow.
+//!
+//! Modes can merge only if their Krein signs differ, so a change in the order of
+//! signs between two speeds betrays a crossing or a band between them. Intervals are
+//! halved until each holds at most one such change; intervals without a change are
+//! halved too where the tangents of a + and a − mode meet inside.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::refine::{self, Inside};
+use super::station::{Change, Sign, Station, change};
+use crate::spectrum::{SpectralModel, SpectrumError};
+
+/// Relative distance kept from a critical speed, where a frequency is zero.
+pub const CRITICAL_GAP: f64 = 1e-7;
+/// Intervals below this relative width are not halved any more.
+const LEAST_WIDTH: f64 = 1e-9;
+
+/// What happens between two stations, in order of speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// The merged pair with this index (by frequency) begins.
+    Begin(usize, f64),
+    /// It ends.
+    End(usize, f64),
+    /// A whole band, at this place of the doubled list.
+    Band(f64, f64),
+}
+
+/// Evaluates stations, checks the Krein index of each, and counts.
+pub struct Finder<'a> {
+    model: &'a SpectralModel,
+    checked: AtomicUsize,
+    violations: AtomicUsize,
+}
+
+impl<'a> Finder<'a> {
+    /// A finder on an undamped blade.
+    pub fn new(model: &'a SpectralModel) -> Self {
+        Finder { model, checked: AtomicUsize::new(0), violations: AtomicUsize::new(0) }
+    }
+
+    /// (speeds checked, speeds at which the Krein index did not match).
+    pub fn certificate(&self) -> (usize, usize) {
+        (self.checked.load(Ordering::Relaxed), self.violations.load(Ordering::Relaxed))
+    }
+
+    /// The word of signs at a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
+        let modes = self.model.modes(speed_rad_per_s)?;
+        let station = Station::new(speed_rad_per_s, modes.iter());
+        self.check(&station);
+        Ok(station)
+    }
+
+    /// Holds the spectrum against the inertia of the stiffness, which comes from
+    /// another, symmetric eigenproblem on the whole basis.
+    pub fn check(&self, station: &Station) {
+        let expected = self.model.negative_stiffness_directions(station.speed_rad_per_s);
+        self.checked.fetch_add(1, Ordering::Relaxed);
+        if station.krein_index() != expected {
+            self.violations.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Events between neighbouring stations; the intervals are independent.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn events(&self, stations: &[Station]) -> Result<Vec<Vec<Event>>, SpectrumError> {
+        let found: Vec<Result<Vec<Event>, SpectrumError>> = stations
+            .par_windows(2)
+            .map(|pair| {
+                let mut events = Vec::new();
+                if !self.spans_critical(&pair[0], &pair[1]) {
+                    self.search(&pair[0], &pair[1], &mut events)?;
+                }
+                Ok(events)
+            })
+            .collect();
+        found.into_iter().collect()
+    }
+
+    /// Whether a critical speed lies between: then a mode passes through zero there,
+    /// and the stations are so close on both sides that nothing else happens.
+    fn spans_critical(&self, a: &Station, b: &Station) -> bool {
+        let count = |s: &Station| self.model.negative_stiffness_directions(s.speed_rad_per_s);
+        count(a) != count(b)
+    }
+
+    fn search(&self, a: &Station, b: &Station, events: &mut Vec<Event>) -> Result<(), SpectrumError> {
+        let (x, y) = (a.speed_rad_per_s, b.speed_rad_per_s);
+        let seen = change(&a.word(), &b.word());
+        let ambiguous = seen == Change::Several || (seen == Change::None && may_touch(a, b));
+        if ambiguous && y - x > LEAST_WIDTH * y {
+            let middle = self.station(0.5 * (x + y))?;
+            self.search(a, &middle, events)?;
+            return self.search(&middle, b, events);
+        }
+        match seen {
+            Change::Exchange(place) => {
+                if let Some(Inside { from, to }) = refine::band_between(self, a, b, place)? {
+                    events.push(Event::Band(from, to));
+                }
+            }
+            Change::Merge(place) => {
+                let speed = refine::boundary(self, a, b, place)?;
+                events.push(Event::Begin(merged_before(b, place), speed));
+            }
+            Change::Part(place) => {
+                let speed = refine::boundary(self, b, a, place)?;
+                events.push(Event::End(merged_before(a, place), speed));
+            }
+            Change::None | Change::Several => {}
+        }
+        Ok(())
+    }
+}
+
+/// Number of merged pairs below a place of the doubled list.
+fn merged_before(station: &Station, place: usize) -> usize {
+    let below = station.doubled();
+    below.iter().take(place).filter(|t| t.sign == Sign::Merged).count() / 2
+}
+
+/// Whether a + and a − mode next to each other may meet and part again between two
+/// stations of the same word: their gap closes at one end, opens at the other, and
+/// its tangents meet below a quarter of the smaller gap. Likewise a merged pair may part
+/// and merge again.
+fn may_touch(a: &Station, b: &Station) -> bool {
+    let width = b.speed_rad_per_s - a.speed_rad_per_s;
+    let (left, right) = (a.doubled(), b.doubled());
+    (0..left.len().min(right.len()).saturating_sub(1)).any(|i| {
+        let opposite = |x: Sign, y: Sign| matches!((x, y), (Sign::Plus, Sign::Minus) | (Sign::Minus, Sign::Plus));
+        if !(opposite(left[i].sign, left[i + 1].sign) && opposite(right[i].sign, right[i + 1].sign)) {
+            return false;
+        }
+        let gap_a = left[i + 1].frequency - left[i].frequency;
+        let gap_b = right[i + 1].frequency - right[i].frequency;
+        let slope_a = left[i + 1].slope - left[i].slope;
+        let slope_b = right[i + 1].slope - right[i].slope;
+        if slope_a >= 0.0 || slope_b <= 0.0 {
+            return false;
+        }
+        let meet = (gap_b - gap_a - slope_b * width) / (slope_a - slope_b);
+        let lowest = gap_a + slope_a * meet.clamp(0.0, width);
+        lowest < 0.25 * gap_a.min(gap_b)
+    })
+}
