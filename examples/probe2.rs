@@ -9,7 +9,7 @@ fn main() {
     let model = SpectralModel::new(Plate::new(&scene, Resolution::of(acc)), range, Strategy::Reduced).unwrap();
     let t1 = t.elapsed();
     let chart = stability::analyze(&model, range, count, &|_, _| ()).unwrap();
-    println!("model {t1:?} all {:?} r={} {:?} {:?}", t.elapsed(), model.parts[0].reduced.order(), model.counters, chart.certificate);
+    println!("low {:?} model {t1:?} all {:?} r={} {:?} {:?}", model.parts[0].low.as_ref().map(|l| (l.reduced.order(), l.complete_to_rad_per_s)), t.elapsed(), model.parts[0].reduced.order(), model.counters, chart.certificate);
     for b in &chart.instabilities { println!("{:?} {:.6} - {:.6} (width {:.4}) closed {} peak {:.4} 1/s at {:.3} rpm, {:.4} Hz {:?}", b.kind, rpm(b.from), rpm(b.to), rpm(b.to-b.from), b.closed, b.peak_growth_per_s, rpm(b.peak), b.frequency/6.283185307, b.modes); }
     println!("branches {}", chart.campbell.branches.len());
 }

@@ -42,12 +42,23 @@ pub struct Part {
     pub first: usize,
     /// The whole part.
     pub full: GyroscopicSystem,
-    /// Orthonormal vectors that span its low modes.
+    /// Orthonormal vectors that span the modes of the chart.
     pub basis: Mat<f64>,
     /// The part projected on them.
     pub reduced: GyroscopicSystem,
+    /// The part projected on the reflected waves and what they can meet.
+    pub low: Option<LowPart>,
     /// Rigid motions that nothing holds.
     pub free_rigid: Vec<Col<f64>>,
+}
+
+/// A smaller projection for the search for bands.
+#[derive(Debug)]
+pub struct LowPart {
+    /// The projected matrices.
+    pub reduced: GyroscopicSystem,
+    /// Frequency up to which its modes are complete and accurate.
+    pub complete_to_rad_per_s: f64,
 }
 
 /// A standing wave at its critical speed.
@@ -119,7 +130,12 @@ impl SpectralModel {
                 let reduction = if plate.is_axisymmetric() {
                     reduction::of_harmonic(&plate, index, range)
                 } else {
-                    reduction::of_guided(&part.full, range, scale, &critical, &counters)
+                    let both = reduction::of_guided(&part.full, range, scale, &critical, &counters);
+                    part.low = both.low.map(|low| LowPart {
+                        reduced: part.full.project(low.basis.as_ref()),
+                        complete_to_rad_per_s: low.complete_to_rad_per_s,
+                    });
+                    both.chart
                 };
                 part.reduced = part.full.project(reduction.basis.as_ref());
                 part.basis = reduction.basis;
@@ -146,17 +162,7 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn all_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let scale = frequency_scale(&self.plate);
-        let speed = speed_rad_per_s.max(SPLITTING * scale);
-        let mut modes = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            let pairs = companion_eigenpairs(&part.reduced, speed)?;
-            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
-            modes.extend(classify(&part.reduced, speed, index, rigid_scale, pairs));
-        }
-        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
-        Ok(modes)
+        self.solve(speed_rad_per_s, f64::INFINITY, |part| &part.reduced)
     }
 
     /// Modes up to `complete_to`, without the rigid motions at rest.
@@ -164,10 +170,41 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let mut modes = self.all_modes(speed_rad_per_s)?;
-        modes.retain(|mode| {
-            mode.kind != ModeKind::Rigid && mode.frequency_rad_per_s() <= self.complete_to_rad_per_s
-        });
+        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| &part.reduced)?;
+        modes.retain(|m| m.kind != ModeKind::Rigid);
+        Ok(modes)
+    }
+
+    /// Every reflected, merged or divergent mode, and what they can meet, from the
+    /// smallest sound projection.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn low_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let [Part { low: Some(low), .. }] = self.parts.as_slice() else {
+            return self.modes(speed_rad_per_s);
+        };
+        self.solve(speed_rad_per_s, low.complete_to_rad_per_s, |_| &low.reduced)
+    }
+
+    fn solve<'a>(
+        &'a self,
+        speed_rad_per_s: f64,
+        highest_rad_per_s: f64,
+        system: impl Fn(&'a Part) -> &'a GyroscopicSystem,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        let scale = frequency_scale(&self.plate);
+        let speed = speed_rad_per_s.max(SPLITTING * scale);
+        let mut modes = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+            let system = system(part);
+            let mut pairs = companion_eigenpairs(system, speed)?;
+            pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
+            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
+            modes.extend(classify(system, speed, index, rigid_scale, pairs));
+        }
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
     }
 
@@ -219,6 +256,7 @@ impl Part {
             first,
             basis: Mat::identity(order, order),
             reduced: full.clone(),
+            low: None,
             free_rigid: free_rigid_motions(plate, &full, first),
             full,
         }

@@ -28,6 +28,10 @@ const RADIAL_MODES: usize = 4;
 const SPAN_TOLERANCE: f64 = 1e-6;
 /// Largest estimated error of a projected frequency, relative to the chart's height.
 const FREQUENCY_TOLERANCE: f64 = 1e-9;
+/// A reflected wave may meet modes up to this multiple of the highest one's frequency.
+const REFLECTED_MARGIN: f64 = 1.3;
+/// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
+const SNAPSHOT_MARGIN: f64 = 1.5;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
@@ -80,6 +84,15 @@ fn lowest_symmetric(mut matrix: Mat<f64>, shift: f64, count: usize) -> Vec<Col<f
     }
 }
 
+/// Projections of a guided blade: one for the chart, and a smaller one for the
+/// search for bands, which needs the reflected waves and what they can meet, no more.
+pub struct GuidedReductions {
+    /// Every mode up to the height of the chart.
+    pub chart: Reduction,
+    /// Every mode up to a little above the highest reflected wave, if there is one.
+    pub low: Option<Reduction>,
+}
+
 /// Modes of the guided blade at a few speeds, more of them until every mode up to
 /// the chart's height, and every reflected one, is right in between too.
 pub fn of_guided(
@@ -88,39 +101,32 @@ pub fn of_guided(
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
-) -> Reduction {
-    // With the standing waves themselves in the basis the projected K(Ω) is singular at
-    // the same speeds as the whole one, to the last digit.
-    let standing = critical.iter().take_while(|c| c.speed_rad_per_s <= range.1);
-    let vectors = standing.map(|c| c.shape.clone()).collect();
-    let mut builder = Builder { system, scale, critical, counters, window: 0.0, vectors };
-    builder.window = builder.chart_height(range.0);
-    let mut speeds: Vec<f64> = (0..5).map(|k| range.0 + (range.1 - range.0) * f64::from(k) / 4.0).collect();
-    builder.window = builder.window.max(builder.reflected_height(range.1));
-    for &speed in &speeds {
-        builder.add_snapshot(speed);
+) -> GuidedReductions {
+    let mut builder = Builder { system, range, scale, critical, counters, snapshots: Vec::new() };
+    let reflected = builder.reflected_height(range.1);
+    let window = builder.chart_height(range.0).max(reflected);
+    for k in 0..5 {
+        builder.add_snapshot(range.0 + (range.1 - range.0) * f64::from(k) / 4.0, window);
     }
-    loop {
-        let basis = orthonormal(system.order(), &builder.vectors);
-        let worst = builder.unresolved(&basis, &speeds);
-        if worst.is_empty() || speeds.len() >= MAX_SNAPSHOTS {
-            return Reduction { basis, complete_to_rad_per_s: builder.window };
-        }
-        for speed in worst {
-            builder.add_snapshot(speed);
-            let place = speeds.partition_point(|s| *s < speed);
-            speeds.insert(place, speed);
-        }
+    GuidedReductions {
+        chart: builder.resolve(window, window),
+        low: (reflected > 0.0).then(|| builder.resolve(reflected, window)),
     }
+}
+
+/// Low modes of the whole system at one speed.
+struct Snapshot {
+    speed: f64,
+    pairs: Vec<super::dense::Eigenpair>,
 }
 
 struct Builder<'a> {
     system: &'a GyroscopicSystem,
+    range: (f64, f64),
     scale: f64,
     critical: &'a [NamedCriticalSpeed],
     counters: &'a WorkCounters,
-    window: f64,
-    vectors: Vec<Col<f64>>,
+    snapshots: Vec<Snapshot>,
 }
 
 impl Builder<'_> {
@@ -153,62 +159,86 @@ impl Builder<'_> {
             let found: usize = modes.iter().map(|mode| negative(mode.kind)).sum();
             if found >= index || 2 * count >= self.system.order() {
                 let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
-                return 1.1 * highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
+                let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
+                return REFLECTED_MARGIN * height.max(0.1 * self.scale);
             }
             count *= 2;
         }
     }
 
-    /// Adds every mode below the window at one speed, and one above it.
-    fn add_snapshot(&mut self, speed: f64) {
+    /// Every mode below the window at one speed, and one above it.
+    fn add_snapshot(&mut self, speed: f64, window: f64) {
         let mut count = CHART_MODES + 2;
         let pairs = loop {
             let pairs = self.lowest(speed, count);
-            let covered = pairs.last().is_some_and(|(lambda, _)| lambda.norm() > self.window);
+            let covered = pairs.last().is_some_and(|(lambda, _)| lambda.norm() > window);
             if covered || 2 * count >= self.system.order() {
                 break pairs;
             }
             count += count / 2;
         };
-        for (lambda, q) in pairs {
-            if lambda.norm() > 1.2 * self.window {
-                break;
+        let place = self.snapshots.partition_point(|s| s.speed < speed);
+        self.snapshots.insert(place, Snapshot { speed, pairs });
+    }
+
+    /// The modes up to a window at every snapshot so far. With the standing waves
+    /// themselves in it the projected K(Ω) is singular at the same speeds as the
+    /// whole one, to the last digit.
+    fn basis(&self, window: f64) -> Mat<f64> {
+        let standing = self.critical.iter().take_while(|c| c.speed_rad_per_s <= self.range.1);
+        let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
+        for (lambda, q) in self.snapshots.iter().flat_map(|s| &s.pairs) {
+            if lambda.norm() <= window {
+                let (re, im) = split(q);
+                vectors.push(re);
+                vectors.push(im);
             }
-            let (re, im) = split(&q);
-            self.vectors.push(re);
-            self.vectors.push(im);
+        }
+        orthonormal(self.system.order(), &vectors)
+    }
+
+    /// Adds snapshots until every mode up to the window is right between them too.
+    fn resolve(&mut self, window: f64, chart: f64) -> Reduction {
+        loop {
+            let basis = self.basis(SNAPSHOT_MARGIN * window);
+            let unresolved = self.unresolved(&basis, window, FREQUENCY_TOLERANCE * chart);
+            if unresolved.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
+                return Reduction { basis, complete_to_rad_per_s: window };
+            }
+            for speed in unresolved {
+                self.add_snapshot(speed, chart);
+            }
         }
     }
 
-    /// Midpoints between the speeds at which some mode is not right yet.
-    fn unresolved(&self, basis: &Mat<f64>, speeds: &[f64]) -> Vec<f64> {
+    /// Midpoints between snapshots at which some mode is not right yet.
+    fn unresolved(&self, basis: &Mat<f64>, window: f64, tolerance: f64) -> Vec<f64> {
         let reduced = self.system.project(basis.as_ref());
-        let middles = speeds.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let middles = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
         middles
-            .filter(|&speed| self.frequency_error(&reduced, basis, speed) > FREQUENCY_TOLERANCE * self.window)
+            .filter(|&speed| self.frequency_error(&reduced, basis, speed, window) > tolerance)
             .collect()
     }
 
     /// Largest |rᴴ P⁻¹ r| / |qᴴ(2ω − 2iΩG)q| over the modes below the window, r the
     /// residual on the whole basis: the second-order shift of a simple frequency. P, the
     /// diagonal of K₀, stands for L, for r lives in the high functions, which stiffness rules.
-    fn frequency_error(&self, reduced: &GyroscopicSystem, basis: &Mat<f64>, speed: f64) -> f64 {
+    fn frequency_error(&self, reduced: &GyroscopicSystem, basis: &Mat<f64>, speed: f64, window: f64) -> f64 {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         let Ok(pairs) = companion_eigenpairs(reduced, speed) else {
             return f64::INFINITY;
         };
         let dynamic = DynamicStiffness::new(self.system, speed);
-        let floor = self.window.powi(2);
         pairs
             .iter()
-            .filter(|(lambda, _)| lambda.im <= self.window && lambda.re >= -1e-6 * self.window)
+            .filter(|(lambda, _)| lambda.im <= window && lambda.re >= -1e-6 * window)
             .map(|(lambda, q)| {
                 let lifted = lift(basis.as_ref(), q);
                 let residual: Col<c64> = dynamic.residual(*lambda, &lifted);
                 let shift: f64 = (0..residual.nrows())
-                    .map(|i| residual[i].norm_sqr() / (self.system.stiffness[(i, i)] + floor))
+                    .map(|i| residual[i].norm_sqr() / (self.system.stiffness[(i, i)] + window.powi(2)))
                     .sum();
-                shift / self.window
+                shift / window
             })
             .fold(0.0, f64::max)
     }

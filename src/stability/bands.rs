@@ -69,11 +69,7 @@ pub fn analyze(
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
     let finder = Finder::new(model);
-    let stations: Vec<Station> = samples
-        .iter()
-        .map(|s| Station::new(s.speed_rad_per_s, s.modes.iter().map(|m| &m.mode)))
-        .collect();
-    stations.iter().for_each(|station| finder.check(station));
+    let stations = finder.stations(&speeds)?;
     let mut instabilities = divergence(model, &finder, &stations)?;
     instabilities.extend(flutter(model, &finder, &stations)?);
     instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));

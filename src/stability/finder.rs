@@ -52,15 +52,24 @@ impl<'a> Finder<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
-        let modes = self.model.modes(speed_rad_per_s)?;
+        let modes = self.model.low_modes(speed_rad_per_s)?;
         let station = Station::new(speed_rad_per_s, modes.iter());
         self.check(&station);
         Ok(station)
     }
 
+    /// The words of many speeds, in parallel.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] of the lowest speed that fails.
+    pub fn stations(&self, speeds: &[f64]) -> Result<Vec<Station>, SpectrumError> {
+        let stations: Vec<_> = speeds.par_iter().map(|&speed| self.station(speed)).collect();
+        stations.into_iter().collect()
+    }
+
     /// Holds the spectrum against the inertia of the stiffness, which comes from
     /// another, symmetric eigenproblem on the whole basis.
-    pub fn check(&self, station: &Station) {
+    fn check(&self, station: &Station) {
         let expected = self.model.negative_stiffness_directions(station.speed_rad_per_s);
         self.checked.fetch_add(1, Ordering::Relaxed);
         if station.krein_index() != expected {
