@@ -3,5 +3,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod figure;
 pub mod plate;
+pub mod report;
 pub mod scene;
