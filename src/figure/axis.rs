@@ -136,7 +136,10 @@ fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     if to - from >= least {
         return [from, to];
     }
-    let half = (0.1 * from.abs()).max(0.5);
+    if from == 0.0 {
+        return [0.0, 1.0];
+    }
+    let half = 0.1 * from.abs();
     [from - half, from + half]
 }
 
@@ -160,7 +163,12 @@ pub fn tick_label(value: f64) -> String {
 /// Draws grid lines, ticks and numbers of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
-    for tick in axis.ticks(30.0) {
+    let apart = match axis.spread() {
+        Spread::Linear => 40.0,
+        // Closer, so that small values have a tick too.
+        Spread::SignedRoot => 21.0,
+    };
+    for tick in axis.ticks(apart) {
         let y = axis.at(tick);
         sheet.line(
             [[panel.left, y], [panel.right, y]],

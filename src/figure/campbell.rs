@@ -1,8 +1,11 @@
 //! The Campbell diagram: frequencies and growth rates over rotation speed.
 
+mod band_labels;
 mod growth;
 mod speeds;
 mod waves;
+
+use band_labels::BandLabels;
 
 use super::FigureError;
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
@@ -24,6 +27,9 @@ const BETWEEN_PANELS: f64 = 16.0;
 const GROWTH_HEIGHT: f64 = 236.0;
 /// Height of the lower panel when there is nothing to see in it.
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
+
+/// Wide spaces, which SVG does not draw together as it does ordinary ones.
+const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
 
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
@@ -52,7 +58,7 @@ fn campbell(report: &Report) -> Sheet {
     let chart = Chart::new(report);
     draw_heading(&mut sheet, report);
 
-    let labels = growth::BandLabels::new(&chart);
+    let labels = BandLabels::new(&chart);
     let growth_axis = growth::axis(&chart, labels.height());
     speeds::shade_bands(&mut sheet, &chart);
     draw_axes(&mut sheet, &chart, growth_axis.as_ref());
@@ -61,6 +67,7 @@ fn campbell(report: &Report) -> Sheet {
 
     waves::draw_branches(&mut sheet, &chart);
     waves::draw_measured(&mut sheet, &chart);
+    speeds::dot_critical(&mut sheet, &chart);
     match growth_axis {
         Some(axis) => growth::draw(&mut sheet, &chart, &axis),
         None => growth::say_stable(&mut sheet, &chart),
@@ -102,7 +109,12 @@ impl<'a> Chart<'a> {
 }
 
 fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
-    draw_vertical(sheet, &chart.frequency, &chart.upper, "Im λ / 2π   [Hz]");
+    draw_vertical(
+        sheet,
+        &chart.frequency,
+        &chart.upper,
+        "Im λ / 2π\u{2003}[Hz]",
+    );
     if let Some(axis) = growth {
         draw_vertical(sheet, axis, &chart.lower, growth::axis_name(axis));
     }
@@ -114,7 +126,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
     draw_horizontal(sheet, &chart.speed, chart.lower.bottom, true);
     let middle = (chart.upper.left + chart.upper.right) / 2.0;
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let name = "rotation speed Ω   [rpm]";
+    let name = "rotation speed Ω\u{2003}[rpm]";
     sheet.text([middle, PLOT_BOTTOM + 42.0], letters, name);
 }
 
@@ -145,7 +157,7 @@ fn key_facts(report: &Report) -> String {
         "band of instability",
         "bands of instability",
     );
-    [size, guides, critical, bands, verdict(report)].join("  ·  ")
+    [size, guides, critical, bands, verdict(report)].join(BETWEEN_FACTS)
 }
 
 fn verdict(report: &Report) -> String {
@@ -208,7 +220,12 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
         .map(|(_, note)| *note)
         .collect();
     let room = f64::from(WIDTH) - MARGIN - x;
-    let notes = shorten(&notes.join("  ·  "), LABEL_SIZE, Weight::Regular, room);
+    let notes = shorten(
+        &notes.join(BETWEEN_FACTS),
+        LABEL_SIZE,
+        Weight::Regular,
+        room,
+    );
     sheet.text([x, baseline], letters, &notes);
 }
 

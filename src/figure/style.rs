@@ -144,11 +144,9 @@ pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
 
 /// Control characters are not allowed in SVG, and a line break would not break.
 pub fn one_line(text: &str) -> String {
-    let spaced: String = text
-        .chars()
+    text.chars()
         .map(|c| if is_printable(c) { c } else { ' ' })
-        .collect();
-    spaced.split_whitespace().collect::<Vec<_>>().join(" ")
+        .collect()
 }
 
 fn is_printable(c: char) -> bool {
@@ -172,7 +170,7 @@ mod tests {
     fn text_stays_on_one_line() {
         assert_eq!(
             shorten("a\n\u{0}b", LABEL_SIZE, Weight::Regular, 100.0),
-            "a b"
+            "a  b"
         );
         assert_eq!(shorten("wide", LABEL_SIZE, Weight::Regular, 0.0), "…");
     }

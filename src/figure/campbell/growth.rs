@@ -1,16 +1,14 @@
-//! The lower panel: growth rates, and labels of the bands of instability.
+//! The lower panel: growth rates.
 
 use super::super::axis::{Axis, Spread};
-use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::clip::clip;
 use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, QUIET, tint};
-use super::speeds::{band_places, line_colour, operating_place};
+use super::speeds::line_colour;
 use super::waves::direction_colour;
 use super::{Chart, NEGLIGIBLE_PER_S};
-use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
+use crate::report::{BranchEntry, InstabilityEntry, Report};
 
-const LABEL_ROWS: usize = 3;
-const ROW_HEIGHT: f64 = 16.0;
 const STABLE: &str = "no growth: stable at every speed shown";
 
 fn is_damped(report: &Report) -> bool {
@@ -92,8 +90,8 @@ fn spread(report: &Report, greatest: f64) -> Spread {
 
 pub fn axis_name(axis: &Axis) -> &'static str {
     match axis.spread() {
-        Spread::Linear => "Re λ   [1/s]",
-        Spread::SignedRoot => "Re λ   [1/s], square root scale",
+        Spread::Linear => "Re λ\u{2003}[1/s]",
+        Spread::SignedRoot => "Re λ\u{2003}[1/s], square root scale",
     }
 }
 
@@ -209,97 +207,4 @@ fn is_sampled(report: &Report, band: &InstabilityEntry) -> bool {
             band.from_rpm < rpm && rpm < band.to_rpm && growth > 0.5 * band.peak_growth_per_s
         })
     })
-}
-
-/// Labels of the bands with their places.
-pub struct BandLabels {
-    placed: Vec<([f64; 2], Lettering, String)>,
-    rows: usize,
-}
-
-impl BandLabels {
-    /// Finds a place for each label, the fastest growing band first; a label for
-    /// which there is no room is left out.
-    pub fn new(chart: &Chart) -> Self {
-        let bands = &chart.report.instabilities;
-        let mut order: Vec<&InstabilityEntry> = bands.iter().collect();
-        order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
-        let obstacle = operating_place(chart).map(|x| Frame {
-            left: x - 1.0,
-            right: x + 1.0,
-            ..chart.lower
-        });
-        let mut taken: Vec<Frame> = obstacle.into_iter().collect();
-        let mut labels = Self {
-            placed: Vec::new(),
-            rows: 0,
-        };
-        for band in order {
-            labels.place(chart, band, &mut taken);
-        }
-        labels
-    }
-
-    fn place(&mut self, chart: &Chart, band: &InstabilityEntry, taken: &mut Vec<Frame>) {
-        let Some([left, right]) = band_places(chart, band) else {
-            return;
-        };
-        let label = band_label(chart, band);
-        for row in 0..LABEL_ROWS {
-            let baseline = chart.lower.top + 13.0 + row as f64 * ROW_HEIGHT;
-            let sides = [
-                ((left + right) / 2.0, Anchor::Middle),
-                (right + 4.0, Anchor::Start),
-                (left - 4.0, Anchor::End),
-            ];
-            for (x, anchor) in sides {
-                let letters = Lettering::regular(LABEL_SIZE, line_colour(band.kind), anchor);
-                let frame = text_frame([x, baseline], &letters, &label);
-                let spaced = Frame {
-                    left: frame.left - 4.0,
-                    right: frame.right + 4.0,
-                    ..frame
-                };
-                let inside = spaced.left >= chart.lower.left && spaced.right <= chart.lower.right;
-                if inside && !taken.iter().any(|other| other.overlaps(&spaced)) {
-                    taken.push(spaced);
-                    self.placed.push(([x, baseline], letters, label));
-                    self.rows = self.rows.max(row + 1);
-                    return;
-                }
-            }
-        }
-    }
-
-    /// Room that the labels take at the top of the panel.
-    pub fn height(&self) -> f64 {
-        8.0 + self.rows as f64 * ROW_HEIGHT
-    }
-
-    pub fn draw(&self, sheet: &mut Sheet) {
-        for (at, letters, label) in &self.placed {
-            sheet.text(*at, *letters, label);
-        }
-    }
-}
-
-fn band_label(chart: &Chart, band: &InstabilityEntry) -> String {
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
-    let [first, last] = chart.speed.values();
-    let (from, to) = (
-        format!("{:.0}", band.from_rpm),
-        format!("{:.0}", band.to_rpm),
-    );
-    if !band.closed && band.to_rpm >= last && band.from_rpm > first {
-        format!("{kind} from {from}")
-    } else if !band.closed && band.from_rpm <= first && band.to_rpm < last {
-        format!("{kind} to {to}")
-    } else if from == to {
-        format!("{kind} {from}")
-    } else {
-        format!("{kind} {from}–{to}")
-    }
 }

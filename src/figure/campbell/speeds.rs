@@ -10,7 +10,7 @@ use super::{Chart, MARGIN, WIDTH};
 use crate::report::{InstabilityEntry, InstabilityKind};
 
 /// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
-const NARROW: f64 = 4.0;
+pub const NARROW: f64 = 4.0;
 const STREAK_WIDTH: f64 = 1.5;
 const CRITICAL_BASELINE: f64 = 90.0;
 
@@ -34,7 +34,7 @@ fn shade(kind: InstabilityKind, narrow: bool) -> Colour {
 pub fn band_places(chart: &Chart, band: &InstabilityEntry) -> Option<[f64; 2]> {
     let [first, last] = chart.speed.values();
     let (from, to) = (band.from_rpm.max(first), band.to_rpm.min(last));
-    if !(from <= to) {
+    if band.from_rpm.is_nan() || band.to_rpm.is_nan() || from > to {
         return None;
     }
     let [left, right] = [from, to].map(|rpm| chart.speed.at(rpm));
@@ -66,14 +66,19 @@ pub fn shade_bands(sheet: &mut Sheet, chart: &Chart) {
     }
 }
 
+/// Critical speeds within the sweep, ascending.
+fn critical_shown(chart: &Chart) -> Vec<f64> {
+    let all = chart.report.critical_speeds.iter().map(|entry| entry.rpm);
+    let mut shown: Vec<f64> = all.filter(|rpm| chart.speed.shows(*rpm)).collect();
+    shown.sort_by(f64::total_cmp);
+    shown
+}
+
 pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
-    let mut speeds: Vec<f64> = chart.report.critical_speeds.iter().map(|c| c.rpm).collect();
-    speeds.retain(|rpm| chart.speed.shows(*rpm));
-    speeds.sort_by(f64::total_cmp);
+    let speeds = critical_shown(chart);
     let dashed = Stroke {
-        colour: QUIET,
-        width: HAIRLINE,
         dash: Some(FINE_DASH),
+        ..Stroke::solid(QUIET, HAIRLINE)
     };
     for &rpm in &speeds {
         let x = chart.speed.at(rpm);
@@ -81,9 +86,15 @@ pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
             [[x, chart.upper.bottom], [x, CRITICAL_BASELINE + 5.0]],
             dashed,
         );
-        sheet.disc([x, chart.upper.bottom], 3.5, INK);
     }
     label_critical(sheet, chart, &speeds);
+}
+
+/// Dots on the axis, to be drawn on top of the branches.
+pub fn dot_critical(sheet: &mut Sheet, chart: &Chart) {
+    for rpm in critical_shown(chart) {
+        sheet.disc([chart.speed.at(rpm), chart.upper.bottom], 3.5, INK);
+    }
 }
 
 fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
@@ -125,25 +136,35 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
         return;
     };
     let label = format!("operating {rpm:.0}");
-    let room = text_width(&label, LABEL_SIZE, Weight::Regular) + 10.0;
-    let (at, anchor) = match x + room < chart.upper.right {
-        true => (x + 5.0, Anchor::Start),
-        false => (x - 5.0, Anchor::End),
+    let baseline = chart.upper.top + 16.0;
+    let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)].map(|(x, anchor)| {
+        let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+        let frame = text_frame([x, baseline], &letters, &label);
+        (x, letters, frame)
+    });
+    // Branches are cleared away behind the label; bands should not be.
+    let cost = |frame: &Frame| {
+        let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
+        (outside, bands_crossed(chart, frame))
     };
-    let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-    let at = [at, chart.upper.top + 16.0];
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = text_frame(at, &letters, &label);
+    let [first, second] = sides;
+    let (x, letters, frame) = match cost(&second.2) < cost(&first.2) {
+        true => second,
+        false => first,
+    };
     let cleared = Frame {
-        left: left - 3.0,
-        right: right + 3.0,
-        top: top - 1.0,
-        bottom: bottom + 1.0,
+        left: frame.left - 3.0,
+        right: frame.right + 3.0,
+        ..frame
     };
     sheet.fill(cleared, PAPER);
-    sheet.text(at, letters, &label);
+    sheet.text([x, baseline], letters, &label);
+}
+
+fn bands_crossed(chart: &Chart, frame: &Frame) -> usize {
+    let bands = chart.report.instabilities.iter();
+    let places = bands.filter_map(|band| band_places(chart, band));
+    places
+        .filter(|[left, right]| *left < frame.right && frame.left < *right)
+        .count()
 }

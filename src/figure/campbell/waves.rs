@@ -11,11 +11,14 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, Direction, Report};
 
 /// From the end of a branch to its label.
-const LABEL_GAP: f64 = 10.0;
+const LABEL_GAP: f64 = 16.0;
 const LONGEST_LABEL: f64 = 150.0;
 const LINE_HEIGHT: f64 = 15.0;
-/// A label further from its branch would be taken for that of another.
-const FARTHEST_LABEL: f64 = 36.0;
+/// A label further from its branch would be taken for that of another, even
+/// though a leader joins the two.
+const FARTHEST_LABEL: f64 = 72.0;
+/// The same for the labels above the panel, which have no leader.
+const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
 pub fn direction_colour(direction: Direction) -> Colour {
     match direction {
@@ -133,6 +136,9 @@ pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
     // From the highest down, so that the lowest branches lie on top.
     for branch in chart.report.campbell.branches.iter().rev() {
         let colour = direction_colour(branch.direction);
+        if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
+            dot(sheet, chart, *rpm, *hz, colour);
+        }
         for (look, line) in stretches(branch, chart) {
             let stroke = match look {
                 Stretch::Plain => Stroke::solid(colour, CURVE),
@@ -146,6 +152,14 @@ pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
                 sheet.line(part, stroke);
             }
         }
+    }
+}
+
+/// A branch that is known at a single speed.
+fn dot(sheet: &mut Sheet, chart: &Chart, rpm: f64, hz: f64, colour: Colour) {
+    if chart.speed.shows(rpm) && chart.frequency.shows(hz) {
+        let at = [chart.speed.at(rpm), chart.frequency.at(hz)];
+        sheet.disc(at, 2.0 * CURVE, colour);
     }
 }
 
@@ -181,7 +195,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
     let room = [chart.upper.top, chart.upper.bottom + LINE_HEIGHT];
     let centres = push_apart(&wishes, room[0], room[1]);
     for ((branch, end), centre) in ends.iter().zip(centres) {
-        let Some(centre) = centre.filter(|c| (c - end).abs() < 2.0 * FARTHEST_LABEL) else {
+        let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
             continue;
         };
         let colour = direction_colour(branch.direction);
@@ -205,7 +219,7 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
     let wishes: Vec<_> = exits.iter().map(wish).collect();
     let centres = push_apart(&wishes, chart.upper.left, chart.upper.right);
     for ((branch, exit), centre) in exits.iter().zip(centres) {
-        let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_LABEL) else {
+        let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
             continue;
         };
         let colour = direction_colour(branch.direction);
