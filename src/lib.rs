@@ -1,9 +1,24 @@
 //! Stability of thin, fast, guided circular saws in the frequency domain.
+//!
+//! The rooms of this crate stand in the order in which a saw goes through them, and
+//! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
+//! [`spectrum`] → [`campbell`] → [`stability`] → [`report`] → [`figure`].
+//!
+//! ```
+//! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
+//!
+//! let scene = Scene { accuracy: Accuracy::Draft, ..Scene::paper() };
+//! let analysis = Analysis::new(&scene, &|_, _| ())?;
+//! let lowest = rpm(analysis.model.critical[0].speed_rad_per_s);
+//! assert!(1500.0 < lowest && lowest < 1600.0);
+//! # Ok::<(), sawflutter::spectrum::SpectrumError>(())
+//! ```
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod campbell;
+pub mod figure;
 pub mod plate;
 pub mod report;
 pub mod scene;

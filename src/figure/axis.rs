@@ -1,0 +1,245 @@
+//! Axes: from values to places on the sheet, and where the ticks go.
+
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    /// Evenly.
+    Linear,
+    /// By the signed square root, which keeps zero and the sign, and shows small
+    /// values beside large ones. Unlike a logarithm it needs no cut-off near zero.
+    SignedRoot,
+}
+
+impl Spread {
+    fn of(self, value: f64) -> f64 {
+        match self {
+            Spread::Linear => value,
+            Spread::SignedRoot => value.signum() * value.abs().sqrt(),
+        }
+    }
+}
+
+/// An axis along one side of a panel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    values: [f64; 2],
+    places: [f64; 2],
+    spread: Spread,
+}
+
+impl Axis {
+    /// An axis from the first value at the first place to the last at the last.
+    /// A range without length, or without numbers, is widened.
+    pub fn new(values: [f64; 2], places: [f64; 2], spread: Spread) -> Self {
+        let values = proper_range(values);
+        Self {
+            values,
+            places,
+            spread,
+        }
+    }
+
+    /// First and last value.
+    pub fn values(&self) -> [f64; 2] {
+        self.values
+    }
+
+    /// First and last place.
+    pub fn places(&self) -> [f64; 2] {
+        self.places
+    }
+
+    /// How the values are spread.
+    pub fn spread(&self) -> Spread {
+        self.spread
+    }
+
+    /// Whether the value lies on the axis.
+    pub fn shows(&self, value: f64) -> bool {
+        self.values[0] <= value && value <= self.values[1]
+    }
+
+    /// Place of a value.
+    pub fn at(&self, value: f64) -> f64 {
+        let [from, to] = self.values.map(|v| self.spread.of(v));
+        let share = (self.spread.of(value) - from) / (to - from);
+        self.places[0] + share * (self.places[1] - self.places[0])
+    }
+
+    /// Round values at least `apart` from each other on the sheet.
+    pub fn ticks(&self, apart: f64) -> Vec<f64> {
+        match self.spread {
+            Spread::Linear => self.even_ticks(apart),
+            Spread::SignedRoot => self.root_ticks(apart),
+        }
+    }
+
+    fn even_ticks(&self, apart: f64) -> Vec<f64> {
+        let [from, to] = self.values;
+        let most = ((self.places[1] - self.places[0]).abs() / apart).max(1.0);
+        let step = round_up((to - from) / most);
+        let (first, last) = ((from / step).ceil(), (to / step).floor());
+        // A slip of rounding must not lose the tick at the end.
+        let last = if (last + 1.0) * step <= to + 1e-9 * step {
+            last + 1.0
+        } else {
+            last
+        };
+        let count = (last - first).clamp(0.0, 1000.0) as usize;
+        (0..=count).map(|i| (first + i as f64) * step).collect()
+    }
+
+    /// 1, 3, 10, 30, … of either sign, as far as there is room, the largest first.
+    fn root_ticks(&self, apart: f64) -> Vec<f64> {
+        let mut ticks = vec![0.0];
+        for end in self.values {
+            let mut last_place = None;
+            let decade = end.abs().log10().ceil();
+            let sizes = (0..8).flat_map(|k| {
+                let ten = 10f64.powf(decade - f64::from(k));
+                [ten, 0.3 * ten]
+            });
+            for value in sizes
+                .map(|size| end.signum() * size)
+                .filter(|v| self.shows(*v))
+            {
+                let place = self.at(value);
+                let clear = |other: f64| (place - other).abs() >= apart;
+                if clear(self.at(0.0)) && last_place.is_none_or(clear) {
+                    ticks.push(value);
+                    last_place = Some(place);
+                }
+            }
+        }
+        ticks.retain(|tick| self.shows(*tick));
+        ticks.sort_by(f64::total_cmp);
+        ticks
+    }
+}
+
+fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
+    const LARGEST: f64 = 1e12;
+    let from = if from.is_finite() {
+        from.clamp(-LARGEST, LARGEST)
+    } else {
+        0.0
+    };
+    let to = if to.is_finite() {
+        to.clamp(-LARGEST, LARGEST)
+    } else {
+        from
+    };
+    let least = 1e-6 * from.abs().max(to.abs()).max(1e-6);
+    if to - from >= least {
+        return [from, to];
+    }
+    if from == 0.0 {
+        return [0.0, 1.0];
+    }
+    let half = 0.1 * from.abs();
+    [from - half, from + half]
+}
+
+/// The next of 1, 2, 5 times a power of ten.
+pub fn round_up(size: f64) -> f64 {
+    let ten = 10f64.powf(size.log10().floor());
+    [1.0, 2.0, 5.0]
+        .map(|digit| digit * ten)
+        .into_iter()
+        .find(|step| *step >= size * (1.0 - 1e-9))
+        .unwrap_or(10.0 * ten)
+}
+
+/// A number at a tick: no more decimals than the number needs.
+pub fn tick_label(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    let rounded = if rounded == 0.0 { 0.0 } else { rounded };
+    format!("{rounded}").replace('-', "\u{2212}")
+}
+
+/// Draws grid lines, ticks and numbers of a vertical axis.
+pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
+    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
+    let apart = match axis.spread() {
+        Spread::Linear => 40.0,
+        // Closer, so that small values have a tick too.
+        Spread::SignedRoot => 21.0,
+    };
+    for tick in axis.ticks(apart) {
+        let y = axis.at(tick);
+        sheet.line(
+            [[panel.left, y], [panel.right, y]],
+            Stroke::solid(GRID, HAIRLINE),
+        );
+        let short = Stroke::solid(QUIET, HAIRLINE);
+        sheet.line([[panel.left - 5.0, y], [panel.left, y]], short);
+        let at = [panel.left - 9.0, y + 0.36 * AXIS_SIZE];
+        sheet.text(at, letters, &tick_label(tick));
+    }
+    let middle = (panel.top + panel.bottom) / 2.0;
+    let upright = Lettering {
+        upright: true,
+        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
+    };
+    sheet.text([28.0, middle], upright, name);
+}
+
+/// Draws the ticks of a horizontal axis, with numbers where `numbered`.
+pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
+    let [left, right] = axis.places();
+    sheet.line([[left, y], [right, y]], Stroke::solid(QUIET, HAIRLINE));
+    for tick in axis.ticks(100.0) {
+        let x = axis.at(tick);
+        sheet.line([[x, y], [x, y + 5.0]], Stroke::solid(QUIET, HAIRLINE));
+        if numbered {
+            let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Middle);
+            sheet.text([x, y + 20.0], letters, &tick_label(tick));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_ticks_are_round_and_reach_both_ends() {
+        let axis = Axis::new([0.0, 3000.0], [0.0, 1000.0], Spread::Linear);
+        let expected = [0.0, 500.0, 1000.0, 1500.0, 2000.0, 2500.0, 3000.0];
+        assert_eq!(axis.ticks(100.0), expected);
+    }
+
+    #[test]
+    fn root_ticks_keep_their_distance() {
+        let axis = Axis::new([-20.0, 35.0], [250.0, 0.0], Spread::SignedRoot);
+        let ticks = axis.ticks(25.0);
+        assert!(ticks.contains(&0.0) && ticks.contains(&30.0) && ticks.contains(&-10.0));
+        for pair in ticks.windows(2) {
+            assert!(axis.at(pair[0]) - axis.at(pair[1]) >= 25.0, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn a_range_without_length_is_widened() {
+        for values in [
+            [5.0, 5.0],
+            [f64::NAN, 1.0],
+            [3.0, 1.0],
+            [0.0, f64::INFINITY],
+        ] {
+            let axis = Axis::new(values, [0.0, 100.0], Spread::Linear);
+            assert!(axis.at(axis.values()[0]).is_finite());
+            assert!(!axis.ticks(20.0).is_empty());
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_with_a_minus_sign() {
+        assert_eq!(tick_label(-0.3), "\u{2212}0.3");
+        assert_eq!(tick_label(-0.0), "0");
+        assert_eq!(tick_label(3.0 * 0.1), "0.3");
+    }
+}

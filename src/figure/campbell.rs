@@ -1,0 +1,233 @@
+//! The Campbell diagram: frequencies and growth rates over rotation speed.
+
+mod band_labels;
+mod growth;
+mod speeds;
+mod waves;
+
+use band_labels::BandLabels;
+
+use super::FigureError;
+use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::render;
+use super::style::{
+    AXIS_SIZE, HAIRLINE, INK, LABEL_SIZE, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten,
+};
+use crate::report::{InstabilityKind, Report};
+
+const WIDTH: u32 = 1200;
+const HEIGHT: u32 = 900;
+/// Space left free around everything.
+const MARGIN: f64 = 28.0;
+const PLOT_LEFT: f64 = 92.0;
+const PLOT_TOP: f64 = 122.0;
+const PLOT_BOTTOM: f64 = 820.0;
+const BETWEEN_PANELS: f64 = 16.0;
+const GROWTH_HEIGHT: f64 = 236.0;
+/// Height of the lower panel when there is nothing to see in it.
+const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
+
+/// Wide spaces, which SVG does not draw together as it does ordinary ones.
+const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
+
+/// Smaller growth rates are taken for rounding errors of the eigenvalues.
+const NEGLIGIBLE_PER_S: f64 = 1e-3;
+
+/// The Campbell diagram as PNG, 1200 × 900 pixels.
+pub fn campbell_png(report: &Report) -> Result<Vec<u8>, FigureError> {
+    render::png(&campbell(report))
+}
+
+/// The Campbell diagram as SVG.
+pub fn campbell_svg(report: &Report) -> Result<String, FigureError> {
+    render::svg(&campbell(report))
+}
+
+/// What the parts of the figure share.
+struct Chart<'a> {
+    report: &'a Report,
+    speed: Axis,
+    frequency: Axis,
+    upper: Frame,
+    lower: Frame,
+}
+
+fn campbell(report: &Report) -> Sheet {
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    let chart = Chart::new(report);
+    draw_heading(&mut sheet, report);
+
+    let labels = BandLabels::new(&chart);
+    let growth_axis = growth::axis(&chart, labels.height());
+    speeds::shade_bands(&mut sheet, &chart);
+    draw_axes(&mut sheet, &chart, growth_axis.as_ref());
+    speeds::draw_critical(&mut sheet, &chart);
+    speeds::draw_operating(&mut sheet, &chart);
+
+    waves::draw_branches(&mut sheet, &chart);
+    waves::draw_measured(&mut sheet, &chart);
+    speeds::dot_critical(&mut sheet, &chart);
+    match growth_axis {
+        Some(axis) => growth::draw(&mut sheet, &chart, &axis),
+        None => growth::say_stable(&mut sheet, &chart),
+    }
+    labels.draw(&mut sheet);
+    waves::label_branches(&mut sheet, &chart);
+    speeds::label_operating(&mut sheet, &chart);
+    draw_notes(&mut sheet, &chart);
+    sheet
+}
+
+impl<'a> Chart<'a> {
+    fn new(report: &'a Report) -> Self {
+        let right = f64::from(WIDTH) - MARGIN - waves::end_label_room(report);
+        let growth_height = match growth::is_worth_showing(report) {
+            true => GROWTH_HEIGHT,
+            false => EMPTY_GROWTH_HEIGHT,
+        };
+        let between = PLOT_BOTTOM - growth_height;
+        let panel = |top, bottom| Frame {
+            left: PLOT_LEFT,
+            top,
+            right,
+            bottom,
+        };
+        let upper = panel(PLOT_TOP, between - BETWEEN_PANELS);
+        let lower = panel(between, PLOT_BOTTOM);
+
+        let speeds = [report.campbell.from_rpm, report.campbell.to_rpm];
+        let frequencies = [0.0, waves::highest_shown_hz(report)];
+        Self {
+            report,
+            speed: Axis::new(speeds, [PLOT_LEFT, right], Spread::Linear),
+            frequency: Axis::new(frequencies, [upper.bottom, upper.top], Spread::Linear),
+            upper,
+            lower,
+        }
+    }
+}
+
+fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
+    draw_vertical(
+        sheet,
+        &chart.frequency,
+        &chart.upper,
+        "Im λ / 2π\u{2003}[Hz]",
+    );
+    if let Some(axis) = growth {
+        draw_vertical(sheet, axis, &chart.lower, growth::axis_name(axis));
+    }
+    for panel in [&chart.upper, &chart.lower] {
+        let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
+        sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
+    }
+    draw_horizontal(sheet, &chart.speed, chart.upper.bottom, false);
+    draw_horizontal(sheet, &chart.speed, chart.lower.bottom, true);
+    let middle = (chart.upper.left + chart.upper.right) / 2.0;
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([middle, PLOT_BOTTOM + 42.0], letters, name);
+}
+
+fn draw_heading(sheet: &mut Sheet, report: &Report) {
+    let room = f64::from(WIDTH) - 2.0 * MARGIN;
+    let title = Lettering {
+        weight: Weight::SemiBold,
+        ..Lettering::regular(TITLE_SIZE, INK, Anchor::Start)
+    };
+    let name = shorten(&report.scene.name, TITLE_SIZE, Weight::SemiBold, room);
+    sheet.text([MARGIN, 38.0], title, &name);
+    let subtitle = Lettering::regular(SUBTITLE_SIZE, QUIET, Anchor::Start);
+    let facts = shorten(&key_facts(report), SUBTITLE_SIZE, Weight::Regular, room);
+    sheet.text([MARGIN, 61.0], subtitle, &facts);
+}
+
+fn key_facts(report: &Report) -> String {
+    let blade = &report.scene.blade;
+    let [diameter, thickness] = [blade.outer_diameter_m, blade.thickness_m].map(millimetres);
+    let size = format!("{diameter} mm diameter, {thickness} mm thick");
+    let guides = count(report.scene.guides.len(), "guide", "guides");
+    let critical = match report.critical_speeds.first() {
+        Some(lowest) => format!("lowest critical speed {:.0} rpm", lowest.rpm),
+        None => "no critical speed".to_owned(),
+    };
+    let bands = count(
+        report.instabilities.len(),
+        "band of instability",
+        "bands of instability",
+    );
+    [size, guides, critical, bands, verdict(report)].join(BETWEEN_FACTS)
+}
+
+fn verdict(report: &Report) -> String {
+    let is_flutter = |kind| kind == InstabilityKind::Flutter;
+    let merges = report
+        .instabilities
+        .iter()
+        .any(|band| is_flutter(band.kind));
+    let last = report.campbell.to_rpm;
+    match report.flutter_speed_rpm {
+        Some(rpm) => format!("flutter from {rpm:.0} rpm"),
+        // Slow flutter is in the figure, so the verdict must not deny it.
+        None if merges => {
+            let threshold = report.flutter_threshold_per_s;
+            format!("no flutter above {threshold} 1/s up to {last:.0} rpm")
+        }
+        None => format!("no flutter up to {last:.0} rpm"),
+    }
+}
+
+fn millimetres(metres: f64) -> f64 {
+    (metres * 1e5).round() / 100.0
+}
+
+fn count(number: usize, one: &str, many: &str) -> String {
+    match number {
+        0 => format!("no {many}"),
+        1 => format!("1 {one}"),
+        _ => format!("{number} {many}"),
+    }
+}
+
+/// One line at the foot that explains the marks that are not labelled in place.
+fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let baseline = f64::from(HEIGHT) - 14.0;
+    let mut x = PLOT_LEFT;
+    let shown = waves::marks_shown(chart);
+    if let Some(source) = shown.measured {
+        waves::draw_measured_mark(sheet, [x + 4.0, baseline - 4.0]);
+        x += 14.0;
+        let text = shorten(source, LABEL_SIZE, Weight::Regular, 420.0);
+        sheet.text([x, baseline], letters, &text);
+        x += super::style::text_width(&text, LABEL_SIZE, Weight::Regular) + 24.0;
+    }
+    let explained = [
+        (
+            shown.reflected,
+            "dashed: reflected, a backward wave past its critical speed",
+        ),
+        (shown.unstable, "thick: unstable"),
+        (
+            growth::hides_decay(chart.report),
+            "decay of the mirror images not shown",
+        ),
+    ];
+    let notes: Vec<_> = explained
+        .iter()
+        .filter(|(shown, _)| *shown)
+        .map(|(_, note)| *note)
+        .collect();
+    let room = f64::from(WIDTH) - MARGIN - x;
+    let notes = shorten(
+        &notes.join(BETWEEN_FACTS),
+        LABEL_SIZE,
+        Weight::Regular,
+        room,
+    );
+    sheet.text([x, baseline], letters, &notes);
+}
+
+#[cfg(test)]
+mod tests;

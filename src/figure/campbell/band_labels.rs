@@ -1,0 +1,172 @@
+//! Labels of the bands of instability, in rows at the top of the lower panel.
+
+use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::style::{HAIRLINE, LABEL_SIZE, PAPER};
+use super::speeds::{NARROW, band_places, line_colour, operating_place};
+use super::{Chart, MARGIN, WIDTH};
+use crate::report::{InstabilityEntry, InstabilityKind};
+
+const ROWS: usize = 4;
+const ROW_HEIGHT: f64 = 16.0;
+/// Between a band and the label beside it, bridged by a short line.
+const FLAG_GAP: f64 = 8.0;
+
+/// A label and where it goes.
+struct Placed {
+    at: [f64; 2],
+    letters: Lettering,
+    frame: Frame,
+    row: usize,
+    /// How much the eye must do to find the band.
+    burden: usize,
+    label: String,
+}
+
+/// Labels of the bands with their places.
+pub struct BandLabels {
+    placed: Vec<Placed>,
+    /// Thin lines that are not to run through the labels of others.
+    thin: Vec<[f64; 2]>,
+}
+
+impl BandLabels {
+    /// Finds a place for each label, the fastest growing band first; a label for
+    /// which there is no room is left out.
+    pub fn new(chart: &Chart) -> Self {
+        let bands = &chart.report.instabilities;
+        let mut order: Vec<&InstabilityEntry> = bands.iter().collect();
+        order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
+        let places = bands.iter().filter_map(|band| band_places(chart, band));
+        let mut thin: Vec<_> = places
+            .filter(|[left, right]| right - left < NARROW)
+            .collect();
+        thin.extend(operating_place(chart).map(|x| [x - 0.5, x + 0.5]));
+        let placed = Vec::new();
+        let mut labels = Self { placed, thin };
+        for band in order {
+            labels.placed.extend(labels.best_place(chart, band));
+        }
+        labels
+    }
+
+    /// The best free place: few thin lines crossed, high up, next to its band.
+    fn best_place(&self, chart: &Chart, band: &InstabilityEntry) -> Option<Placed> {
+        let own = band_places(chart, band)?;
+        let free = |place: &Placed| {
+            let Frame { left, right, .. } = place.frame;
+            let inside = left >= chart.lower.left + 4.0 && right <= f64::from(WIDTH) - MARGIN;
+            inside
+                && !self
+                    .placed
+                    .iter()
+                    .any(|other| other.frame.overlaps(&place.frame))
+        };
+        let cost = |place: &Placed| {
+            let foreign = self.thin.iter().filter(|line| **line != own);
+            let crossed = foreign.filter(|line| crosses(line, &place.frame)).count();
+            2 * crossed + place.row + place.burden
+        };
+        let candidates = (0..ROWS).flat_map(|row| places_in_row(chart, band, own, row));
+        candidates.filter(free).min_by_key(cost)
+    }
+
+    /// Room that the labels take at the top of the panel.
+    pub fn height(&self) -> f64 {
+        let rows = self.placed.iter().map(|place| place.row + 1).max();
+        8.0 + rows.unwrap_or(0) as f64 * ROW_HEIGHT
+    }
+
+    pub fn draw(&self, sheet: &mut Sheet) {
+        for Placed {
+            at,
+            letters,
+            frame,
+            label,
+            ..
+        } in &self.placed
+        {
+            for line in self.thin.iter().filter(|line| crosses(line, frame)) {
+                let [left, right] = [line[0] - 1.0, line[1] + 1.0];
+                sheet.fill(
+                    Frame {
+                        left,
+                        right,
+                        ..*frame
+                    },
+                    PAPER,
+                );
+            }
+            let towards_band = match letters.anchor {
+                Anchor::Start => -1.0,
+                Anchor::End => 1.0,
+                Anchor::Middle => 0.0,
+            };
+            let [x, y] = [at[0], at[1] - 0.36 * LABEL_SIZE];
+            let bridge = [2.0, FLAG_GAP].map(|away| [x + towards_band * away, y]);
+            sheet.line(bridge, Stroke::solid(letters.colour, HAIRLINE));
+            sheet.text(*at, *letters, label);
+        }
+    }
+}
+
+fn crosses([left, right]: &[f64; 2], frame: &Frame) -> bool {
+    *left < frame.right && frame.left < *right
+}
+
+/// To the right of the band like a flag, to its left, or over it.
+fn places_in_row(
+    chart: &Chart,
+    band: &InstabilityEntry,
+    [left, right]: [f64; 2],
+    row: usize,
+) -> [Placed; 3] {
+    let baseline = chart.lower.top + 13.0 + row as f64 * ROW_HEIGHT;
+    let sides = [
+        (right + FLAG_GAP, Anchor::Start),
+        (left - FLAG_GAP, Anchor::End),
+        ((left + right) / 2.0, Anchor::Middle),
+    ];
+    sides.map(|(x, anchor)| {
+        let label = band_label(chart, band);
+        let letters = Lettering::regular(LABEL_SIZE, line_colour(band.kind), anchor);
+        let frame = text_frame([x, baseline], &letters, &label);
+        let fits_inside = frame.right - frame.left < right - left;
+        let burden = match anchor {
+            Anchor::Start if fits_inside => 2,
+            Anchor::Start => 0,
+            Anchor::End => 1,
+            Anchor::Middle if fits_inside => 0,
+            Anchor::Middle => 3,
+        };
+        Placed {
+            at: [x, baseline],
+            letters,
+            frame: Frame {
+                left: frame.left - 3.0,
+                right: frame.right + 3.0,
+                ..frame
+            },
+            row,
+            burden,
+            label,
+        }
+    })
+}
+
+fn band_label(chart: &Chart, band: &InstabilityEntry) -> String {
+    let kind = match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
+    };
+    let [first, last] = chart.speed.values();
+    let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
+    if !band.closed && band.to_rpm >= last && band.from_rpm > first {
+        format!("{kind} from {from}")
+    } else if !band.closed && band.from_rpm <= first && band.to_rpm < last {
+        format!("{kind} to {to}")
+    } else if from == to {
+        format!("{kind} {from}")
+    } else {
+        format!("{kind} {from}–{to}")
+    }
+}

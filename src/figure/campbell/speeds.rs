@@ -1,0 +1,170 @@
+//! What belongs to single speeds: bands, critical speeds, the operating speed.
+
+use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::declutter::{Cluster, join_close};
+use super::super::style::{
+    Colour, DIVERGENCE, DIVERGENCE_SHADE, DIVERGENCE_STREAK, FINE_DASH, FLUTTER, FLUTTER_SHADE,
+    FLUTTER_STREAK, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, Weight, text_width,
+};
+use super::{Chart, MARGIN, WIDTH};
+use crate::report::{InstabilityEntry, InstabilityKind};
+
+/// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
+pub const NARROW: f64 = 4.0;
+const STREAK_WIDTH: f64 = 1.5;
+const CRITICAL_BASELINE: f64 = 90.0;
+
+pub fn line_colour(kind: InstabilityKind) -> Colour {
+    match kind {
+        InstabilityKind::Divergence => DIVERGENCE,
+        InstabilityKind::Flutter => FLUTTER,
+    }
+}
+
+fn shade(kind: InstabilityKind, narrow: bool) -> Colour {
+    match (kind, narrow) {
+        (InstabilityKind::Divergence, false) => DIVERGENCE_SHADE,
+        (InstabilityKind::Divergence, true) => DIVERGENCE_STREAK,
+        (InstabilityKind::Flutter, false) => FLUTTER_SHADE,
+        (InstabilityKind::Flutter, true) => FLUTTER_STREAK,
+    }
+}
+
+/// Left and right edge of a band on the sheet, or `None` outside the sweep.
+pub fn band_places(chart: &Chart, band: &InstabilityEntry) -> Option<[f64; 2]> {
+    let [first, last] = chart.speed.values();
+    let (from, to) = (band.from_rpm.max(first), band.to_rpm.min(last));
+    if band.from_rpm.is_nan() || band.to_rpm.is_nan() || from > to {
+        return None;
+    }
+    let [left, right] = [from, to].map(|rpm| chart.speed.at(rpm));
+    let missing = (STREAK_WIDTH - (right - left)).max(0.0);
+    Some([left - missing / 2.0, right + missing / 2.0])
+}
+
+pub fn shade_bands(sheet: &mut Sheet, chart: &Chart) {
+    // Streaks last: a wide band must not hide a narrow one within it.
+    for narrow in [false, true] {
+        for band in &chart.report.instabilities {
+            let Some([left, right]) = band_places(chart, band) else {
+                continue;
+            };
+            if (right - left < NARROW) != narrow {
+                continue;
+            }
+            for panel in [chart.upper, chart.lower] {
+                sheet.fill(
+                    Frame {
+                        left,
+                        right,
+                        ..panel
+                    },
+                    shade(band.kind, narrow),
+                );
+            }
+        }
+    }
+}
+
+/// Critical speeds within the sweep, ascending.
+fn critical_shown(chart: &Chart) -> Vec<f64> {
+    let all = chart.report.critical_speeds.iter().map(|entry| entry.rpm);
+    let mut shown: Vec<f64> = all.filter(|rpm| chart.speed.shows(*rpm)).collect();
+    shown.sort_by(f64::total_cmp);
+    shown
+}
+
+pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
+    let speeds = critical_shown(chart);
+    let dashed = Stroke {
+        dash: Some(FINE_DASH),
+        ..Stroke::solid(QUIET, HAIRLINE)
+    };
+    for &rpm in &speeds {
+        let x = chart.speed.at(rpm);
+        sheet.line(
+            [[x, chart.upper.bottom], [x, CRITICAL_BASELINE + 5.0]],
+            dashed,
+        );
+    }
+    label_critical(sheet, chart, &speeds);
+}
+
+/// Dots on the axis, to be drawn on top of the branches.
+pub fn dot_critical(sheet: &mut Sheet, chart: &Chart) {
+    for rpm in critical_shown(chart) {
+        sheet.disc([chart.speed.at(rpm), chart.upper.bottom], 3.5, INK);
+    }
+}
+
+fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
+    let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
+    let gap = 12.0;
+    let width = |label: &str| text_width(label, LABEL_SIZE, Weight::Regular) + gap;
+    let ends = [MARGIN, f64::from(WIDTH) - MARGIN];
+    let clusters = join_close(speeds, |rpm| chart.speed.at(rpm), width, ends);
+    for Cluster { centre, label, .. } in &clusters {
+        sheet.text([*centre, CRITICAL_BASELINE], letters, label);
+    }
+    let Some(first) = clusters.first() else {
+        return;
+    };
+    let caption = "critical [rpm]";
+    if MARGIN + width(caption) < first.centre - width(&first.label) / 2.0 {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+        sheet.text([MARGIN, CRITICAL_BASELINE], letters, caption);
+    }
+}
+
+/// Place of the operating speed on the sheet.
+pub fn operating_place(chart: &Chart) -> Option<f64> {
+    let rpm = chart.report.scene.operating_rpm?;
+    chart.speed.shows(rpm).then(|| chart.speed.at(rpm))
+}
+
+pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
+    if let Some(x) = operating_place(chart) {
+        for panel in [&chart.upper, &chart.lower] {
+            let line = [[x, panel.top], [x, panel.bottom]];
+            sheet.line(line, Stroke::solid(INK, HAIRLINE));
+        }
+    }
+}
+
+pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
+    let (Some(x), Some(rpm)) = (operating_place(chart), chart.report.scene.operating_rpm) else {
+        return;
+    };
+    let label = format!("operating {rpm:.0}");
+    let baseline = chart.upper.top + 16.0;
+    let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)].map(|(x, anchor)| {
+        let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+        let frame = text_frame([x, baseline], &letters, &label);
+        (x, letters, frame)
+    });
+    // Branches are cleared away behind the label; bands should not be.
+    let cost = |frame: &Frame| {
+        let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
+        (outside, bands_crossed(chart, frame))
+    };
+    let [first, second] = sides;
+    let (x, letters, frame) = match cost(&second.2) < cost(&first.2) {
+        true => second,
+        false => first,
+    };
+    let cleared = Frame {
+        left: frame.left - 3.0,
+        right: frame.right + 3.0,
+        ..frame
+    };
+    sheet.fill(cleared, PAPER);
+    sheet.text([x, baseline], letters, &label);
+}
+
+fn bands_crossed(chart: &Chart, frame: &Frame) -> usize {
+    let bands = chart.report.instabilities.iter();
+    let places = bands.filter_map(|band| band_places(chart, band));
+    places
+        .filter(|[left, right]| *left < frame.right && frame.left < *right)
+        .count()
+}

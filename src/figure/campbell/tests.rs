@@ -1,0 +1,121 @@
+mod sample;
+
+use super::super::canvas::{Frame, Mark, text_frame};
+use super::*;
+use crate::report::CriticalSpeedEntry;
+use sample::{busy_report, empty_report};
+
+fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
+    let text = |mark| match mark {
+        &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),
+        _ => None,
+    };
+    sheet.marks().iter().filter_map(text).collect()
+}
+
+fn assert_tidy(sheet: &Sheet) {
+    let texts = texts(sheet);
+    for (i, (frame, text)) in texts.iter().enumerate() {
+        let inside = frame.left >= 0.0
+            && frame.top >= 0.0
+            && frame.right <= f64::from(WIDTH)
+            && frame.bottom <= f64::from(HEIGHT);
+        assert!(inside, "'{text}' is cut off: {frame:?}");
+        for (other, second) in &texts[..i] {
+            assert!(!frame.overlaps(other), "'{text}' lies on '{second}'");
+        }
+    }
+}
+
+#[test]
+fn every_critical_speed_is_labelled() {
+    let svg = campbell_svg(&busy_report()).unwrap();
+    for rpm in ["1531", "1552", "2091", "2130", "2560", "2608"] {
+        assert!(svg.contains(rpm), "{rpm}");
+    }
+    assert!(svg.contains("flutter from 2392 rpm"));
+    assert!(svg.contains("operating 1800"));
+    assert!(svg.contains("read off a published table"));
+}
+
+#[test]
+fn labels_neither_overlap_nor_leave_the_sheet() {
+    assert_tidy(&campbell(&busy_report()));
+    let mut crowded = busy_report();
+    let extra = (0..60).map(|i| 1200.0 + 23.0 * f64::from(i));
+    let entry = |rpm| CriticalSpeedEntry {
+        rpm,
+        nodal_diameters: 2,
+        nodal_circles: 0,
+    };
+    crowded.critical_speeds.extend(extra.map(entry));
+    let copies = crowded.campbell.branches.clone();
+    crowded
+        .campbell
+        .branches
+        .extend(copies.iter().cloned().chain(copies.clone()));
+    crowded.scene.name = "Sägeblatt <&> ".repeat(40);
+    crowded.scene.operating_rpm = Some(3000.0);
+    assert_tidy(&campbell(&crowded));
+}
+
+#[test]
+fn svg_is_the_same_each_time_and_well_formed() {
+    let mut report = busy_report();
+    report.scene.name = "Säge <&> \"β\"\u{1} 鋸".to_owned();
+    let svg = campbell_svg(&report).unwrap();
+    assert_eq!(svg, campbell_svg(&report).unwrap());
+    assert!(svg.starts_with("<svg width=\"1200\" height=\"900\""));
+    assert!(svg.contains("Säge &lt;&amp;&gt; &quot;β&quot;  鋸"));
+    assert!(!svg.contains("NaN") && !svg.contains('\u{1}'));
+    for tag in ["svg", "text"] {
+        let opened = svg.matches(&format!("<{tag} ")).count();
+        assert_eq!(opened, svg.matches(&format!("</{tag}>")).count());
+    }
+}
+
+#[test]
+fn png_has_the_promised_size_and_is_the_same_each_time() {
+    let bytes = campbell_png(&busy_report()).unwrap();
+    let decoder = png::Decoder::new(std::io::Cursor::new(&bytes));
+    let info = decoder.read_info().unwrap();
+    assert_eq!((info.info().width, info.info().height), (WIDTH, HEIGHT));
+    assert_eq!(bytes, campbell_png(&busy_report()).unwrap());
+}
+
+#[test]
+fn an_empty_report_says_that_nothing_grows() {
+    let report = empty_report("");
+    assert_tidy(&campbell(&report));
+    let svg = campbell_svg(&report).unwrap();
+    assert!(svg.contains("no growth: stable at every speed shown"));
+    assert!(svg.contains("no critical speed"));
+}
+
+#[test]
+fn odd_input_is_drawn_without_complaint() {
+    let mut odd = busy_report();
+    odd.campbell.branches[0].rpm.truncate(1);
+    odd.campbell.branches[1].frequency_hz.clear();
+    odd.campbell.branches[2].frequency_hz[7] = f64::NAN;
+    odd.campbell.branches[3].growth_per_s[500] = f64::INFINITY;
+    odd.instabilities[0].from_rpm = f64::NAN;
+    odd.instabilities[1].peak_growth_per_s = f64::NAN;
+    odd.critical_speeds[0].rpm = f64::NAN;
+    odd.scene.operating_rpm = Some(f64::INFINITY);
+    odd.campbell.branches[4].rpm.truncate(1);
+    odd.campbell.branches[4].frequency_hz.truncate(1);
+    for (from, to, complete) in [
+        (0.0, 3000.0, 100.0),
+        (1500.0, 1500.0, 100.0),
+        (3000.0, 0.0, 0.0),
+        (f64::NAN, f64::INFINITY, f64::NAN),
+        (-1e300, 1e300, 1e-300),
+    ] {
+        odd.campbell.from_rpm = from;
+        odd.campbell.to_rpm = to;
+        odd.campbell.complete_to_hz = complete;
+        assert_tidy(&campbell(&odd));
+        assert!(!campbell_svg(&odd).unwrap().contains("\"NaN"));
+    }
+}

@@ -1,0 +1,225 @@
+//! Reports for the tests. The data are made up: waves ω² = ω₀² + sΩ² on the
+//! blade, seen from space.
+
+use crate::report::{
+    AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
+    InstabilityEntry, InstabilityKind, Report,
+};
+use crate::scene::{
+    Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
+};
+
+/// Name and facts of a blade of 864 mm, nothing found out about it.
+pub fn empty_report(name: &str) -> Report {
+    let material = Material {
+        youngs_modulus_pa: 210e9,
+        poisson_ratio: 0.3,
+        density_kg_per_m3: 7850.0,
+    };
+    let scene = SceneFile {
+        name: name.to_owned(),
+        notes: Vec::new(),
+        blade: BladeFile {
+            outer_diameter_m: 0.864,
+            inner_diameter_m: 0.15,
+            thickness_m: 0.0023,
+            teeth: None,
+            material,
+        },
+        mount: Mount::Spline {},
+        guides: Vec::new(),
+        damping: None,
+        operating_rpm: None,
+        sweep: None,
+        accuracy: Accuracy::Draft,
+        flutter_threshold_per_s: 0.25,
+        measured: None,
+    };
+    Report {
+        sawflutter: "0".to_owned(),
+        scene,
+        terms: Vec::new(),
+        modes_at_rest: Vec::new(),
+        critical_speeds: Vec::new(),
+        instabilities: Vec::new(),
+        flutter_speed_rpm: None,
+        first_merge_rpm: None,
+        flutter_threshold_per_s: 0.25,
+        operating: None,
+        accuracy: AccuracyEntry {
+            name: Accuracy::Draft,
+            max_diameters: 8,
+            radial_functions: 4,
+            degrees_of_freedom: 68,
+            estimated_relative_error: None,
+        },
+        certificate: CertificateEntry {
+            speeds_checked: 0,
+            krein_violations: 0,
+            max_backward_error: 0.0,
+        },
+        campbell: CampbellEntry {
+            from_rpm: 0.0,
+            to_rpm: 0.0,
+            complete_to_hz: 0.0,
+            branches: Vec::new(),
+        },
+        warnings: Vec::new(),
+    }
+}
+
+/// A branch of `diameters`, at rest `rest_hz`, whose backward wave stands still
+/// at `critical_rpm`.
+fn branch(
+    diameters: usize,
+    direction: Direction,
+    rest_hz: f64,
+    critical_rpm: f64,
+    rpm: &[f64],
+) -> BranchEntry {
+    let n = diameters as f64;
+    let turns = critical_rpm / 60.0;
+    let stiffening = n * n - (rest_hz / turns).powi(2);
+    let body = |rpm: &f64| (rest_hz.powi(2) + stiffening * (rpm / 60.0).powi(2)).sqrt();
+    let sign = match direction {
+        Direction::Forward => 1.0,
+        Direction::Standing => 0.0,
+        _ => -1.0,
+    };
+    let seen: Vec<f64> = rpm.iter().map(|r| body(r) + sign * n * r / 60.0).collect();
+    BranchEntry {
+        name: String::new(),
+        nodal_diameters: diameters,
+        nodal_circles: 0,
+        direction,
+        rpm: rpm.to_vec(),
+        frequency_hz: seen.iter().map(|hz| hz.abs()).collect(),
+        body_frequency_hz: rpm.iter().map(body).collect(),
+        growth_per_s: vec![0.0; rpm.len()],
+        krein_sign: seen
+            .iter()
+            .map(|hz| if *hz < 0.0 { -1 } else { 1 })
+            .collect(),
+        dominant_harmonics: vec![[diameters, 0]; rpm.len()],
+    }
+}
+
+pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> InstabilityEntry {
+    InstabilityEntry {
+        kind,
+        from_rpm: from,
+        to_rpm: to,
+        closed: true,
+        peak_rpm: (from + to) / 2.0,
+        peak_growth_per_s: growth,
+        frequency_hz: hz,
+        modes: Vec::new(),
+    }
+}
+
+/// A blade with everything that the figure knows to show.
+pub fn busy_report() -> Report {
+    let mut report = empty_report("Guided blade, 864 mm");
+    report.instabilities = bands();
+    let stand = report
+        .instabilities
+        .iter()
+        .filter(|band| band.frequency_hz == 0.0);
+    let critical = |(i, rpm)| CriticalSpeedEntry {
+        rpm,
+        nodal_diameters: 2 + i / 2,
+        nodal_circles: 0,
+    };
+    let ends = stand.flat_map(|band| [band.from_rpm, band.to_rpm]);
+    report.critical_speeds = ends.enumerate().map(critical).collect();
+    report.flutter_speed_rpm = Some(2392.0);
+    report.campbell = CampbellEntry {
+        from_rpm: 0.0,
+        to_rpm: 3000.0,
+        complete_to_hz: 160.0,
+        branches: branches(&report.instabilities),
+    };
+    report.scene.operating_rpm = Some(1800.0);
+    report.scene.guides = vec![guide(); 2];
+    report.scene.measured = Some(measured());
+    report
+}
+
+fn bands() -> Vec<InstabilityEntry> {
+    use InstabilityKind::{Divergence, Flutter};
+    vec![
+        band(Divergence, 1530.7, 1551.5, 15.0, 0.0),
+        band(Flutter, 1902.5, 1905.5, 0.1, 6.0),
+        band(Divergence, 2091.0, 2129.6, 22.0, 0.0),
+        band(Flutter, 2258.0, 2263.0, 0.5, 4.1),
+        band(Flutter, 2392.0, 2404.0, 0.6, 8.0),
+        band(Divergence, 2560.3, 2607.5, 30.0, 0.0),
+        band(Flutter, 2702.0, 2706.0, 0.4, 6.0),
+        band(Flutter, 2847.0, 2849.0, 0.2, 13.0),
+        band(Flutter, 2872.0, 2900.0, 2.7, 9.0),
+    ]
+}
+
+fn branches(bands: &[InstabilityEntry]) -> Vec<BranchEntry> {
+    use Direction::{Backward, Forward, Standing};
+    let rpm: Vec<f64> = (0..=1000).map(|i| 3.0 * f64::from(i)).collect();
+    let mut branches = vec![
+        branch(1, Backward, 7.68, 9000.0, &rpm),
+        branch(1, Forward, 7.9, 9000.0, &rpm),
+        branch(0, Standing, 8.3, 9000.0, &rpm),
+        branch(2, Backward, 13.14, 1541.0, &rpm),
+        branch(2, Forward, 13.9, 1541.0, &rpm),
+        branch(3, Backward, 25.56, 2110.0, &rpm),
+        branch(3, Forward, 25.7, 2110.0, &rpm),
+        branch(4, Backward, 42.83, 2584.0, &rpm),
+        branch(4, Forward, 43.0, 2584.0, &rpm),
+        branch(1, Standing, 46.0, 9000.0, &rpm),
+        branch(5, Backward, 67.0, 3020.0, &rpm),
+        branch(5, Forward, 68.0, 3020.0, &rpm),
+        branch(6, Backward, 70.5, 3300.0, &rpm),
+    ];
+    for (diverging, band) in [(3, 0), (5, 2), (7, 5)] {
+        let_diverge(&mut branches[diverging], &bands[band]);
+    }
+    branches
+}
+
+fn let_diverge(branch: &mut BranchEntry, band: &InstabilityEntry) {
+    let half = (band.to_rpm - band.from_rpm) / 2.0;
+    for i in 0..branch.rpm.len() {
+        let off = (branch.rpm[i] - band.peak_rpm) / half;
+        if off.abs() < 1.0 {
+            branch.frequency_hz[i] = 0.0;
+            branch.growth_per_s[i] = band.peak_growth_per_s * (1.0 - off * off).sqrt();
+            branch.krein_sign[i] = 0;
+        }
+    }
+}
+
+fn guide() -> GuideFile {
+    GuideFile {
+        radius_m: 0.4,
+        angle_deg: 10.0,
+        radial_length_m: 0.1,
+        tangential_length_m: 0.1,
+        stiffness_n_per_m: 1e5,
+        damping_n_s_per_m: 0.0,
+    }
+}
+
+fn measured() -> Measured {
+    let rows = [
+        (0.0, [9.0, 10.5, 26.0, 43.0]),
+        (1000.0, [3.0, 13.5, 26.5, 40.5]),
+        (1750.0, [0.0, 4.0, 13.5, 26.0]),
+        (2500.0, [9.0, 5.0, 0.0, 5.0]),
+    ];
+    let row = |(rpm, frequencies): (f64, [f64; 4])| MeasuredRow {
+        rpm,
+        frequencies_hz: frequencies.to_vec(),
+    };
+    Measured {
+        source: "read off a published table".to_owned(),
+        rows: rows.map(row).to_vec(),
+    }
+}

@@ -1,0 +1,278 @@
+//! The upper panel: branches with their labels, and measured points.
+
+use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
+use super::super::clip::clip;
+use super::super::declutter::{Wish, push_apart};
+use super::super::style::{
+    BACKWARD, CURVE, Colour, DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, STANDING,
+    STRONG_CURVE, Weight, shorten, text_width, tint,
+};
+use super::{Chart, NEGLIGIBLE_PER_S};
+use crate::report::{BranchEntry, Direction, Report};
+
+/// From the end of a branch to its label.
+const LABEL_GAP: f64 = 16.0;
+const LONGEST_LABEL: f64 = 150.0;
+const LINE_HEIGHT: f64 = 15.0;
+/// A label further from its branch would be taken for that of another, even
+/// though a leader joins the two.
+const FARTHEST_LABEL: f64 = 72.0;
+/// The same for the labels above the panel, which have no leader.
+const FARTHEST_EXIT_LABEL: f64 = 36.0;
+
+pub fn direction_colour(direction: Direction) -> Colour {
+    match direction {
+        Direction::Forward => FORWARD,
+        Direction::Backward | Direction::Reflected => BACKWARD,
+        Direction::Standing => STANDING,
+    }
+}
+
+fn short_label(branch: &BranchEntry) -> String {
+    let direction = match branch.direction {
+        Direction::Forward => "forward",
+        Direction::Backward => "backward",
+        Direction::Reflected => "reflected",
+        Direction::Standing => "standing",
+    };
+    let label = match branch.nodal_circles {
+        0 => format!("{} {direction}", branch.nodal_diameters),
+        circles => format!("{}/{circles} {direction}", branch.nodal_diameters),
+    };
+    shorten(&label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
+}
+
+/// Room to the right of the plot.
+pub fn end_label_room(report: &Report) -> f64 {
+    let widths = report
+        .campbell
+        .branches
+        .iter()
+        .map(|branch| text_width(&short_label(branch), LABEL_SIZE, Weight::Regular));
+    LABEL_GAP + widths.fold(40.0, f64::max)
+}
+
+/// Upper end of the frequency axis: high enough for the branches that come down
+/// to zero, for the bands and the measured points, and not higher, since forward
+/// waves would press everything that matters onto the axis.
+pub fn highest_shown_hz(report: &Report) -> f64 {
+    const HEADROOM: f64 = 1.25;
+    const LOWEST_BRANCHES: usize = 8;
+    let branches = &report.campbell.branches;
+    let first = |branch: &BranchEntry| branch.frequency_hz.first().copied();
+    let lowest = branches.iter().take(LOWEST_BRANCHES).filter_map(first);
+    let critical = branches
+        .iter()
+        .filter(|b| comes_to_zero(b))
+        .filter_map(first);
+    let bands = report.instabilities.iter().map(|band| band.frequency_hz);
+    let measured = report.scene.measured.iter().flat_map(|m| &m.rows);
+    let measured = measured.flat_map(|row| row.frequencies_hz.iter().copied());
+    let wanted = HEADROOM * greatest(lowest.chain(critical).chain(bands).chain(measured));
+
+    let complete = report.campbell.complete_to_hz;
+    let bound = if complete > 0.0 {
+        complete
+    } else {
+        f64::INFINITY
+    };
+    let top = wanted.min(bound);
+    if top > 0.0 { top } else { 1.0 }
+}
+
+fn greatest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|v| v.is_finite()).fold(0.0, f64::max)
+}
+
+fn comes_to_zero(branch: &BranchEntry) -> bool {
+    let start = branch.frequency_hz.first().copied().unwrap_or(0.0);
+    branch.frequency_hz.iter().any(|&hz| hz <= 0.02 * start)
+}
+
+/// What a stretch of a branch looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stretch {
+    Plain,
+    Reflected,
+    Unstable,
+}
+
+/// Stretches of equal look, each ending where the next begins.
+fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Stretch, Vec<[f64; 2]>)> {
+    let points = branch.rpm.iter().zip(&branch.frequency_hz);
+    let points: Vec<_> = points
+        .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
+        .collect();
+    let mut all: Vec<(Stretch, Vec<[f64; 2]>)> = Vec::new();
+    for (i, segment) in points.windows(2).enumerate() {
+        let look = look_of_segment(branch, i);
+        match all.last_mut() {
+            Some((last, line)) if *last == look => line.push(segment[1]),
+            _ => all.push((look, segment.to_vec())),
+        }
+    }
+    all
+}
+
+fn look_of_segment(branch: &BranchEntry, i: usize) -> Stretch {
+    let at_an_end = |holds: &dyn Fn(usize) -> bool| holds(i) || holds(i + 1);
+    let grows = |i: usize| {
+        branch
+            .growth_per_s
+            .get(i)
+            .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
+    };
+    let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
+    if at_an_end(&grows) {
+        Stretch::Unstable
+    } else if at_an_end(&reflected) {
+        Stretch::Reflected
+    } else {
+        Stretch::Plain
+    }
+}
+
+pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
+    // From the highest down, so that the lowest branches lie on top.
+    for branch in chart.report.campbell.branches.iter().rev() {
+        let colour = direction_colour(branch.direction);
+        if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
+            dot(sheet, chart, *rpm, *hz, colour);
+        }
+        for (look, line) in stretches(branch, chart) {
+            let stroke = match look {
+                Stretch::Plain => Stroke::solid(colour, CURVE),
+                Stretch::Reflected => Stroke {
+                    dash: Some(DASH),
+                    ..Stroke::solid(colour, CURVE)
+                },
+                Stretch::Unstable => Stroke::solid(colour, STRONG_CURVE),
+            };
+            for part in clip(&line, &chart.upper) {
+                sheet.line(part, stroke);
+            }
+        }
+    }
+}
+
+/// A branch that is known at a single speed.
+fn dot(sheet: &mut Sheet, chart: &Chart, rpm: f64, hz: f64, colour: Colour) {
+    if chart.speed.shows(rpm) && chart.frequency.shows(hz) {
+        let at = [chart.speed.at(rpm), chart.frequency.at(hz)];
+        sheet.disc(at, 2.0 * CURVE, colour);
+    }
+}
+
+pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
+    let branches = &chart.report.campbell.branches;
+    let mut on_the_right = Vec::new();
+    let mut above = Vec::new();
+    for branch in branches {
+        let points = branch.rpm.iter().zip(&branch.frequency_hz);
+        let line: Vec<_> = points
+            .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
+            .collect();
+        let parts = clip(&line, &chart.upper);
+        let Some(&[x, y]) = parts.last().and_then(|part| part.last()) else {
+            continue;
+        };
+        if x > chart.upper.right - 2.0 {
+            on_the_right.push((branch, y));
+        } else if y < chart.upper.top + 0.5 {
+            above.push((branch, x));
+        }
+    }
+    label_ends(sheet, chart, &on_the_right);
+    label_exits(sheet, chart, &above);
+}
+
+fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
+    let wish = |&(_, centre): &(_, f64)| Wish {
+        centre,
+        length: LINE_HEIGHT,
+    };
+    let wishes: Vec<_> = ends.iter().map(wish).collect();
+    let room = [chart.upper.top, chart.upper.bottom + LINE_HEIGHT];
+    let centres = push_apart(&wishes, room[0], room[1]);
+    for ((branch, end), centre) in ends.iter().zip(centres) {
+        let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
+            continue;
+        };
+        let colour = direction_colour(branch.direction);
+        let (right, label_left) = (chart.upper.right, chart.upper.right + LABEL_GAP);
+        if (centre - end).abs() > 3.0 {
+            let leader = [[right + 1.0, *end], [label_left - 2.0, centre]];
+            sheet.line(leader, Stroke::solid(tint(colour, 0.5), HAIRLINE));
+        }
+        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
+        let at = [label_left, centre + 0.36 * LABEL_SIZE];
+        sheet.text(at, letters, &short_label(branch));
+    }
+}
+
+/// Labels of the branches that leave through the upper edge, above it.
+fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) {
+    let wish = |&(branch, centre): &(&BranchEntry, f64)| {
+        let length = text_width(&short_label(branch), LABEL_SIZE, Weight::Regular) + 8.0;
+        Wish { centre, length }
+    };
+    let wishes: Vec<_> = exits.iter().map(wish).collect();
+    let centres = push_apart(&wishes, chart.upper.left, chart.upper.right);
+    for ((branch, exit), centre) in exits.iter().zip(centres) {
+        let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
+            continue;
+        };
+        let colour = direction_colour(branch.direction);
+        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
+        let at = [centre, chart.upper.top - 6.0];
+        let label = short_label(branch);
+        // Dashed lines of critical speeds pass here.
+        sheet.fill(text_frame(at, &letters, &label), PAPER);
+        sheet.text(at, letters, &label);
+    }
+}
+
+pub fn draw_measured(sheet: &mut Sheet, chart: &Chart) {
+    for at in measured_places(chart) {
+        draw_measured_mark(sheet, at);
+    }
+}
+
+pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
+    sheet.ring(at, 3.0, Stroke::solid(INK, 1.2), PAPER);
+}
+
+fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
+    let rows = chart.report.scene.measured.iter().flat_map(|m| &m.rows);
+    let points = rows.flat_map(|row| row.frequencies_hz.iter().map(|&hz| (row.rpm, hz)));
+    points
+        .filter(|&(rpm, hz)| chart.speed.shows(rpm) && chart.frequency.shows(hz))
+        .map(|(rpm, hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
+        .collect()
+}
+
+/// Which marks occur that need a note.
+pub struct MarksShown<'a> {
+    pub measured: Option<&'a str>,
+    pub reflected: bool,
+    pub unstable: bool,
+}
+
+pub fn marks_shown<'a>(chart: &Chart<'a>) -> MarksShown<'a> {
+    let occurs = |wanted: Stretch| {
+        let branches = &chart.report.campbell.branches;
+        branches.iter().any(|branch| {
+            let found = stretches(branch, chart);
+            let mut found = found.iter().filter(|(look, _)| *look == wanted);
+            found.any(|(_, line)| !clip(line, &chart.upper).is_empty())
+        })
+    };
+    let measured = chart.report.scene.measured.as_ref();
+    MarksShown {
+        measured: measured
+            .map(|m| m.source.as_str())
+            .filter(|_| !measured_places(chart).is_empty()),
+        reflected: occurs(Stretch::Reflected),
+        unstable: occurs(Stretch::Unstable),
+    }
+}

@@ -1,0 +1,216 @@
+//! The sheet that a figure is laid out on: marks in figure units, the origin at
+//! the upper left.
+//!
+//! A figure that is a list of marks looks the same in PNG and SVG, and a test can
+//! ask it whether two labels overlap.
+
+use super::style::{Colour, Weight, one_line, text_width};
+
+/// Where a text stands relative to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// The text begins there.
+    Start,
+    /// The text is centred there.
+    Middle,
+    /// The text ends there.
+    End,
+}
+
+/// How a line is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// Colour.
+    pub colour: Colour,
+    /// Width.
+    pub width: f64,
+    /// Lengths drawn and left out, or solid.
+    pub dash: Option<[f64; 2]>,
+}
+
+impl Stroke {
+    /// A line without gaps.
+    pub fn solid(colour: Colour, width: f64) -> Self {
+        let dash = None;
+        Self {
+            colour,
+            width,
+            dash,
+        }
+    }
+}
+
+/// How a text is set.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lettering {
+    /// Height of the em.
+    pub em: f64,
+    /// Weight.
+    pub weight: Weight,
+    /// Colour.
+    pub colour: Colour,
+    /// Side of the point that the text is on.
+    pub anchor: Anchor,
+    /// Read from below to above.
+    pub upright: bool,
+}
+
+impl Lettering {
+    /// Regular, level letters.
+    pub fn regular(em: f64, colour: Colour, anchor: Anchor) -> Self {
+        Self {
+            em,
+            weight: Weight::Regular,
+            colour,
+            anchor,
+            upright: false,
+        }
+    }
+}
+
+/// A rectangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Left edge.
+    pub left: f64,
+    /// Upper edge.
+    pub top: f64,
+    /// Right edge.
+    pub right: f64,
+    /// Lower edge.
+    pub bottom: f64,
+}
+
+impl Frame {
+    /// Whether the two have a point in common.
+    pub fn overlaps(&self, other: &Frame) -> bool {
+        self.left < other.right
+            && other.left < self.right
+            && self.top < other.bottom
+            && other.top < self.bottom
+    }
+}
+
+/// One thing drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mark {
+    /// A line through points.
+    Line(Vec<[f64; 2]>, Stroke),
+    /// A filled rectangle.
+    Fill(Frame, Colour),
+    /// A filled circle: centre and radius.
+    Disc([f64; 2], f64, Colour),
+    /// A line of text, its point on the baseline.
+    Text([f64; 2], Lettering, String),
+}
+
+/// Marks in the order in which they are drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    width: u32,
+    height: u32,
+    marks: Vec<Mark>,
+}
+
+impl Sheet {
+    /// An empty sheet.
+    pub fn new(width: u32, height: u32) -> Self {
+        let marks = Vec::new();
+        Self {
+            width,
+            height,
+            marks,
+        }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// What is drawn.
+    pub fn marks(&self) -> &[Mark] {
+        &self.marks
+    }
+
+    /// Draws a line; points that are no numbers are passed over.
+    pub fn line(&mut self, points: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke) {
+        let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
+        if points.len() >= 2 {
+            self.marks.push(Mark::Line(points, stroke));
+        }
+    }
+
+    /// Fills a rectangle.
+    pub fn fill(&mut self, frame: Frame, colour: Colour) {
+        let corners = self
+            .held([frame.left, frame.top])
+            .zip(self.held([frame.right, frame.bottom]));
+        if let Some(([left, top], [right, bottom])) = corners {
+            let frame = Frame {
+                left,
+                top,
+                right,
+                bottom,
+            };
+            self.marks.push(Mark::Fill(frame, colour));
+        }
+    }
+
+    /// Draws a filled circle.
+    pub fn disc(&mut self, centre: [f64; 2], radius: f64, colour: Colour) {
+        if let Some(centre) = self.held(centre) {
+            self.marks.push(Mark::Disc(centre, radius, colour));
+        }
+    }
+
+    /// Draws a circle filled with `inside`.
+    pub fn ring(&mut self, centre: [f64; 2], radius: f64, stroke: Stroke, inside: Colour) {
+        self.disc(centre, radius + stroke.width / 2.0, stroke.colour);
+        self.disc(centre, radius - stroke.width / 2.0, inside);
+    }
+
+    /// Writes one line of text, its point on the baseline.
+    pub fn text(&mut self, at: [f64; 2], lettering: Lettering, text: &str) {
+        let text = one_line(text);
+        if let (Some(at), false) = (self.held(at), text.is_empty()) {
+            self.marks.push(Mark::Text(at, lettering, text));
+        }
+    }
+
+    /// The point, held near the sheet because renderers count in whole numbers.
+    fn held(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+        let (width, height) = (f64::from(self.width), f64::from(self.height));
+        (x.is_finite() && y.is_finite())
+            .then(|| [x.clamp(-width, 2.0 * width), y.clamp(-height, 2.0 * height)])
+    }
+}
+
+/// The room that a text takes, from the tops of its letters to below them.
+pub fn text_frame([x, y]: [f64; 2], lettering: &Lettering, text: &str) -> Frame {
+    let length = text_width(text, lettering.em, lettering.weight);
+    let before = match lettering.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => length / 2.0,
+        Anchor::End => length,
+    };
+    let (ascent, descent) = (0.76 * lettering.em, 0.22 * lettering.em);
+    if lettering.upright {
+        let bottom = y + before;
+        let (left, right) = (x - ascent, x + descent);
+        return Frame {
+            left,
+            top: bottom - length,
+            right,
+            bottom,
+        };
+    }
+    let left = x - before;
+    let (top, bottom) = (y - ascent, y + descent);
+    Frame {
+        left,
+        top,
+        right: left + length,
+        bottom,
+    }
+}

@@ -1,0 +1,29 @@
+//! Figures, drawn from a [`Report`](crate::report::Report) alone.
+//!
+//! A figure is first laid out on a [`Sheet`](canvas::Sheet), a list of marks in
+//! figure units, and then rendered to PNG bytes or an SVG string. Nothing here
+//! writes files.
+
+mod axis;
+mod campbell;
+mod canvas;
+mod clip;
+mod declutter;
+mod render;
+mod style;
+
+pub use campbell::{campbell_png, campbell_svg};
+
+/// Why a figure could not be rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum FigureError {
+    /// A font that comes with the program did not load.
+    #[error("the built-in font {0} cannot be read")]
+    Font(&'static str),
+    /// The drawing library refused a mark.
+    #[error("a figure cannot be drawn")]
+    Draw(#[source] Box<dyn std::error::Error + Send + Sync>),
+    /// The finished picture could not be packed as PNG.
+    #[error("a figure cannot be packed as PNG")]
+    Png(#[from] png::EncodingError),
+}

@@ -1,0 +1,177 @@
+//! The look that all figures share: colours, sizes and letters.
+
+use std::sync::OnceLock;
+
+use plotters::style::{FontDesc, FontFamily, FontStyle, RGBColor, register_font};
+
+use super::FigureError;
+
+/// A colour of the palette.
+pub type Colour = RGBColor;
+
+/// Background.
+pub const PAPER: Colour = RGBColor(255, 255, 255);
+/// Titles, the zero line, whatever must be read first.
+pub const INK: Colour = RGBColor(32, 36, 42);
+/// Axis lines, dashed guide lines and numbers at the ticks.
+pub const QUIET: Colour = RGBColor(105, 111, 120);
+/// Grid lines.
+pub const GRID: Colour = RGBColor(233, 235, 238);
+
+// Blue against red and violet against amber stay apart under the common kinds of
+// colour blindness; each pair also differs in lightness.
+/// Waves that run with the rotation.
+pub const FORWARD: Colour = RGBColor(31, 95, 168);
+/// Waves that run against the rotation.
+pub const BACKWARD: Colour = RGBColor(192, 69, 45);
+/// Waves without direction.
+pub const STANDING: Colour = RGBColor(118, 124, 133);
+/// Growth without oscillation: lines and letters.
+pub const DIVERGENCE: Colour = RGBColor(104, 71, 153);
+/// Growing oscillation: lines and letters.
+pub const FLUTTER: Colour = RGBColor(163, 98, 0);
+
+/// Bands of divergence.
+pub const DIVERGENCE_SHADE: Colour = RGBColor(226, 217, 241);
+/// Bands of flutter.
+pub const FLUTTER_SHADE: Colour = RGBColor(255, 229, 173);
+/// Bands of divergence too narrow for their shade to be seen.
+pub const DIVERGENCE_STREAK: Colour = RGBColor(158, 132, 203);
+/// Bands of flutter too narrow for their shade to be seen.
+pub const FLUTTER_STREAK: Colour = RGBColor(240, 178, 62);
+
+/// Size of the title.
+pub const TITLE_SIZE: f64 = 20.0;
+/// Size of the line below the title.
+pub const SUBTITLE_SIZE: f64 = 13.0;
+/// Size of axis names and of the numbers at the ticks.
+pub const AXIS_SIZE: f64 = 13.0;
+/// Size of labels within the plot and of notes below it.
+pub const LABEL_SIZE: f64 = 12.0;
+
+/// Width of thin straight lines.
+pub const HAIRLINE: f64 = 1.0;
+/// Width of curves.
+pub const CURVE: f64 = 1.6;
+/// Width of the stretches of a curve that matter most.
+pub const STRONG_CURVE: f64 = 3.4;
+/// Dashes of curves: drawn, left out.
+pub const DASH: [f64; 2] = [6.0, 4.0];
+/// Dashes of guide lines: drawn, left out.
+pub const FINE_DASH: [f64; 2] = [4.0, 4.0];
+
+/// Weight of letters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// For nearly everything.
+    Regular,
+    /// For titles.
+    SemiBold,
+}
+
+/// What the fonts are registered as. It goes into the SVG as it stands, so it
+/// lists what to fall back on where Inter is not installed.
+const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
+
+/// plotters calls 1.24 em the size of a font.
+const PLOTTERS_SIZE_PER_EM: f64 = 1.24;
+
+/// Mixes a colour with white; `share` is what stays of the colour.
+pub fn tint(colour: Colour, share: f64) -> Colour {
+    let mix = |channel: u8| (255.0 - share * (255.0 - f64::from(channel))).round() as u8;
+    RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
+}
+
+/// Makes the built-in fonts known to plotters.
+pub fn load_fonts() -> Result<(), FigureError> {
+    static LOADED: OnceLock<Result<(), &'static str>> = OnceLock::new();
+    LOADED
+        .get_or_init(register_fonts)
+        .map_err(FigureError::Font)
+}
+
+fn register_fonts() -> Result<(), &'static str> {
+    let regular = include_bytes!("../../assets/fonts/Inter-Regular.otf");
+    let semi_bold = include_bytes!("../../assets/fonts/Inter-SemiBold.otf");
+    register_font(FAMILY, FontStyle::Normal, regular).map_err(|_| "Inter Regular")?;
+    register_font(FAMILY, FontStyle::Bold, semi_bold).map_err(|_| "Inter SemiBold")
+}
+
+/// The font whose em is `em` units high.
+pub fn font(em: f64, weight: Weight) -> FontDesc<'static> {
+    let style = match weight {
+        Weight::Regular => FontStyle::Normal,
+        Weight::SemiBold => FontStyle::Bold,
+    };
+    FontDesc::new(FontFamily::Name(FAMILY), em * PLOTTERS_SIZE_PER_EM, style)
+}
+
+/// Width of a line of text in figure units.
+pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
+    // plotters cuts widths down to whole units: measure large.
+    const MAGNIFIED: f64 = 16.0;
+    let measured = load_fonts()
+        .ok()
+        .and_then(|()| font(em * MAGNIFIED, weight).layout_box(text).ok());
+    match measured {
+        Some(((left, _), (right, _))) => f64::from(right - left) / MAGNIFIED,
+        None => 0.6 * em * text.chars().count() as f64,
+    }
+}
+
+/// The text on one line, cut with an ellipsis where it is wider than `room`.
+pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
+    let line = one_line(text);
+    if text_width(&line, em, weight) <= room {
+        return line;
+    }
+    let letters: Vec<char> = line.chars().collect();
+    let cut = |kept: usize| {
+        let start: String = letters[..kept].iter().collect();
+        format!("{}…", start.trim_end())
+    };
+    let (mut fits, mut too_long) = (0, letters.len());
+    while too_long - fits > 1 {
+        let middle = (fits + too_long) / 2;
+        if text_width(&cut(middle), em, weight) <= room {
+            fits = middle;
+        } else {
+            too_long = middle;
+        }
+    }
+    cut(fits)
+}
+
+/// Control characters are not allowed in SVG, and a line break would not break.
+pub fn one_line(text: &str) -> String {
+    text.chars()
+        .map(|c| if is_printable(c) { c } else { ' ' })
+        .collect()
+}
+
+fn is_printable(c: char) -> bool {
+    !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_text_is_cut_to_the_room() {
+        let long = "Säge ".repeat(100);
+        let short = shorten(&long, TITLE_SIZE, Weight::SemiBold, 300.0);
+        assert!(short.ends_with('…'));
+        let width = text_width(&short, TITLE_SIZE, Weight::SemiBold);
+        assert!(width > 250.0 && width <= 300.0, "{width}");
+    }
+
+    #[test]
+    fn text_stays_on_one_line() {
+        assert_eq!(
+            shorten("a\n\u{0}b", LABEL_SIZE, Weight::Regular, 100.0),
+            "a  b"
+        );
+        assert_eq!(shorten("wide", LABEL_SIZE, Weight::Regular, 0.0), "…");
+    }
+}
