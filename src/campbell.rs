@@ -64,7 +64,10 @@ pub fn sample(
             let modes = model.describe(speed_rad_per_s, modes);
             let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             progress(so_far, speeds.len());
-            Ok(SpeedSample { speed_rad_per_s, modes })
+            Ok(SpeedSample {
+                speed_rad_per_s,
+                modes,
+            })
         })
         .collect();
     samples.into_iter().collect()
@@ -150,7 +153,10 @@ fn match_modes(before: &SpeedSample, after: &SpeedSample) -> Vec<(usize, usize)>
     let step = after.speed_rad_per_s - before.speed_rad_per_s;
     let old: Vec<Carrier<'_>> = before.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
     let new: Vec<Carrier<'_>> = after.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
-    let height = old.iter().chain(&new).fold(f64::MIN_POSITIVE, |top, c| top.max(c.frequency.abs()));
+    let height = old
+        .iter()
+        .chain(&new)
+        .fold(f64::MIN_POSITIVE, |top, c| top.max(c.frequency.abs()));
     let mut candidates = Vec::new();
     for (i, x) in old.iter().enumerate() {
         for (k, y) in new.iter().enumerate() {
@@ -184,8 +190,17 @@ mod tests {
 
     #[test]
     fn branches_of_the_free_blade_are_straight_through_every_crossing() {
-        let scene = Scene { guides: Vec::new(), ..Scene::paper() };
-        let plate = Plate::new(&scene, Resolution { max_diameters: 6, radial_functions: 6 });
+        let scene = Scene {
+            guides: Vec::new(),
+            ..Scene::paper()
+        };
+        let plate = Plate::new(
+            &scene,
+            Resolution {
+                max_diameters: 6,
+                radial_functions: 6,
+            },
+        );
         let range = (0.0, rad_per_s(3000.0));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();

@@ -53,7 +53,11 @@ impl HarmonicBlock {
                 }
             }
         }
-        let mut block = HarmonicBlock { diameters, bending, spin };
+        let mut block = HarmonicBlock {
+            diameters,
+            bending,
+            spin,
+        };
         block.free_rigid_motion(basis);
         block.bending.fill_upper_triangle_with_lower_triangle();
         block.spin.fill_upper_triangle_with_lower_triangle();
@@ -86,11 +90,16 @@ mod tests {
             let (mut tension, mut inertia) = (0.0, 0.0);
             for (r, w) in basis.rule().iter() {
                 let f = basis.evaluate(1, r);
-                tension += w * r * (stress.radial_m2(r) * f.slope[0] * f.slope[j]
-                    + stress.hoop_m2(r) * f.value[0] * f.value[j] / (r * r));
+                tension += w
+                    * r
+                    * (stress.radial_m2(r) * f.slope[0] * f.slope[j]
+                        + stress.hoop_m2(r) * f.value[0] * f.value[j] / (r * r));
                 inertia += w * r * f.value[0] * f.value[j];
             }
-            assert!((tension - inertia).abs() < 1e-13, "{j}: {tension} {inertia}");
+            assert!(
+                (tension - inertia).abs() < 1e-13,
+                "{j}: {tension} {inertia}"
+            );
         }
     }
 }

@@ -35,7 +35,10 @@ impl Resolution {
             Accuracy::Design => (16, 8),
             Accuracy::Reference => (24, 12),
         };
-        Resolution { max_diameters, radial_functions }
+        Resolution {
+            max_diameters,
+            radial_functions,
+        }
     }
 
     /// Number of unknowns, J (2 n_max + 1).
@@ -175,8 +178,17 @@ mod tests {
     use crate::scene::{BladeFile, SceneFile};
 
     fn plate_with(guides: &[Guide]) -> Plate {
-        let scene = Scene { guides: guides.to_vec(), ..Scene::paper() };
-        Plate::new(&scene, Resolution { max_diameters: 5, radial_functions: 4 })
+        let scene = Scene {
+            guides: guides.to_vec(),
+            ..Scene::paper()
+        };
+        Plate::new(
+            &scene,
+            Resolution {
+                max_diameters: 5,
+                radial_functions: 4,
+            },
+        )
     }
 
     fn relative_distance(left: &Mat<f64>, right: &Mat<f64>) -> f64 {
@@ -227,7 +239,8 @@ mod tests {
         };
         let plate = plate_with(&[pad]);
         let per_mass = 1.0e6 / plate.blade.mass_per_area_kg_per_m2();
-        let bed = faer::Scale(per_mass) * Mat::<f64>::identity(plate.degrees_of_freedom(), plate.degrees_of_freedom());
+        let bed = faer::Scale(per_mass)
+            * Mat::<f64>::identity(plate.degrees_of_freedom(), plate.degrees_of_freedom());
         let distance = relative_distance(plate.guide_stiffness.as_ref().unwrap(), &bed);
         assert!(distance < 1e-12, "{distance}");
     }
@@ -243,17 +256,24 @@ mod tests {
             damping_n_s_per_m: 0.0,
         };
         let point = plate_with(&[pad(0.0)]).guide_stiffness.unwrap();
-        let distance = |size| relative_distance(&plate_with(&[pad(size)]).guide_stiffness.unwrap(), &point);
+        let distance =
+            |size| relative_distance(&plate_with(&[pad(size)]).guide_stiffness.unwrap(), &point);
         let (coarse, fine) = (distance(0.02), distance(0.01));
         let order = (coarse / fine).log2();
-        assert!((order - 2.0).abs() < 0.1, "second order in the size, not {order}");
+        assert!(
+            (order - 2.0).abs() < 0.1,
+            "second order in the size, not {order}"
+        );
     }
 
     #[test]
     fn what_the_scene_does_not_name_is_not_assembled() {
         let plate = plate_with(&[]);
         assert!(plate.is_axisymmetric() && plate.damping.is_none());
-        let SceneFile { blade: BladeFile { teeth, .. }, .. } = Scene::paper().file;
+        let SceneFile {
+            blade: BladeFile { teeth, .. },
+            ..
+        } = Scene::paper().file;
         assert_eq!(teeth, Some(42));
     }
 }

@@ -28,8 +28,9 @@ pub fn coupling(blade: &Blade, basis: &RadialBasis, plate: &Plate, pad: &Guide) 
     let mut coupling = faer::Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
     for n in 0..=max_diameters {
         for m in 0..=n {
-            let [cos_cos, cos_sin, sin_cos, sin_sin] =
-                harmonics.between(n, m).map(|block| basis.turned(n, m, block));
+            let [cos_cos, cos_sin, sin_cos, sin_sin] = harmonics
+                .between(n, m)
+                .map(|block| basis.turned(n, m, block));
             let norm = plate.angular_norm(n) * plate.angular_norm(m);
             let mut put = |row: usize, column: usize, block: &DMatrix<f64>| {
                 for j in 0..size {
@@ -80,7 +81,10 @@ impl PadHarmonics {
                 }
             }
         }
-        PadHarmonics { angle_rad: pad.angle_rad, by_order }
+        PadHarmonics {
+            angle_rad: pad.angle_rad,
+            by_order,
+        }
     }
 
     /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling,
@@ -103,7 +107,11 @@ impl PadHarmonics {
 /// centre, y across; (x_near, x_far, y_half).
 fn sides(pad: &Guide) -> (f64, f64, f64) {
     let half = 0.5 * pad.radial_length_m;
-    (pad.radius_m - half, pad.radius_m + half, 0.5 * pad.tangential_length_m)
+    (
+        pad.radius_m - half,
+        pad.radius_m + half,
+        0.5 * pad.tangential_length_m,
+    )
 }
 
 /// Intervals of r, clipped to the blade, on which the arcs are smooth inside:
@@ -111,7 +119,15 @@ fn sides(pad: &Guide) -> (f64, f64, f64) {
 fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
     let (near, far, half) = sides(pad);
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let mut cuts = vec![a, b, near.abs(), far.abs(), half, near.hypot(half), far.hypot(half)];
+    let mut cuts = vec![
+        a,
+        b,
+        near.abs(),
+        far.abs(),
+        half,
+        near.hypot(half),
+        far.hypot(half),
+    ];
     cuts.retain(|r| (a..=b).contains(r));
     cuts.sort_by(f64::total_cmp);
     cuts.windows(2)

@@ -19,7 +19,10 @@ impl Rule {
 
     /// Pairs (point, weight).
     pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.points.iter().copied().zip(self.weights.iter().copied())
+        self.points
+            .iter()
+            .copied()
+            .zip(self.weights.iter().copied())
     }
 }
 

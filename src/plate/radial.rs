@@ -169,7 +169,12 @@ impl RadialBasis {
 impl RadialBasis {
     /// A J × J block between n and m diameters, from the functions shared by all
     /// harmonics to those of n (rows) and m (columns).
-    pub fn turned(&self, n: usize, m: usize, mut block: nalgebra::DMatrix<f64>) -> nalgebra::DMatrix<f64> {
+    pub fn turned(
+        &self,
+        n: usize,
+        m: usize,
+        mut block: nalgebra::DMatrix<f64>,
+    ) -> nalgebra::DMatrix<f64> {
         let Some((cos, sin)) = self.tilt else {
             return block;
         };
@@ -248,7 +253,9 @@ mod tests {
             let slope = (high.value[j] - low.value[j]) / (2.0 * step);
             assert!((slope / middle.slope[j] - 1.0).abs() < 1e-6);
             let curvature = (high.slope[j] - low.slope[j]) / (2.0 * step);
-            assert!((curvature - middle.curvature[j]).abs() < 1e-6 * middle.curvature[j].abs().max(1.0));
+            assert!(
+                (curvature - middle.curvature[j]).abs() < 1e-6 * middle.curvature[j].abs().max(1.0)
+            );
         }
     }
 }

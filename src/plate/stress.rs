@@ -53,7 +53,10 @@ mod tests {
     use crate::scene::Scene;
 
     fn blade(bore: Bore) -> Blade {
-        Blade { bore, ..Scene::paper().blade }
+        Blade {
+            bore,
+            ..Scene::paper().blade
+        }
     }
 
     /// d(r σ_rr)/dr − σ_θθ + ρΩ²r² = 0, by a central difference.
@@ -73,7 +76,12 @@ mod tests {
     fn the_edges_hold_what_they_should() {
         let free = CentrifugalStress::new(&blade(Bore::Free));
         let fixed = CentrifugalStress::new(&blade(Bore::Clamped(InPlane::Fixed)));
-        let Blade { inner_radius_m: a, outer_radius_m: b, material, .. } = blade(Bore::Free);
+        let Blade {
+            inner_radius_m: a,
+            outer_radius_m: b,
+            material,
+            ..
+        } = blade(Bore::Free);
         let scale = 1e-14 * b * b;
         assert!(free.radial_m2(a).abs() < scale && free.radial_m2(b).abs() < scale);
         assert!(fixed.radial_m2(b).abs() < scale);

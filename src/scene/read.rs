@@ -37,7 +37,9 @@ pub enum SceneError {
         limit: u64,
     },
     /// Nothing but white space.
-    #[error("the scene is empty; `sawflutter schema` prints what it may contain, and scenes/ has examples")]
+    #[error(
+        "the scene is empty; `sawflutter schema` prints what it may contain, and scenes/ has examples"
+    )]
     Empty,
     /// Not JSON, or not a scene: wrong type, unknown or missing key.
     #[error("{key}: {message}; `sawflutter schema` prints the keys and types of a scene")]

@@ -111,10 +111,7 @@ impl Guide {
 
     /// Distances from the axis to the nearest and to the farthest point of the pad.
     fn reach_m(&self) -> (f64, f64) {
-        let half = [
-            0.5 * self.radial_length_m,
-            0.5 * self.tangential_length_m,
-        ];
+        let half = [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m];
         let nearest = (self.radius_m - half[0]).max(0.0);
         (nearest, (self.radius_m + half[0]).hypot(half[1]))
     }
@@ -297,7 +294,11 @@ fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {
             typed.material_retardation_time_s,
             (0.0, SPAN.1),
         )?,
-        air_n_s_per_m3: within("damping.air_n_s_per_m3", typed.air_n_s_per_m3, (0.0, SPAN.1))?,
+        air_n_s_per_m3: within(
+            "damping.air_n_s_per_m3",
+            typed.air_n_s_per_m3,
+            (0.0, SPAN.1),
+        )?,
     };
     let any = damping.material_retardation_time_s > 0.0 || damping.air_n_s_per_m3 > 0.0;
     Ok(any.then_some(damping))
@@ -322,7 +323,11 @@ fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
         let key = format!("measured.rows[{index}]");
         within(&format!("{key}.rpm"), row.rpm, (0.0, MAX_RPM))?;
         for (column, &hz) in row.frequencies_hz.iter().enumerate() {
-            within(&format!("{key}.frequencies_hz[{column}]"), hz, (0.0, SPAN.1))?;
+            within(
+                &format!("{key}.frequencies_hz[{column}]"),
+                hz,
+                (0.0, SPAN.1),
+            )?;
         }
     }
     Ok(())
@@ -342,12 +347,32 @@ mod tests {
     fn refusals_name_the_key() {
         let cases: [(&str, Result<Scene, SceneError>); 7] = [
             ("blade.thickness_m", with(|f| f.blade.thickness_m = -1.0)),
-            ("blade.thickness_m", with(|f| f.blade.thickness_m = f64::NAN)),
-            ("blade.inner_diameter_m", with(|f| f.blade.inner_diameter_m = 0.8)),
-            ("blade.material.poisson_ratio", with(|f| f.blade.material.poisson_ratio = 0.5)),
+            (
+                "blade.thickness_m",
+                with(|f| f.blade.thickness_m = f64::NAN),
+            ),
+            (
+                "blade.inner_diameter_m",
+                with(|f| f.blade.inner_diameter_m = 0.8),
+            ),
+            (
+                "blade.material.poisson_ratio",
+                with(|f| f.blade.material.poisson_ratio = 0.5),
+            ),
             ("guides[0].radius_m", with(|f| f.guides[0].radius_m = 3.0)),
-            ("guides[0].tangential_length_m", with(|f| f.guides[0].tangential_length_m = 0.0)),
-            ("sweep.to_rpm", with(|f| f.sweep = Some(SweepFile { from_rpm: 9.0, to_rpm: 9.0 }))),
+            (
+                "guides[0].tangential_length_m",
+                with(|f| f.guides[0].tangential_length_m = 0.0),
+            ),
+            (
+                "sweep.to_rpm",
+                with(|f| {
+                    f.sweep = Some(SweepFile {
+                        from_rpm: 9.0,
+                        to_rpm: 9.0,
+                    })
+                }),
+            ),
         ];
         for (expected, result) in cases {
             match result {

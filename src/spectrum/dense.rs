@@ -18,7 +18,11 @@ pub type Eigenpair = (c64, Col<c64>);
 pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     let mean_square = stiffness.norm_l2() / (stiffness.nrows().max(1) as f64).sqrt();
     let frequency = mean_square.sqrt();
-    if frequency > 0.0 { frequency.log2().round().exp2() } else { 1.0 }
+    if frequency > 0.0 {
+        frequency.log2().round().exp2()
+    } else {
+        1.0
+    }
 }
 
 /// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
@@ -39,9 +43,17 @@ pub fn companion_eigenpairs(
     let scale = time_scale(&stiffness);
     let mut state = Mat::zeros(2 * size, 2 * size);
     let (mut top, mut bottom) = state.as_mut().split_at_row_mut(size);
-    top.rb_mut().subcols_mut(size, size).copy_from(Mat::<f64>::identity(size, size));
-    bottom.rb_mut().subcols_mut(0, size).copy_from(Scale(-1.0 / scale.powi(2)) * &stiffness);
-    bottom.rb_mut().subcols_mut(size, size).copy_from(Scale(-1.0 / scale) * &velocity);
+    top.rb_mut()
+        .subcols_mut(size, size)
+        .copy_from(Mat::<f64>::identity(size, size));
+    bottom
+        .rb_mut()
+        .subcols_mut(0, size)
+        .copy_from(Scale(-1.0 / scale.powi(2)) * &stiffness);
+    bottom
+        .rb_mut()
+        .subcols_mut(size, size)
+        .copy_from(Scale(-1.0 / scale) * &velocity);
     let eigen = Eigen::new_from_real(state.as_ref())
         .map_err(|_| failed(|order, rpm| SpectrumError::NoConvergence { order, rpm }))?;
     let pairs = (0..2 * size)

@@ -28,13 +28,17 @@ pub enum SpectrumError {
     },
     /// The stiffness at rest is not positive definite, so that no speed is critical
     /// in the usual sense.
-    #[error("the blade is not stable at rest: its stiffness of order {order} is not positive definite")]
+    #[error(
+        "the blade is not stable at rest: its stiffness of order {order} is not positive definite"
+    )]
     UnstableAtRest {
         /// Order of the stiffness matrix.
         order: usize,
     },
     /// Numbers so far apart that their products overflow.
-    #[error("the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart")]
+    #[error(
+        "the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart"
+    )]
     NotFinite {
         /// Order of the matrix.
         order: usize,

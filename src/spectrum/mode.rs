@@ -66,10 +66,9 @@ impl Mode {
     /// Re λ of a mode that truly grows, else zero for undamped modes.
     pub fn growth_per_s(&self) -> f64 {
         match self.kind {
-            ModeKind::Flutter
-            | ModeKind::Decaying
-            | ModeKind::Divergent
-            | ModeKind::Damped => self.lambda.re,
+            ModeKind::Flutter | ModeKind::Decaying | ModeKind::Divergent | ModeKind::Damped => {
+                self.lambda.re
+            }
             _ => 0.0,
         }
     }
@@ -102,7 +101,11 @@ pub fn classify(
             } else if system.is_conservative() {
                 let oscillates = lambda.im > noise;
                 if lambda.re > noise {
-                    mode.kind = if oscillates { ModeKind::Flutter } else { ModeKind::Divergent };
+                    mode.kind = if oscillates {
+                        ModeKind::Flutter
+                    } else {
+                        ModeKind::Divergent
+                    };
                 } else if !oscillates && lambda.re < noise {
                     return None;
                 } else if lambda.re < -noise {
@@ -126,7 +129,11 @@ fn signed(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
     let gamma = quadratic_form(q, &system.gyroscopic).im;
     let spin = quadratic_form(q, &system.spin).re;
     let form = omega + speed * gamma;
-    mode.kind = if form >= 0.0 { ModeKind::Positive } else { ModeKind::Negative };
+    mode.kind = if form >= 0.0 {
+        ModeKind::Positive
+    } else {
+        ModeKind::Negative
+    };
     mode.lambda = c64::new(0.0, omega);
     let slope = (speed * spin - omega * gamma) / form;
     mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
@@ -137,7 +144,10 @@ fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
     let (re, im) = split(q);
     let (a_re, a_im) = (matrix * &re, matrix * &im);
     let dot = |x: &Col<f64>, y: &Col<f64>| x.transpose() * y;
-    c64::new(dot(&re, &a_re) + dot(&im, &a_im), dot(&re, &a_im) - dot(&im, &a_re))
+    c64::new(
+        dot(&re, &a_re) + dot(&im, &a_im),
+        dot(&re, &a_im) - dot(&im, &a_re),
+    )
 }
 
 /// Real and imaginary parts.
@@ -186,6 +196,10 @@ impl DynamicStiffness {
     pub fn backward_error(&self, lambda: c64, q: &Col<c64>) -> f64 {
         let size = lambda.norm_sqr() + lambda.norm() * self.velocity_norm + self.stiffness_norm;
         let denominator = size * q.norm_l2();
-        if denominator > 0.0 { self.residual(lambda, q).norm_l2() / denominator } else { 0.0 }
+        if denominator > 0.0 {
+            self.residual(lambda, q).norm_l2() / denominator
+        } else {
+            0.0
+        }
     }
 }

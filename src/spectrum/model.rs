@@ -115,13 +115,7 @@ impl SpectralModel {
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
         let counters = WorkCounters::default();
-        let mut parts: Vec<Part> = if plate.is_axisymmetric() {
-            (0..=plate.max_diameters())
-                .map(|n| Part::new(&plate, GyroscopicSystem::of_harmonic(&plate, n), plate.offset(n)))
-                .collect()
-        } else {
-            vec![Part::new(&plate, GyroscopicSystem::of_plate(&plate), 0)]
-        };
+        let mut parts = Part::of(&plate);
         let critical = named_critical_speeds(&plate, &parts)?;
         let mut complete_to_rad_per_s = f64::INFINITY;
         if strategy == Strategy::Reduced {
@@ -142,11 +136,25 @@ impl SpectralModel {
                 complete_to_rad_per_s = complete_to_rad_per_s.min(reduction.complete_to_rad_per_s);
             }
         }
-        let mut model = SpectralModel { plate, parts, critical, complete_to_rad_per_s, counters };
+        let mut model = SpectralModel {
+            plate,
+            parts,
+            critical,
+            complete_to_rad_per_s,
+            counters,
+        };
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
         }
         Ok(model)
+    }
+
+    /// Every critical speed of a plate, ascending, without preparing anything else.
+    ///
+    /// # Errors
+    /// [`SpectrumError::UnstableAtRest`].
+    pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+        named_critical_speeds(plate, &Part::of(plate))
     }
 
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.
@@ -170,7 +178,9 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| &part.reduced)?;
+        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| {
+            &part.reduced
+        })?;
         modes.retain(|m| m.kind != ModeKind::Rigid);
         Ok(modes)
     }
@@ -223,7 +233,11 @@ impl SpectralModel {
                 let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
                 let q = self.embed(part.first, &lifted);
                 let name = ModeName::new(&self.plate, &mode, &q, speed_rad_per_s);
-                DescribedMode { mode, name, backward_error }
+                DescribedMode {
+                    mode,
+                    name,
+                    backward_error,
+                }
             })
             .collect()
     }
@@ -237,7 +251,11 @@ impl SpectralModel {
     fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
         let range = first..first + q.nrows();
         Col::from_fn(self.plate.degrees_of_freedom(), |i| {
-            if range.contains(&i) { q[i - first] } else { c64::new(0.0, 0.0) }
+            if range.contains(&i) {
+                q[i - first]
+            } else {
+                c64::new(0.0, 0.0)
+            }
         })
     }
 
@@ -245,11 +263,28 @@ impl SpectralModel {
     /// and K(Ω) = K₀ − Ω²(N − K_σ), so by Sylvester's law of inertia they are the
     /// critical speeds below Ω: no factorization is needed.
     pub fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
-        self.critical.partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)
+        self.critical
+            .partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)
     }
 }
 
 impl Part {
+    /// The independent parts of a plate.
+    fn of(plate: &Plate) -> Vec<Part> {
+        if !plate.is_axisymmetric() {
+            return vec![Part::new(plate, GyroscopicSystem::of_plate(plate), 0)];
+        }
+        (0..=plate.max_diameters())
+            .map(|n| {
+                Part::new(
+                    plate,
+                    GyroscopicSystem::of_harmonic(plate, n),
+                    plate.offset(n),
+                )
+            })
+            .collect()
+    }
+
     fn new(plate: &Plate, full: GyroscopicSystem, first: usize) -> Self {
         let order = full.order();
         Part {
@@ -288,7 +323,10 @@ fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) ->
         system.stiffness[(rigid[i], rigid[j])]
     });
     let eigen = held.symmetric_eigen();
-    let stiffest = eigen.eigenvalues.iter().fold(0.0_f64, |top, value| top.max(*value));
+    let stiffest = eigen
+        .eigenvalues
+        .iter()
+        .fold(0.0_f64, |top, value| top.max(*value));
     (0..rigid.len())
         .filter(|&k| eigen.eigenvalues[k] <= 1e-12 * stiffest)
         .map(|k| {
@@ -301,7 +339,10 @@ fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) ->
         .collect()
 }
 
-fn named_critical_speeds(plate: &Plate, parts: &[Part]) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+fn named_critical_speeds(
+    plate: &Plate,
+    parts: &[Part],
+) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
     let mut named = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         for critical in critical_speeds(&part.full, &part.free_rigid)? {

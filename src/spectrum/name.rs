@@ -124,7 +124,11 @@ impl Wave {
         let offset = plate.offset(diameters);
         let wave = |sign: f64| {
             let combine = |j: usize| {
-                let sine = if diameters > 0 { q[offset + size + j] } else { c64::new(0.0, 0.0) };
+                let sine = if diameters > 0 {
+                    q[offset + size + j]
+                } else {
+                    c64::new(0.0, 0.0)
+                };
                 (q[offset + j] + c64::new(0.0, sign) * sine) * std::f64::consts::FRAC_1_SQRT_2
             };
             (0..size).map(combine).collect::<Vec<c64>>()
@@ -155,11 +159,16 @@ impl Wave {
     /// Frequency of the stronger wave on the blade, negative when it runs backward there.
     fn body_frequency(&self, mode: &Mode) -> f64 {
         let omega = mode.frequency_rad_per_s();
-        if self.runs_forward() { omega - self.carried } else { -(omega + self.carried) }
+        if self.runs_forward() {
+            omega - self.carried
+        } else {
+            -(omega + self.carried)
+        }
     }
 
     fn direction(&self, mode: &Mode) -> Direction {
-        let balance = (self.forward_energy - self.backward_energy) / self.energy().max(f64::MIN_POSITIVE);
+        let balance =
+            (self.forward_energy - self.backward_energy) / self.energy().max(f64::MIN_POSITIVE);
         if mode.kind == ModeKind::Negative {
             Direction::Reflected
         } else if self.diameters == 0 || balance.abs() < STANDING {
@@ -175,7 +184,11 @@ impl Wave {
 
     /// Sign changes of the radial profile of the stronger wave.
     fn circles(&self, plate: &Plate) -> usize {
-        let wave = if self.runs_forward() { &self.forward } else { &self.backward };
+        let wave = if self.runs_forward() {
+            &self.forward
+        } else {
+            &self.backward
+        };
         let turn: c64 = wave.iter().map(|c| c * c).sum::<c64>().sqrt();
         let real: Vec<f64> = wave.iter().map(|c| (c * turn.conj()).re).collect();
         let profile: Vec<f64> = plate

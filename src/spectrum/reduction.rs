@@ -53,16 +53,31 @@ pub fn of_harmonic(plate: &Plate, n: usize, range: (f64, f64)) -> Reduction {
         }
     }
     let elastic = orthonormal(size, &vectors);
-    let radial = Mat::from_fn(size, rigid + elastic.ncols(), |i, k| match k.checked_sub(rigid) {
-        Some(k) => if i < rigid { 0.0 } else { elastic[(i, k)] },
-        None => f64::from(u8::from(i == k)),
+    let radial = Mat::from_fn(size, rigid + elastic.ncols(), |i, k| {
+        match k.checked_sub(rigid) {
+            Some(k) => {
+                if i < rigid {
+                    0.0
+                } else {
+                    elastic[(i, k)]
+                }
+            }
+            None => f64::from(u8::from(i == k)),
+        }
     });
     let phases = if n == 0 { 1 } else { 2 };
     let width = radial.ncols();
     let basis = Mat::from_fn(size * phases, width * phases, |i, k| {
-        if i / size == k / width { radial[(i % size, k % width)] } else { 0.0 }
+        if i / size == k / width {
+            radial[(i % size, k % width)]
+        } else {
+            0.0
+        }
     });
-    Reduction { basis, complete_to_rad_per_s: f64::INFINITY }
+    Reduction {
+        basis,
+        complete_to_rad_per_s: f64::INFINITY,
+    }
 }
 
 /// Eigenvectors of the smallest eigenvalues of A, from the inverse of A + shift:
@@ -74,12 +89,16 @@ fn lowest_symmetric(mut matrix: Mat<f64>, shift: f64, count: usize) -> Vec<Col<f
         matrix[(i, i)] += shift;
     }
     let Ok(factor) = matrix.llt(Side::Lower) else {
-        return (0..size).map(|k| Col::from_fn(size, |i| f64::from(u8::from(i == k)))).collect();
+        return (0..size)
+            .map(|k| Col::from_fn(size, |i| f64::from(u8::from(i == k))))
+            .collect();
     };
     let mut inverse = Mat::<f64>::identity(size, size);
     faer::linalg::solvers::Solve::solve_in_place(&factor, &mut inverse);
     match inverse.self_adjoint_eigen(Side::Lower) {
-        Ok(eigen) => (0..count).map(|k| eigen.U().col(size - 1 - k).to_owned()).collect(),
+        Ok(eigen) => (0..count)
+            .map(|k| eigen.U().col(size - 1 - k).to_owned())
+            .collect(),
         Err(_) => Vec::new(),
     }
 }
@@ -102,7 +121,14 @@ pub fn of_guided(
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
 ) -> GuidedReductions {
-    let mut builder = Builder { system, range, scale, critical, counters, snapshots: Vec::new() };
+    let mut builder = Builder {
+        system,
+        range,
+        scale,
+        critical,
+        counters,
+        snapshots: Vec::new(),
+    };
     let reflected = builder.reflected_height(range.1);
     let window = builder.chart_height(range.0).max(reflected);
     for k in 0..5 {
@@ -138,7 +164,11 @@ impl Builder<'_> {
     fn chart_height(&self, speed: f64) -> f64 {
         let pairs = self.lowest(speed, CHART_MODES + 2);
         let frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im).collect();
-        1.02 * frequencies.get(CHART_MODES - 1).or(frequencies.last()).copied().unwrap_or(self.scale)
+        1.02 * frequencies
+            .get(CHART_MODES - 1)
+            .or(frequencies.last())
+            .copied()
+            .unwrap_or(self.scale)
     }
 
     /// Highest reflected wave at the top speed, with a margin for what it may meet.
@@ -171,7 +201,9 @@ impl Builder<'_> {
         let mut count = CHART_MODES + 2;
         let pairs = loop {
             let pairs = self.lowest(speed, count);
-            let covered = pairs.last().is_some_and(|(lambda, _)| lambda.norm() > window);
+            let covered = pairs
+                .last()
+                .is_some_and(|(lambda, _)| lambda.norm() > window);
             if covered || 2 * count >= self.system.order() {
                 break pairs;
             }
@@ -185,7 +217,10 @@ impl Builder<'_> {
     /// themselves in it the projected K(Ω) is singular at the same speeds as the
     /// whole one, to the last digit.
     fn basis(&self, window: f64) -> Mat<f64> {
-        let standing = self.critical.iter().take_while(|c| c.speed_rad_per_s <= self.range.1);
+        let standing = self
+            .critical
+            .iter()
+            .take_while(|c| c.speed_rad_per_s <= self.range.1);
         let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
         for (lambda, q) in self.snapshots.iter().flat_map(|s| &s.pairs) {
             if lambda.norm() <= window {
@@ -203,7 +238,10 @@ impl Builder<'_> {
             let basis = self.basis(SNAPSHOT_MARGIN * window);
             let unresolved = self.unresolved(&basis, window, FREQUENCY_TOLERANCE * chart);
             if unresolved.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
-                return Reduction { basis, complete_to_rad_per_s: window };
+                return Reduction {
+                    basis,
+                    complete_to_rad_per_s: window,
+                };
             }
             for speed in unresolved {
                 self.add_snapshot(speed, chart);
@@ -214,7 +252,10 @@ impl Builder<'_> {
     /// Midpoints between snapshots at which some mode is not right yet.
     fn unresolved(&self, basis: &Mat<f64>, window: f64, tolerance: f64) -> Vec<f64> {
         let reduced = self.system.project(basis.as_ref());
-        let middles = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
+        let middles = self
+            .snapshots
+            .windows(2)
+            .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
         middles
             .filter(|&speed| self.frequency_error(&reduced, basis, speed, window) > tolerance)
             .collect()
@@ -223,7 +264,13 @@ impl Builder<'_> {
     /// Largest |rᴴ P⁻¹ r| / |qᴴ(2ω − 2iΩG)q| over the modes below the window, r the
     /// residual on the whole basis: the second-order shift of a simple frequency. P, the
     /// diagonal of K₀, stands for L, for r lives in the high functions, which stiffness rules.
-    fn frequency_error(&self, reduced: &GyroscopicSystem, basis: &Mat<f64>, speed: f64, window: f64) -> f64 {
+    fn frequency_error(
+        &self,
+        reduced: &GyroscopicSystem,
+        basis: &Mat<f64>,
+        speed: f64,
+        window: f64,
+    ) -> f64 {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         let Ok(pairs) = companion_eigenpairs(reduced, speed) else {
             return f64::INFINITY;
@@ -236,7 +283,9 @@ impl Builder<'_> {
                 let lifted = lift(basis.as_ref(), q);
                 let residual: Col<c64> = dynamic.residual(*lambda, &lifted);
                 let shift: f64 = (0..residual.nrows())
-                    .map(|i| residual[i].norm_sqr() / (self.system.stiffness[(i, i)] + window.powi(2)))
+                    .map(|i| {
+                        residual[i].norm_sqr() / (self.system.stiffness[(i, i)] + window.powi(2))
+                    })
                     .sum();
                 shift / window
             })

@@ -7,10 +7,10 @@
 //! is away from the spectrum of a stable saw, where σ = 0 is singular at every
 //! critical speed.
 
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::reborrow::ReborrowMut;
 use faer::{Col, Mat, MatMut, MatRef, Par, Scale, c64};
 
@@ -50,7 +50,13 @@ impl LinOp<f64> for ShiftedInverse {
         bottom.copy_from(x - Scale(self.shift) * &u);
     }
 
-    fn conj_apply(&self, out: MatMut<'_, f64>, rhs: MatRef<'_, f64>, par: Par, stack: &mut MemStack) {
+    fn conj_apply(
+        &self,
+        out: MatMut<'_, f64>,
+        rhs: MatRef<'_, f64>,
+        par: Par,
+        stack: &mut MemStack,
+    ) {
         self.apply(out, rhs, par, stack);
     }
 }
@@ -80,9 +86,14 @@ pub fn lowest_eigenpairs(
         coupling: Scale(1.0 / shift_per_s) * velocity + identity,
         shift: 1.0,
     };
-    let start = Col::from_fn(2 * size, |i| (0.7 * i as f64 + 0.3).sin() / (1.0 + i as f64).sqrt());
+    let start = Col::from_fn(2 * size, |i| {
+        (0.7 * i as f64 + 0.3).sin() / (1.0 + i as f64).sqrt()
+    });
     let start = Scale(1.0 / start.norm_l2()) * start;
-    let params = PartialEigenParams { max_restarts: 60, ..Default::default() };
+    let params = PartialEigenParams {
+        max_restarts: 60,
+        ..Default::default()
+    };
     let scratch = partial_eigen_scratch(&operator, wanted, Par::Seq, params);
     let mut vectors = Mat::zeros(2 * size, wanted);
     let mut values = vec![c64::new(0.0, 0.0); wanted];
@@ -115,7 +126,10 @@ mod tests {
 
     #[test]
     fn the_iteration_finds_what_the_dense_solver_finds() {
-        let resolution = Resolution { max_diameters: 8, radial_functions: 5 };
+        let resolution = Resolution {
+            max_diameters: 8,
+            radial_functions: 5,
+        };
         let system = GyroscopicSystem::of_plate(&Plate::new(&Scene::paper(), resolution));
         for speed in [0.0, 1000.0, 2300.0] {
             let dense = companion_eigenpairs(&system, rad_per_s(speed)).unwrap();

@@ -1,5 +1,7 @@
 //! The stability chart of a saw: samples, branches and bands of a range of speeds.
 
+use serde::{Deserialize, Serialize};
+
 use super::finder::{CRITICAL_GAP, Event, Finder};
 use super::refine;
 use super::station::{Sign, Station};
@@ -7,7 +9,8 @@ use crate::campbell::{self, Campbell, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, in_words};
 
 /// Kind of an instability.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum InstabilityKind {
     /// Exponential growth without oscillation.
     Divergence,
@@ -60,7 +63,7 @@ pub struct StabilityChart {
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
-pub fn analyze(
+pub fn chart(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
@@ -73,18 +76,29 @@ pub fn analyze(
     let mut instabilities = divergence(model, &finder, &stations)?;
     instabilities.extend(flutter(model, &finder, &stations)?);
     instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
-    samples.extend(campbell::sample(model, &inside(&instabilities, &samples), &|_, _| ())?);
+    samples.extend(campbell::sample(
+        model,
+        &inside(&instabilities, &samples),
+        &|_, _| (),
+    )?);
     let (speeds_checked, krein_violations) = finder.certificate();
     Ok(StabilityChart {
         campbell: Campbell::track(samples),
         instabilities,
-        certificate: Certificate { speeds_checked, krein_violations },
+        certificate: Certificate {
+            speeds_checked,
+            krein_violations,
+        },
     })
 }
 
 /// The speeds, and both sides of each group of critical speeds in the range, and the
 /// middle between groups.
-fn with_critical_speeds(model: &SpectralModel, range: (f64, f64), mut speeds: Vec<f64>) -> Vec<f64> {
+fn with_critical_speeds(
+    model: &SpectralModel,
+    range: (f64, f64),
+    mut speeds: Vec<f64>,
+) -> Vec<f64> {
     let mut sides: Vec<f64> = Vec::new();
     let mut previous: Option<f64> = None;
     for critical in &model.critical {
@@ -104,7 +118,12 @@ fn with_critical_speeds(model: &SpectralModel, range: (f64, f64), mut speeds: Ve
         sides.push(above);
         previous = Some(above);
     }
-    speeds.retain(|s| model.critical.iter().all(|c| (s / c.speed_rad_per_s - 1.0).abs() > CRITICAL_GAP));
+    speeds.retain(|s| {
+        model
+            .critical
+            .iter()
+            .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > CRITICAL_GAP)
+    });
     speeds.extend(sides);
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
@@ -117,7 +136,10 @@ fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [1e-6, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 - 1e-6].map(at).into_iter().chain([band.peak])
+            [1e-6, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 - 1e-6]
+                .map(at)
+                .into_iter()
+                .chain([band.peak])
         })
         .collect();
     speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
@@ -146,7 +168,8 @@ fn divergence(
         {
             let (from, begins) = edge(model, stations, first.checked_sub(1), first);
             let (to, ends) = edge(model, stations, (!last).then_some(index + 1), index);
-            let growth = |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
+            let growth =
+                |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
             let (peak, square) = refine::maximise(from, to, growth)?;
             bands.push(Instability {
                 kind: InstabilityKind::Divergence,
@@ -165,7 +188,12 @@ fn divergence(
 }
 
 /// The critical speed between a stable and an unstable station, or the end of the range.
-fn edge(model: &SpectralModel, stations: &[Station], stable: Option<usize>, unstable: usize) -> (f64, bool) {
+fn edge(
+    model: &SpectralModel,
+    stations: &[Station],
+    stable: Option<usize>,
+    unstable: usize,
+) -> (f64, bool) {
     let inner = stations[unstable].speed_rad_per_s;
     let Some(stable) = stable else {
         return (inner, false);
@@ -173,14 +201,22 @@ fn edge(model: &SpectralModel, stations: &[Station], stable: Option<usize>, unst
     let outer = stations[stable].speed_rad_per_s;
     let (low, high) = (inner.min(outer), inner.max(outer));
     let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    (critical.into_iter().find(|c| (low..=high).contains(c)).unwrap_or(inner), true)
+    (
+        critical
+            .into_iter()
+            .find(|c| (low..=high).contains(c))
+            .unwrap_or(inner),
+        true,
+    )
 }
 
 fn standing_waves(model: &SpectralModel, from: f64, to: f64) -> Vec<String> {
     let mut names: Vec<String> = model
         .critical
         .iter()
-        .filter(|c| (from * (1.0 - CRITICAL_GAP)..=to * (1.0 + CRITICAL_GAP)).contains(&c.speed_rad_per_s))
+        .filter(|c| {
+            (from * (1.0 - CRITICAL_GAP)..=to * (1.0 + CRITICAL_GAP)).contains(&c.speed_rad_per_s)
+        })
         .map(|c| in_words(c.diameters, c.circles, crate::spectrum::Direction::Standing))
         .collect();
     names.truncate(2);
@@ -213,7 +249,10 @@ fn flutter(
             }
         }
     }
-    ranges.extend(open.iter().map(|(from, _)| (*from, last.speed_rad_per_s, false)));
+    ranges.extend(
+        open.iter()
+            .map(|(from, _)| (*from, last.speed_rad_per_s, false)),
+    );
     ranges
         .into_iter()
         .map(|(from, to, closed)| band(model, finder, from, to, closed))
@@ -232,7 +271,9 @@ fn band(
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
         let station = finder.station(speed)?;
         // Of several merged pairs the one that has only just merged is the one at its edge.
-        let slowest = station.merged().min_by(|x, y| x.growth.total_cmp(&y.growth));
+        let slowest = station
+            .merged()
+            .min_by(|x, y| x.growth.total_cmp(&y.growth));
         *frequency = slowest.map_or(0.0, |t| t.frequency);
     }
     let expected = |speed: f64| {
@@ -242,7 +283,9 @@ fn band(
     let pair = |speed: f64| -> Result<(f64, f64), SpectrumError> {
         let near = |f: f64| (f - expected(speed)).abs();
         let station = finder.station(speed)?;
-        let nearest = station.merged().min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
+        let nearest = station
+            .merged()
+            .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
         Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
     };
     let (peak, _) = refine::maximise(from, to, |speed| Ok(pair(speed)?.0.powi(2)))?;
@@ -260,7 +303,11 @@ fn band(
 }
 
 /// Names of the + and the − mode next to a frequency just below an onset.
-fn meeting_modes(model: &SpectralModel, onset: f64, frequency: f64) -> Result<Vec<String>, SpectrumError> {
+fn meeting_modes(
+    model: &SpectralModel,
+    onset: f64,
+    frequency: f64,
+) -> Result<Vec<String>, SpectrumError> {
     let before = onset * (1.0 - 1e-5);
     let mut modes = model.modes(before)?;
     modes.retain(|m| m.krein_sign() != 0);

@@ -39,12 +39,19 @@ pub struct Finder<'a> {
 impl<'a> Finder<'a> {
     /// A finder on an undamped blade.
     pub fn new(model: &'a SpectralModel) -> Self {
-        Finder { model, checked: AtomicUsize::new(0), violations: AtomicUsize::new(0) }
+        Finder {
+            model,
+            checked: AtomicUsize::new(0),
+            violations: AtomicUsize::new(0),
+        }
     }
 
     /// (speeds checked, speeds at which the Krein index did not match).
     pub fn certificate(&self) -> (usize, usize) {
-        (self.checked.load(Ordering::Relaxed), self.violations.load(Ordering::Relaxed))
+        (
+            self.checked.load(Ordering::Relaxed),
+            self.violations.load(Ordering::Relaxed),
+        )
     }
 
     /// The word of signs at a speed.
@@ -63,14 +70,19 @@ impl<'a> Finder<'a> {
     /// # Errors
     /// [`SpectrumError`] of the lowest speed that fails.
     pub fn stations(&self, speeds: &[f64]) -> Result<Vec<Station>, SpectrumError> {
-        let stations: Vec<_> = speeds.par_iter().map(|&speed| self.station(speed)).collect();
+        let stations: Vec<_> = speeds
+            .par_iter()
+            .map(|&speed| self.station(speed))
+            .collect();
         stations.into_iter().collect()
     }
 
     /// Holds the spectrum against the inertia of the stiffness, which comes from
     /// another, symmetric eigenproblem on the whole basis.
     fn check(&self, station: &Station) {
-        let expected = self.model.negative_stiffness_directions(station.speed_rad_per_s);
+        let expected = self
+            .model
+            .negative_stiffness_directions(station.speed_rad_per_s);
         self.checked.fetch_add(1, Ordering::Relaxed);
         if station.krein_index() != expected {
             self.violations.fetch_add(1, Ordering::Relaxed);
@@ -102,7 +114,12 @@ impl<'a> Finder<'a> {
         count(a) != count(b)
     }
 
-    fn search(&self, a: &Station, b: &Station, events: &mut Vec<Event>) -> Result<(), SpectrumError> {
+    fn search(
+        &self,
+        a: &Station,
+        b: &Station,
+        events: &mut Vec<Event>,
+    ) -> Result<(), SpectrumError> {
         let (x, y) = (a.speed_rad_per_s, b.speed_rad_per_s);
         let seen = change(&a.word(), &b.word());
         let ambiguous = seen == Change::Several || (seen == Change::None && may_touch(a, b));
@@ -134,7 +151,12 @@ impl<'a> Finder<'a> {
 /// Number of merged pairs below a place of the doubled list.
 fn merged_before(station: &Station, place: usize) -> usize {
     let below = station.doubled();
-    below.iter().take(place).filter(|t| t.sign == Sign::Merged).count() / 2
+    below
+        .iter()
+        .take(place)
+        .filter(|t| t.sign == Sign::Merged)
+        .count()
+        / 2
 }
 
 /// Whether a + and a − mode next to each other may meet and part again between two
@@ -145,8 +167,14 @@ fn may_touch(a: &Station, b: &Station) -> bool {
     let width = b.speed_rad_per_s - a.speed_rad_per_s;
     let (left, right) = (a.doubled(), b.doubled());
     (0..left.len().min(right.len()).saturating_sub(1)).any(|i| {
-        let opposite = |x: Sign, y: Sign| matches!((x, y), (Sign::Plus, Sign::Minus) | (Sign::Minus, Sign::Plus));
-        if !(opposite(left[i].sign, left[i + 1].sign) && opposite(right[i].sign, right[i + 1].sign)) {
+        let opposite = |x: Sign, y: Sign| {
+            matches!(
+                (x, y),
+                (Sign::Plus, Sign::Minus) | (Sign::Minus, Sign::Plus)
+            )
+        };
+        if !(opposite(left[i].sign, left[i + 1].sign) && opposite(right[i].sign, right[i + 1].sign))
+        {
             return false;
         }
         let gap_a = left[i + 1].frequency - left[i].frequency;

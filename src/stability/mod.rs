@@ -1,8 +1,10 @@
 //! Critical speeds, instability bands, flutter speed, and the verdict.
 
+mod analysis;
 mod bands;
 mod finder;
 mod refine;
 mod station;
 
-pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, analyze};
+pub use analysis::{Analysis, OPERATING_LIMIT};
+pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart};

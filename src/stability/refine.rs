@@ -47,7 +47,10 @@ pub fn boundary(
     merged: &Station,
     place: usize,
 ) -> Result<f64, SpectrumError> {
-    let real = apart.doubled().get(place).is_some_and(|t| t.sign == Sign::Real);
+    let real = apart
+        .doubled()
+        .get(place)
+        .is_some_and(|t| t.sign == Sign::Real);
     let value = |station: &Station| discriminant(station, place, real);
     let (mut out, mut inn) = (apart.speed_rad_per_s, merged.speed_rad_per_s);
     let mut d_out = value(apart).unwrap_or(1.0);
@@ -64,7 +67,11 @@ pub fn boundary(
         // Where neighbours in the word have moved, the place is not the pair's any
         // more; then the word alone says which side this is.
         let d = value(&station).unwrap_or_else(|| {
-            if station.word() == merged.word() { -1e-3 * d_out.abs() } else { 1e-3 * d_inn.abs() }
+            if station.word() == merged.word() {
+                -1e-3 * d_out.abs()
+            } else {
+                1e-3 * d_inn.abs()
+            }
         });
         if d > 0.0 {
             out = speed;
@@ -96,7 +103,9 @@ pub fn band_between(
 ) -> Result<Option<Inside>, SpectrumError> {
     let (mut low, mut high) = (before.clone(), after.clone());
     for step in 0..MAX_STEPS {
-        let gap = |station: &Station| discriminant(station, place, false).map(|d| 2.0 * d.max(0.0).sqrt());
+        let gap = |station: &Station| {
+            discriminant(station, place, false).map(|d| 2.0 * d.max(0.0).sqrt())
+        };
         let (Some(g_low), Some(g_high)) = (gap(&low), gap(&high)) else {
             return Ok(None);
         };
@@ -104,11 +113,16 @@ pub fn band_between(
         // Two modes whose gap closes at slope s cannot grow faster than s·width/4
         // inside this width: what is left is below what eigenvalues can show.
         let steepness = (g_low + g_high) / width;
-        let floor = GROWTH_FLOOR * (high.speed_rad_per_s + high.tokens.last().map_or(0.0, |t| t.frequency));
+        let floor =
+            GROWTH_FLOOR * (high.speed_rad_per_s + high.tokens.last().map_or(0.0, |t| t.frequency));
         if 0.25 * steepness * width < floor || width <= SPEED_TOLERANCE * high.speed_rad_per_s {
             return Ok(None);
         }
-        let share = if step % 3 == 2 { 0.5 } else { (g_low / (g_low + g_high)).clamp(0.02, 0.98) };
+        let share = if step % 3 == 2 {
+            0.5
+        } else {
+            (g_low / (g_low + g_high)).clamp(0.02, 0.98)
+        };
         let middle = finder.station(low.speed_rad_per_s + share * width)?;
         if discriminant(&middle, place, false).is_some_and(|d| d < 0.0) {
             return Ok(Some(Inside {
@@ -145,7 +159,9 @@ pub fn maximise(
     }
     for _ in 0..12 {
         points.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let best = (0..points.len()).max_by(|&i, &k| points[i].1.total_cmp(&points[k].1)).unwrap_or(0);
+        let best = (0..points.len())
+            .max_by(|&i, &k| points[i].1.total_cmp(&points[k].1))
+            .unwrap_or(0);
         if best == 0 || best + 1 == points.len() {
             break;
         }
@@ -159,7 +175,9 @@ pub fn maximise(
         }
         points.push((vertex, f(vertex)?));
     }
-    Ok(points.into_iter().fold((from, 0.0), |best, p| if p.1 > best.1 { p } else { best }))
+    Ok(points
+        .into_iter()
+        .fold((from, 0.0), |best, p| if p.1 > best.1 { p } else { best }))
 }
 
 fn parabola_vertex(left: (f64, f64), middle: (f64, f64), right: (f64, f64)) -> f64 {

@@ -52,16 +52,27 @@ impl Station {
                 };
                 Some(Token {
                     sign,
-                    frequency: if sign == Sign::Real { 0.0 } else { mode.lambda.im },
+                    frequency: if sign == Sign::Real {
+                        0.0
+                    } else {
+                        mode.lambda.im
+                    },
                     slope: mode.frequency_slope,
                     growth: mode.growth_per_s(),
                 })
             })
             .collect();
-        tokens.sort_by(|x, y| x.frequency.total_cmp(&y.frequency).then(x.growth.total_cmp(&y.growth)));
+        tokens.sort_by(|x, y| {
+            x.frequency
+                .total_cmp(&y.frequency)
+                .then(x.growth.total_cmp(&y.growth))
+        });
         let last = tokens.iter().rposition(|t| t.sign != Sign::Plus);
         tokens.truncate(last.map_or(1, |last| last + 2));
-        Station { speed_rad_per_s, tokens }
+        Station {
+            speed_rad_per_s,
+            tokens,
+        }
     }
 
     /// The word without the + at its end.
@@ -124,7 +135,9 @@ pub fn change(before: &[Sign], after: &[Sign]) -> Change {
         return Change::None;
     }
     let double = |word: &[Sign]| -> Vec<Sign> {
-        word.iter().flat_map(|s| std::iter::repeat_n(*s, if *s == Sign::Merged { 2 } else { 1 })).collect()
+        word.iter()
+            .flat_map(|s| std::iter::repeat_n(*s, if *s == Sign::Merged { 2 } else { 1 }))
+            .collect()
     };
     let (mut x, mut y) = (double(before), double(after));
     let length = x.len().max(y.len());
@@ -149,7 +162,9 @@ pub fn change(before: &[Sign], after: &[Sign]) -> Change {
     let (old, new) = (&x[first..first + 2], &y[first..first + 2]);
     // A merged pair begins at `first` only if an even number of merged letters lies before it in its run.
     match (old, new) {
-        _ if pairable(old) && pairable(new) && old[0] != Sign::Real && new[0] != Sign::Real => Change::Exchange(first),
+        _ if pairable(old) && pairable(new) && old[0] != Sign::Real && new[0] != Sign::Real => {
+            Change::Exchange(first)
+        }
         _ if pairable(old) && new == merged => Change::Merge(first),
         _ if old == merged && pairable(new) => Change::Part(first),
         _ => Change::Several,
@@ -165,10 +180,19 @@ mod tests {
     fn words_tell_what_happened() {
         assert_eq!(change(&[Minus], &[Minus]), Change::None);
         assert_eq!(change(&[Minus], &[Plus, Minus]), Change::Exchange(0));
-        assert_eq!(change(&[Minus, Plus, Minus], &[Minus, Merged]), Change::Merge(1));
-        assert_eq!(change(&[Merged, Merged], &[Merged, Plus, Minus]), Change::Part(2));
+        assert_eq!(
+            change(&[Minus, Plus, Minus], &[Minus, Merged]),
+            Change::Merge(1)
+        );
+        assert_eq!(
+            change(&[Merged, Merged], &[Merged, Plus, Minus]),
+            Change::Part(2)
+        );
         assert_eq!(change(&[Real, Real], &[Merged]), Change::Merge(0));
         assert_eq!(change(&[Minus], &[Plus, Plus, Minus]), Change::Several);
-        assert_eq!(change(&[Minus, Minus], &[Plus, Minus, Minus]), Change::Several);
+        assert_eq!(
+            change(&[Minus, Minus], &[Plus, Minus, Minus]),
+            Change::Several
+        );
     }
 }

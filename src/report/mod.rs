@@ -1,10 +1,14 @@
 //! The report: everything found out about a saw, complete enough that every
 //! figure can be drawn from it alone.
 
+mod build;
+mod csv;
+
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{Accuracy, SceneFile};
-use crate::spectrum::Direction;
+pub use crate::spectrum::Direction;
+pub use crate::stability::InstabilityKind;
 
 /// `report.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -94,16 +98,6 @@ pub struct CriticalSpeedEntry {
     pub nodal_diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub nodal_circles: usize,
-}
-
-/// Kind of an instability.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum InstabilityKind {
-    /// Exponential growth without oscillation.
-    Divergence,
-    /// Growing oscillation.
-    Flutter,
 }
 
 /// A band of unstable speeds.

@@ -1,0 +1,117 @@
+//! `sawflutter analyze`.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use sawflutter::figure;
+use sawflutter::report::Report;
+use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::stability::Analysis;
+
+use super::output::OutputFolder;
+use super::summary::summary;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter analyze                                  the built-in saw
+  sawflutter analyze my-saw.json --out my-saw         your own saw
+  sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
+  sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
+
+#[derive(Args, Default)]
+pub struct Arguments {
+    /// Scene to chart; without it, the built-in guided spline saw
+    scene: Option<PathBuf>,
+    /// Folder for report.json, campbell.csv, campbell.png and campbell.svg
+    /// [default: sawflutter-out]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Speed for accuracy; overrides the scene's
+    #[arg(long, value_name = "NAME")]
+    accuracy: Option<AccuracyName>,
+    /// Print the report as JSON instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AccuracyName {
+    Draft,
+    Design,
+    Reference,
+}
+
+/// Charts a saw, writes the files and prints the summary.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = scene(arguments)?;
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| "sawflutter-out".into());
+    let folder = OutputFolder::open(&out)?;
+    let bar = progress_bar();
+    let analysis = Analysis::new(&scene, &|done, of| {
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+    })?;
+    bar.finish_and_clear();
+    let report = Report::new(&scene, &analysis)?;
+    let json = serde_json::to_string_pretty(&report)?;
+    let files = [
+        ("campbell.csv", report.campbell_csv()?),
+        (
+            "campbell.png",
+            figure::campbell_png(&report).context("cannot draw campbell.png")?,
+        ),
+        (
+            "campbell.svg",
+            figure::campbell_svg(&report)
+                .context("cannot draw campbell.svg")?
+                .into_bytes(),
+        ),
+        ("report.json", json.clone().into_bytes()),
+    ];
+    for (name, content) in &files {
+        folder.write(name, content)?;
+    }
+    let mut stdout = std::io::stdout().lock();
+    if arguments.json {
+        writeln!(stdout, "{json}")?;
+    } else {
+        write!(stdout, "{}", summary(&report))?;
+        let names = files.map(|(name, _)| name).join(", ");
+        writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
+    }
+    Ok(())
+}
+
+fn scene(arguments: &Arguments) -> anyhow::Result<Scene> {
+    let mut scene = match &arguments.scene {
+        Some(path) => {
+            Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))?
+        }
+        None => Scene::paper(),
+    };
+    if let Some(name) = arguments.accuracy {
+        let accuracy = match name {
+            AccuracyName::Draft => Accuracy::Draft,
+            AccuracyName::Design => Accuracy::Design,
+            AccuracyName::Reference => Accuracy::Reference,
+        };
+        scene.accuracy = accuracy;
+        scene.file.accuracy = accuracy;
+    }
+    Ok(scene)
+}
+
+/// A bar on the terminal's error stream, and nothing where that is not a terminal.
+fn progress_bar() -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} speeds, {elapsed}");
+    ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

@@ -1,0 +1,51 @@
+//! The command line: arguments → library calls → output, and no physics.
+
+mod analyze;
+mod output;
+mod schema;
+mod summary;
+
+use clap::{Parser, Subcommand};
+
+/// Stability of thin, fast, guided circular saws: Campbell diagram, critical
+/// speeds, divergence and flutter bands, and a plain verdict.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Chart a saw: report.json, campbell.csv, campbell.png and campbell.svg
+    #[command(after_help = analyze::EXAMPLES)]
+    Analyze(analyze::Arguments),
+    /// Print the JSON schema of a scene
+    Schema,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sawflutter                              chart the built-in guided spline saw
+  sawflutter analyze my-saw.json          chart your own saw
+  sawflutter schema > scene.schema.json   let your editor complete scene keys
+
+Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
+
+/// Runs the command that the arguments name; without one, `analyze`.
+pub fn run() -> anyhow::Result<()> {
+    match Arguments::parse().command {
+        None => analyze::run(&analyze::Arguments::default()),
+        Some(Command::Analyze(arguments)) => analyze::run(&arguments),
+        Some(Command::Schema) => schema::run(),
+    }
+}
+
+/// A reader that has seen enough, like `head`, is no failure.
+pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<std::io::Error>())
+        .any(|cause| cause.kind() == std::io::ErrorKind::BrokenPipe)
+}

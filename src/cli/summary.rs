@@ -1,0 +1,197 @@
+//! The report in words, 80 columns wide.
+
+use std::fmt::Write;
+
+use sawflutter::report::{InstabilityEntry, InstabilityKind, Report};
+use sawflutter::spectrum::{Direction, in_words};
+
+/// Lines of a table before the rest is only counted.
+const ROWS: usize = 12;
+const WIDTH: usize = 80;
+
+/// What a designer wants to know, from top to bottom.
+pub fn summary(report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = header(&mut text, report);
+    let _ = modes(&mut text, report);
+    let _ = critical_speeds(&mut text, report);
+    let _ = bands(&mut text, report);
+    let _ = verdict(&mut text, report);
+    text
+}
+
+fn header(text: &mut String, report: &Report) -> std::fmt::Result {
+    let blade = &report.scene.blade;
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    writeln!(
+        text,
+        "{:.1} mm outside, {:.1} mm bore, {:.2} mm thick; {} to {} rpm",
+        1e3 * blade.outer_diameter_m,
+        1e3 * blade.inner_diameter_m,
+        1e3 * blade.thickness_m,
+        report.campbell.from_rpm.round(),
+        report.campbell.to_rpm.round()
+    )
+}
+
+fn modes(text: &mut String, report: &Report) -> std::fmt::Result {
+    writeln!(text, "\nModes at rest [Hz]")?;
+    for mode in report.modes_at_rest.iter().take(8) {
+        writeln!(text, "  {:>9.2}  {}", mode.frequency_hz, mode.name)?;
+    }
+    Ok(())
+}
+
+fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
+    let speeds = &report.critical_speeds;
+    if speeds.is_empty() {
+        return writeln!(
+            text,
+            "\nNo critical speed up to {:.0} rpm",
+            report.campbell.to_rpm
+        );
+    }
+    writeln!(text, "\nCritical speeds [rpm]")?;
+    for critical in speeds.iter().take(ROWS) {
+        let name = in_words(
+            critical.nodal_diameters,
+            critical.nodal_circles,
+            Direction::Standing,
+        );
+        writeln!(text, "  {:>9.1}  {name}", critical.rpm)?;
+    }
+    more(text, speeds.len())
+}
+
+fn bands(text: &mut String, report: &Report) -> std::fmt::Result {
+    if report.instabilities.is_empty() {
+        return writeln!(text, "\nNo instability: stable at every speed of the sweep");
+    }
+    writeln!(
+        text,
+        "\nInstabilities        from         to   growth   frequency"
+    )?;
+    writeln!(
+        text,
+        "                    [rpm]      [rpm]    [1/s]        [Hz]"
+    )?;
+    for band in report.instabilities.iter().take(ROWS) {
+        writeln!(
+            text,
+            "  {:<12} {:>10.1} {:>10.1} {:>8.2} {:>11.2}{}",
+            kind(band),
+            band.from_rpm,
+            band.to_rpm,
+            band.peak_growth_per_s,
+            band.frequency_hz,
+            if band.closed { "" } else { "  (goes on)" }
+        )?;
+    }
+    more(text, report.instabilities.len())
+}
+
+fn verdict(text: &mut String, report: &Report) -> std::fmt::Result {
+    writeln!(text)?;
+    let threshold = report.flutter_threshold_per_s;
+    match report.flutter_speed_rpm {
+        Some(rpm) => writeln!(
+            text,
+            "Flutter speed: {rpm:.0} rpm (growth of {threshold} 1/s or more)"
+        )?,
+        None => writeln!(
+            text,
+            "No flutter of {threshold} 1/s or more up to {:.0} rpm",
+            report.campbell.to_rpm
+        )?,
+    }
+    if let Some(rpm) = report.first_merge_rpm {
+        writeln!(
+            text,
+            "First merging of two modes, whatever its growth: {rpm:.0} rpm"
+        )?;
+    }
+    operating(text, report)?;
+    if let Some(error) = report.accuracy.estimated_relative_error {
+        writeln!(
+            text,
+            "Estimated error of the critical speeds: {:.2} % ({} functions)",
+            100.0 * error,
+            report.accuracy.degrees_of_freedom
+        )?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+fn operating(text: &mut String, report: &Report) -> std::fmt::Result {
+    let Some(operating) = &report.operating else {
+        return Ok(());
+    };
+    if let Some(band) = operating
+        .inside_instability
+        .and_then(|i| report.instabilities.get(i))
+    {
+        writeln!(
+            text,
+            "At {:.0} rpm the saw is UNSTABLE: {}",
+            operating.rpm,
+            kind(band)
+        )?;
+    }
+    let Some(ratio) = operating.of_lowest_critical else {
+        return Ok(());
+    };
+    let verdict = if ratio <= operating.limit {
+        "keeps"
+    } else {
+        "breaks"
+    };
+    writeln!(
+        text,
+        "Operating speed {:.0} rpm is {:.0} % of the lowest critical speed:\n  it {verdict} the usual {:.0} % rule (at most {:.0} rpm)",
+        operating.rpm,
+        100.0 * ratio,
+        100.0 * operating.limit,
+        operating.limit * operating.rpm / ratio
+    )
+}
+
+fn kind(band: &InstabilityEntry) -> &'static str {
+    match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
+    }
+}
+
+fn more(text: &mut String, rows: usize) -> std::fmt::Result {
+    match rows.checked_sub(ROWS) {
+        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in report.json"),
+        _ => Ok(()),
+    }
+}
+
+fn shortened(line: &str, width: usize) -> String {
+    if line.chars().count() <= width {
+        return line.to_owned();
+    }
+    line.chars().take(width - 1).chain(['…']).collect()
+}
+
+/// Breaks a sentence into lines at spaces.
+fn wrapped(sentence: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in sentence.split(' ') {
+        let last = lines.last_mut().expect("there is always a line");
+        if last.is_empty() {
+            *last = word.to_owned();
+        } else if last.chars().count() + 1 + word.chars().count() <= WIDTH {
+            *last += &format!(" {word}");
+        } else {
+            lines.push(format!("  {word}"));
+        }
+    }
+    lines.join("\n")
+}

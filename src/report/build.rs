@@ -1,0 +1,332 @@
+//! From an analysis to its report.
+
+use std::f64::consts::TAU;
+
+use faer::{Col, c64};
+
+use super::{
+    AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
+    InstabilityEntry, OperatingEntry, Report, RestMode, ShapeEntry,
+};
+use crate::campbell::Branch;
+use crate::plate::Plate;
+use crate::scene::{Bore, Scene, rpm};
+use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
+use crate::stability::{Analysis, OPERATING_LIMIT};
+
+/// Harmonics with a smaller share are left out of a mode's shape.
+const LEAST_SHARE: f64 = 1e-4;
+/// Two critical speeds closer than this, of one name, are a double one.
+const DOUBLE: f64 = 1e-9;
+
+impl Report {
+    /// Reports an analysis of a scene.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the modes at rest cannot be computed.
+    pub fn new(scene: &Scene, analysis: &Analysis) -> Result<Self, SpectrumError> {
+        let model = &analysis.model;
+        let at_rest = model.describe(0.0, model.modes(0.0)?);
+        let samples = &analysis.chart.campbell.samples;
+        let errors = samples
+            .iter()
+            .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
+        let certificate = analysis.chart.certificate;
+        let resolution = model.plate.resolution;
+        Ok(Report {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: scene.file.clone(),
+            terms: terms(&model.plate),
+            modes_at_rest: at_rest.iter().map(|m| rest_mode(analysis, m)).collect(),
+            critical_speeds: critical_speeds(analysis),
+            instabilities: instabilities(analysis),
+            flutter_speed_rpm: analysis.flutter_speed.map(rpm),
+            first_merge_rpm: analysis.first_merge.map(rpm),
+            flutter_threshold_per_s: scene.flutter_threshold_per_s,
+            operating: scene
+                .operating_rad_per_s
+                .map(|speed| operating(analysis, speed)),
+            accuracy: AccuracyEntry {
+                name: scene.accuracy,
+                max_diameters: resolution.max_diameters,
+                radial_functions: resolution.radial_functions,
+                degrees_of_freedom: resolution.degrees_of_freedom(),
+                estimated_relative_error: analysis.estimated_relative_error,
+            },
+            certificate: CertificateEntry {
+                speeds_checked: certificate.speeds_checked,
+                krein_violations: certificate.krein_violations,
+                max_backward_error: errors.fold(0.0, f64::max),
+            },
+            campbell: CampbellEntry {
+                from_rpm: rpm(analysis.range.0),
+                to_rpm: rpm(analysis.range.1),
+                complete_to_hz: model.complete_to_rad_per_s / TAU,
+                branches: branches(analysis),
+            },
+            warnings: warnings(analysis),
+        })
+    }
+}
+
+fn terms(plate: &Plate) -> Vec<String> {
+    let always = [
+        "bending K_b",
+        "centrifugal stress K_sigma",
+        "rotation N",
+        "gyroscopic G",
+    ];
+    let mut terms: Vec<String> = always.map(String::from).to_vec();
+    let mut add = |present: bool, name: &str| {
+        if present {
+            terms.push(name.to_owned());
+        }
+    };
+    add(plate.guide_stiffness.is_some(), "guide stiffness K_g");
+    add(plate.guide_damping.is_some(), "guide damping C");
+    let damping = plate.damping.as_ref();
+    add(
+        damping.is_some_and(|d| d.air_n_s_per_m3 > 0.0),
+        "air damping C",
+    );
+    let material = damping.is_some_and(|d| d.material_retardation_time_s > 0.0);
+    add(material, "material damping C and K_circ");
+    terms
+}
+
+fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
+    let name = &described.name;
+    let plate = &analysis.model.plate;
+    let q = analysis.model.plate_coordinates(&described.mode);
+    RestMode {
+        frequency_hz: described.mode.frequency_rad_per_s() / TAU,
+        nodal_diameters: name.diameters,
+        nodal_circles: name.circles,
+        name: in_words(name.diameters, name.circles, Direction::Standing),
+        backward_error: described.backward_error,
+        harmonics: name
+            .harmonics
+            .iter()
+            .filter(|h| h.share >= LEAST_SHARE)
+            .map(|h| HarmonicEntry {
+                nodal_diameters: h.diameters,
+                share: h.share,
+            })
+            .collect(),
+        shape: shape(plate, &q, described),
+    }
+}
+
+/// The deflection at the instant at which it is largest.
+fn shape(plate: &Plate, q: &Col<c64>, described: &DescribedMode) -> Vec<ShapeEntry> {
+    let turn: c64 = q.iter().map(|c| c * c).sum::<c64>().sqrt();
+    let phase = if turn.norm() > 0.0 {
+        turn.conj() / turn.norm()
+    } else {
+        c64::new(1.0, 0.0)
+    };
+    let size = plate.basis.len();
+    let radius_m: Vec<f64> = plate.sampled_radii_m().step_by(4).collect();
+    let profile = |n: usize, offset: usize| -> Vec<f64> {
+        let values = plate.sampled_functions(n).iter().step_by(4);
+        values
+            .map(|radial| {
+                let terms = radial.iter().zip(offset..offset + size);
+                terms.map(|(r, i)| r * (q[i] * phase).re).sum::<f64>() / plate.angular_norm(n)
+            })
+            .collect()
+    };
+    let mut shape: Vec<ShapeEntry> = described
+        .name
+        .harmonics
+        .iter()
+        .filter(|h| h.share >= LEAST_SHARE)
+        .map(|h| {
+            let n = h.diameters;
+            let offset = plate.offset(n);
+            let sine = if n > 0 {
+                profile(n, offset + size)
+            } else {
+                vec![0.0; radius_m.len()]
+            };
+            ShapeEntry {
+                nodal_diameters: n,
+                radius_m: radius_m.clone(),
+                cosine: profile(n, offset),
+                sine,
+            }
+        })
+        .collect();
+    let all = || shape.iter().flat_map(|s| s.cosine.iter().chain(&s.sine));
+    let largest = all().fold(f64::MIN_POSITIVE, |top, w| top.max(w.abs()));
+    for entry in &mut shape {
+        let values = entry.cosine.iter_mut().chain(&mut entry.sine);
+        values.for_each(|w| *w /= largest);
+    }
+    shape
+}
+
+/// Critical speeds up to the end of the sweep; the double ones of a free blade once.
+fn critical_speeds(analysis: &Analysis) -> Vec<CriticalSpeedEntry> {
+    let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
+    for critical in &analysis.model.critical {
+        if critical.speed_rad_per_s > analysis.range.1 {
+            break;
+        }
+        let speed = rpm(critical.speed_rad_per_s);
+        let double = |e: &CriticalSpeedEntry| {
+            analysis.model.plate.is_axisymmetric()
+                && (e.nodal_diameters, e.nodal_circles) == (critical.diameters, critical.circles)
+                && (speed / e.rpm - 1.0).abs() < DOUBLE
+        };
+        if !entries.iter().any(double) {
+            entries.push(CriticalSpeedEntry {
+                rpm: speed,
+                nodal_diameters: critical.diameters,
+                nodal_circles: critical.circles,
+            });
+        }
+    }
+    entries
+}
+
+fn instabilities(analysis: &Analysis) -> Vec<InstabilityEntry> {
+    let bands = analysis.chart.instabilities.iter();
+    bands
+        .map(|band| InstabilityEntry {
+            kind: band.kind,
+            from_rpm: rpm(band.from),
+            to_rpm: rpm(band.to),
+            closed: band.closed,
+            peak_rpm: rpm(band.peak),
+            peak_growth_per_s: band.peak_growth_per_s,
+            frequency_hz: band.frequency / TAU,
+            modes: band.modes.clone(),
+        })
+        .collect()
+}
+
+fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
+    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
+    let of_lowest_critical = lowest.map(|lowest| speed / lowest);
+    OperatingEntry {
+        rpm: rpm(speed),
+        of_lowest_critical,
+        limit: OPERATING_LIMIT,
+        within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
+        inside_instability: analysis.band_at(speed),
+    }
+}
+
+fn branches(analysis: &Analysis) -> Vec<BranchEntry> {
+    let mut entries: Vec<BranchEntry> = analysis
+        .chart
+        .campbell
+        .branches
+        .iter()
+        .map(|branch| branch_entry(analysis, branch))
+        .collect();
+    let start = |e: &BranchEntry| (e.rpm[0], e.frequency_hz[0]);
+    entries.sort_by(|x, y| {
+        let (x, y) = (start(x), start(y));
+        x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1))
+    });
+    entries
+}
+
+fn branch_entry(analysis: &Analysis, branch: &Branch) -> BranchEntry {
+    let campbell = &analysis.chart.campbell;
+    let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
+    let ((nodal_diameters, nodal_circles), direction) = branch_name(&modes);
+    let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
+    BranchEntry {
+        name: in_words(nodal_diameters, nodal_circles, direction),
+        nodal_diameters,
+        nodal_circles,
+        direction,
+        rpm: branch
+            .points
+            .iter()
+            .map(|&(s, _)| rpm(campbell.samples[s].speed_rad_per_s))
+            .collect(),
+        frequency_hz: list(|m| m.mode.frequency_rad_per_s() / TAU),
+        body_frequency_hz: list(|m| m.name.body_frequency_rad_per_s / TAU),
+        growth_per_s: list(|m| m.mode.growth_per_s()),
+        krein_sign: modes.iter().map(|m| m.mode.krein_sign()).collect(),
+        dominant_harmonics: modes
+            .iter()
+            .map(|m| {
+                let diameters =
+                    |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
+                [diameters(0), diameters(1)]
+            })
+            .collect(),
+    }
+}
+
+/// What most points of a branch are called; at rest waves stand, which names no direction.
+fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
+    let commonest = |names: Vec<(usize, usize, Direction)>| {
+        let count = |name: &(usize, usize, Direction)| names.iter().filter(|n| *n == name).count();
+        names.iter().copied().rev().max_by_key(count)
+    };
+    let named = |m: &&DescribedMode| {
+        (
+            m.name.diameters,
+            m.name.circles,
+            m.name.direction_on_blade(),
+        )
+    };
+    let names = modes
+        .iter()
+        .skip(usize::from(modes.len() > 1))
+        .map(named)
+        .collect();
+    let (diameters, circles, direction) = commonest(names).unwrap_or((0, 0, Direction::Standing));
+    ((diameters, circles), direction)
+}
+
+/// Limits of the model that this scene comes near to.
+fn warnings(analysis: &Analysis) -> Vec<String> {
+    let plate = &analysis.model.plate;
+    let blade = &plate.blade;
+    let mut warnings = Vec::new();
+    let width = blade.outer_radius_m - blade.inner_radius_m;
+    if blade.thickness_m > 0.1 * width {
+        warnings.push(format!(
+            "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
+            blade.thickness_m / width
+        ));
+    }
+    let certificate = analysis.chart.certificate;
+    if certificate.krein_violations > 0 {
+        warnings.push(format!(
+            "the Krein index did not match at {} of {} speeds: a mode may be missing",
+            certificate.krein_violations, certificate.speeds_checked
+        ));
+    }
+    let unresolved = analysis
+        .model
+        .critical
+        .iter()
+        .any(|c| c.diameters == plate.max_diameters() && c.speed_rad_per_s < analysis.range.1);
+    if unresolved {
+        warnings.push(format!(
+            "waves of more than {} diameters become critical within the sweep, and are not in the basis",
+            plate.max_diameters()
+        ));
+    }
+    if matches!(blade.bore, Bore::Free)
+        && analysis
+            .model
+            .parts
+            .iter()
+            .any(|p| !p.free_rigid.is_empty())
+    {
+        warnings.push(
+            "nothing holds the blade against some rigid motion; it is left out of the modes"
+                .to_owned(),
+        );
+    }
+    warnings
+}
