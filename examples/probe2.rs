@@ -22,15 +22,15 @@ fn main() {
     )
     .unwrap();
     let t1 = t.elapsed();
-    let chart = stability::analyze(&model, range, count, &|_, _| ()).unwrap();
+    let chart = stability::chart(&model, range, count, &|_, _| ()).unwrap();
     println!(
-        "low {:?} model {t1:?} all {:?} r={} {:?} {:?}",
+        "low {:?} model {t1:?} all {:?} r={:?} {:?} {:?}",
         model.parts[0]
             .low
             .as_ref()
-            .map(|l| (l.reduced.order(), l.complete_to_rad_per_s)),
+            .map(|l| (l.0.reduced.order(), l.1)),
         t.elapsed(),
-        model.parts[0].reduced.order(),
+        model.parts[0].chart.iter().map(|p| p.reduced.order()).max(),
         model.counters,
         chart.certificate
     );

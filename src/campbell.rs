@@ -8,7 +8,7 @@
 use faer::{Col, c64};
 use rayon::prelude::*;
 
-use crate::spectrum::{DescribedMode, Mode, ModeKind, SpectralModel, SpectrumError};
+use crate::spectrum::{DescribedMode, ModeKind, SpectralModel, SpectrumError};
 
 /// Told how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -110,12 +110,13 @@ struct Carrier<'a> {
     frequency: f64,
     slope: f64,
     part: usize,
-    coordinates: &'a Col<c64>,
+    shape: &'a Col<c64>,
     conjugated: bool,
 }
 
 impl<'a> Carrier<'a> {
-    fn new(mode: &'a Mode) -> Self {
+    fn new(described: &'a DescribedMode) -> Self {
+        let mode = &described.mode;
         // At a merging the + mode goes on as the growing and the − mode as the
         // decaying member of the pair.
         let conjugated = matches!(mode.kind, ModeKind::Negative | ModeKind::Decaying);
@@ -124,7 +125,7 @@ impl<'a> Carrier<'a> {
             frequency: sign * mode.lambda.im,
             slope: sign * mode.frequency_slope,
             part: mode.part,
-            coordinates: &mode.coordinates,
+            shape: &described.shape,
             conjugated,
         }
     }
@@ -135,7 +136,7 @@ impl<'a> Carrier<'a> {
             return 0.0;
         }
         let mut product = c64::new(0.0, 0.0);
-        for (x, y) in self.coordinates.iter().zip(other.coordinates.iter()) {
+        for (x, y) in self.shape.iter().zip(other.shape.iter()) {
             let left = if self.conjugated { *x } else { x.conj() };
             let right = if other.conjugated { y.conj() } else { *y };
             product += left * right;
@@ -151,8 +152,8 @@ const LEAST_LIKENESS: f64 = 0.2;
 /// decides; how far the frequency is from where its slope leads breaks near ties.
 fn match_modes(before: &SpeedSample, after: &SpeedSample) -> Vec<(usize, usize)> {
     let step = after.speed_rad_per_s - before.speed_rad_per_s;
-    let old: Vec<Carrier<'_>> = before.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
-    let new: Vec<Carrier<'_>> = after.modes.iter().map(|m| Carrier::new(&m.mode)).collect();
+    let old: Vec<Carrier<'_>> = before.modes.iter().map(Carrier::new).collect();
+    let new: Vec<Carrier<'_>> = after.modes.iter().map(Carrier::new).collect();
     let height = old
         .iter()
         .chain(&new)

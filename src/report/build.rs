@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faer::{Col, c64};
+use faer::c64;
 
 use super::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
@@ -97,7 +97,6 @@ fn terms(plate: &Plate) -> Vec<String> {
 fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
     let name = &described.name;
     let plate = &analysis.model.plate;
-    let q = analysis.model.plate_coordinates(&described.mode);
     RestMode {
         frequency_hz: described.mode.frequency_rad_per_s() / TAU,
         nodal_diameters: name.diameters,
@@ -113,12 +112,13 @@ fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
                 share: h.share,
             })
             .collect(),
-        shape: shape(plate, &q, described),
+        shape: shape(plate, described),
     }
 }
 
 /// The deflection at the instant at which it is largest.
-fn shape(plate: &Plate, q: &Col<c64>, described: &DescribedMode) -> Vec<ShapeEntry> {
+fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
+    let q = &described.shape;
     let turn: c64 = q.iter().map(|c| c * c).sum::<c64>().sqrt();
     let phase = if turn.norm() > 0.0 {
         turn.conj() / turn.norm()

@@ -12,6 +12,7 @@ pub use dense::companion_eigenpairs;
 pub use mode::{Mode, ModeKind};
 pub use model::{DescribedMode, NamedCriticalSpeed, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
+pub use reduction::Projection;
 pub use pencil::{CriticalSpeed, critical_speeds};
 pub use shift_invert::lowest_eigenpairs;
 

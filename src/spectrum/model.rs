@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 
 use super::mode::{DynamicStiffness, Mode, ModeKind, classify};
 use super::name::ModeName;
-use super::reduction;
+use super::reduction::{self, Projection};
 use super::{SpectrumError, companion_eigenpairs, critical_speeds};
 
 /// How the modes of a speed are found.
@@ -42,23 +42,13 @@ pub struct Part {
     pub first: usize,
     /// The whole part.
     pub full: GyroscopicSystem,
-    /// Orthonormal vectors that span the modes of the chart.
-    pub basis: Mat<f64>,
-    /// The part projected on them.
-    pub reduced: GyroscopicSystem,
-    /// The part projected on the reflected waves and what they can meet.
-    pub low: Option<LowPart>,
+    /// Projections for the chart, by speed.
+    pub chart: Vec<Projection>,
+    /// Projection on the reflected waves and what they can meet, and the frequency up
+    /// to which it is complete.
+    pub low: Option<(Projection, f64)>,
     /// Rigid motions that nothing holds.
     pub free_rigid: Vec<Col<f64>>,
-}
-
-/// A smaller projection for the search for bands.
-#[derive(Debug)]
-pub struct LowPart {
-    /// The projected matrices.
-    pub reduced: GyroscopicSystem,
-    /// Frequency up to which its modes are complete and accurate.
-    pub complete_to_rad_per_s: f64,
 }
 
 /// A standing wave at its critical speed.
@@ -81,6 +71,8 @@ pub struct NamedCriticalSpeed {
 pub struct DescribedMode {
     /// The mode.
     pub mode: Mode,
+    /// q in the basis of the plate.
+    pub shape: Col<c64>,
     /// Its name.
     pub name: ModeName,
     /// Residual on the whole basis.
@@ -121,19 +113,15 @@ impl SpectralModel {
         if strategy == Strategy::Reduced {
             let scale = frequency_scale(&plate);
             for (index, part) in parts.iter_mut().enumerate() {
-                let reduction = if plate.is_axisymmetric() {
-                    reduction::of_harmonic(&plate, index, range)
+                if plate.is_axisymmetric() {
+                    let basis = reduction::of_harmonic(&plate, index, range);
+                    part.chart = vec![Projection::new(&part.full, basis, range.1)];
                 } else {
-                    let both = reduction::of_guided(&part.full, range, scale, &critical, &counters);
-                    part.low = both.low.map(|low| LowPart {
-                        reduced: part.full.project(low.basis.as_ref()),
-                        complete_to_rad_per_s: low.complete_to_rad_per_s,
-                    });
-                    both.chart
-                };
-                part.reduced = part.full.project(reduction.basis.as_ref());
-                part.basis = reduction.basis;
-                complete_to_rad_per_s = complete_to_rad_per_s.min(reduction.complete_to_rad_per_s);
+                    let found = reduction::of_guided(&part.full, range, scale, &critical, &counters);
+                    part.chart = found.chart;
+                    part.low = found.low.map(|low| (low, found.low_rad_per_s));
+                    complete_to_rad_per_s = found.chart_rad_per_s;
+                }
             }
         }
         let mut model = SpectralModel {
@@ -170,7 +158,7 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn all_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        self.solve(speed_rad_per_s, f64::INFINITY, |part| &part.reduced)
+        self.solve(speed_rad_per_s, f64::INFINITY, |part| part.at(speed_rad_per_s))
     }
 
     /// Modes up to `complete_to`, without the rigid motions at rest.
@@ -178,9 +166,7 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| {
-            &part.reduced
-        })?;
+        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| part.at(speed_rad_per_s))?;
         modes.retain(|m| m.kind != ModeKind::Rigid);
         Ok(modes)
     }
@@ -191,24 +177,24 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn low_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let [Part { low: Some(low), .. }] = self.parts.as_slice() else {
+        let [Part { low: Some((low, height)), .. }] = self.parts.as_slice() else {
             return self.modes(speed_rad_per_s);
         };
-        self.solve(speed_rad_per_s, low.complete_to_rad_per_s, |_| &low.reduced)
+        self.solve(speed_rad_per_s, *height, |_| low)
     }
 
     fn solve<'a>(
         &'a self,
         speed_rad_per_s: f64,
         highest_rad_per_s: f64,
-        system: impl Fn(&'a Part) -> &'a GyroscopicSystem,
+        projection: impl Fn(&'a Part) -> &'a Projection,
     ) -> Result<Vec<Mode>, SpectrumError> {
         let scale = frequency_scale(&self.plate);
         let speed = speed_rad_per_s.max(SPLITTING * scale);
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            let system = system(part);
+            let system = &projection(part).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
             let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
@@ -229,23 +215,14 @@ impl SpectralModel {
             .into_iter()
             .map(|mode| {
                 let part = &self.parts[mode.part];
-                let lifted = lift(part.basis.as_ref(), &mode.coordinates);
+                let basis = &part.at(speed_rad_per_s).basis;
+                let lifted = lift(basis.as_ref(), &mode.coordinates);
                 let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
-                let q = self.embed(part.first, &lifted);
-                let name = ModeName::new(&self.plate, &mode, &q, speed_rad_per_s);
-                DescribedMode {
-                    mode,
-                    name,
-                    backward_error,
-                }
+                let shape = self.embed(part.first, &lifted);
+                let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
+                DescribedMode { mode, shape, name, backward_error }
             })
             .collect()
-    }
-
-    /// Coordinates of a mode in the basis of the plate.
-    pub fn plate_coordinates(&self, mode: &Mode) -> Col<c64> {
-        let part = &self.parts[mode.part];
-        self.embed(part.first, &lift(part.basis.as_ref(), &mode.coordinates))
     }
 
     fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
@@ -289,12 +266,21 @@ impl Part {
         let order = full.order();
         Part {
             first,
-            basis: Mat::identity(order, order),
-            reduced: full.clone(),
+            chart: vec![Projection {
+                to_rad_per_s: f64::INFINITY,
+                basis: Mat::identity(order, order),
+                reduced: full.clone(),
+            }],
             low: None,
             free_rigid: free_rigid_motions(plate, &full, first),
             full,
         }
+    }
+
+    /// The projection for a speed; the last one also beyond the range.
+    fn at(&self, speed_rad_per_s: f64) -> &Projection {
+        let place = self.chart.partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
+        &self.chart[place.min(self.chart.len() - 1)]
     }
 }
 

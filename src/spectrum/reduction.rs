@@ -3,6 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use faer::{Col, Mat, Side, c64};
+use rayon::prelude::*;
 
 use crate::plate::Plate;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
@@ -11,12 +12,23 @@ use super::mode::{DynamicStiffness, ModeKind, classify, split};
 use super::model::{NamedCriticalSpeed, WorkCounters, frequency_scale, lift};
 use super::{companion_eigenpairs, lowest_eigenpairs};
 
-/// An orthonormal basis and what it is good for.
-pub struct Reduction {
+/// A part projected on few orthonormal vectors.
+#[derive(Debug)]
+pub struct Projection {
+    /// Last speed that it is good for.
+    pub to_rad_per_s: f64,
     /// N × r.
     pub basis: Mat<f64>,
-    /// Frequency up to which every mode is represented.
-    pub complete_to_rad_per_s: f64,
+    /// The projected matrices.
+    pub reduced: GyroscopicSystem,
+}
+
+impl Projection {
+    /// Projects a part, for speeds up to `to_rad_per_s`.
+    pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
+        let reduced = system.project(basis.as_ref());
+        Projection { to_rad_per_s, basis, reduced }
+    }
 }
 
 /// Modes a chart shows at the lowest speed.
@@ -27,7 +39,7 @@ const RADIAL_MODES: usize = 4;
 /// a projected symmetric problem are off by the square of it.
 const SPAN_TOLERANCE: f64 = 1e-6;
 /// Largest estimated error of a projected frequency, relative to the chart's height.
-const FREQUENCY_TOLERANCE: f64 = 1e-9;
+const FREQUENCY_TOLERANCE: f64 = 1e-8;
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
 const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
@@ -37,7 +49,7 @@ const MAX_SNAPSHOTS: usize = 33;
 
 /// Lowest body-frame modes of one harmonic at three speeds, for cos and sin alike.
 /// On these the undamped free blade is exact.
-pub fn of_harmonic(plate: &Plate, n: usize, range: (f64, f64)) -> Reduction {
+pub fn of_harmonic(plate: &Plate, n: usize, range: (f64, f64)) -> Mat<f64> {
     let block = &plate.harmonics[n];
     let size = block.bending.nrows();
     // The rigid motion is decoupled to the last bit; it stays a vector of its own.
@@ -67,17 +79,13 @@ pub fn of_harmonic(plate: &Plate, n: usize, range: (f64, f64)) -> Reduction {
     });
     let phases = if n == 0 { 1 } else { 2 };
     let width = radial.ncols();
-    let basis = Mat::from_fn(size * phases, width * phases, |i, k| {
+    Mat::from_fn(size * phases, width * phases, |i, k| {
         if i / size == k / width {
             radial[(i % size, k % width)]
         } else {
             0.0
         }
-    });
-    Reduction {
-        basis,
-        complete_to_rad_per_s: f64::INFINITY,
-    }
+    })
 }
 
 /// Eigenvectors of the smallest eigenvalues of A, from the inverse of A + shift:
@@ -103,13 +111,18 @@ fn lowest_symmetric(mut matrix: Mat<f64>, shift: f64, count: usize) -> Vec<Col<f
     }
 }
 
-/// Projections of a guided blade: one for the chart, and a smaller one for the
-/// search for bands, which needs the reflected waves and what they can meet, no more.
+/// Projections of a guided blade.
 pub struct GuidedReductions {
-    /// Every mode up to the height of the chart.
-    pub chart: Reduction,
-    /// Every mode up to a little above the highest reflected wave, if there is one.
-    pub low: Option<Reduction>,
+    /// Every mode up to the height of the chart, one projection for each interval
+    /// between neighbouring snapshots, on the modes at its two ends.
+    pub chart: Vec<Projection>,
+    /// Every mode up to a little above the highest reflected wave, if there is one,
+    /// for the whole range: the search for bands needs no more, and so asks less.
+    pub low: Option<Projection>,
+    /// Height of the chart.
+    pub chart_rad_per_s: f64,
+    /// Height of `low`.
+    pub low_rad_per_s: f64,
 }
 
 /// Modes of the guided blade at a few speeds, more of them until every mode up to
@@ -127,16 +140,18 @@ pub fn of_guided(
         scale,
         critical,
         counters,
+        window: 0.0,
         snapshots: Vec::new(),
     };
-    let reflected = builder.reflected_height(range.1);
-    let window = builder.chart_height(range.0).max(reflected);
-    for k in 0..5 {
-        builder.add_snapshot(range.0 + (range.1 - range.0) * f64::from(k) / 4.0, window);
-    }
+    let low_rad_per_s = builder.reflected_height(range.1);
+    builder.window = builder.chart_height(range.0).max(low_rad_per_s);
+    builder.add_snapshots(&first_speeds(range));
+    let low = (low_rad_per_s > 0.0).then(|| builder.whole_range(low_rad_per_s));
     GuidedReductions {
-        chart: builder.resolve(window, window),
-        low: (reflected > 0.0).then(|| builder.resolve(reflected, window)),
+        chart: builder.pieces(),
+        low,
+        chart_rad_per_s: builder.window,
+        low_rad_per_s,
     }
 }
 
@@ -152,6 +167,7 @@ struct Builder<'a> {
     scale: f64,
     critical: &'a [NamedCriticalSpeed],
     counters: &'a WorkCounters,
+    window: f64,
     snapshots: Vec<Snapshot>,
 }
 
@@ -196,34 +212,38 @@ impl Builder<'_> {
         }
     }
 
-    /// Every mode below the window at one speed, and one above it.
-    fn add_snapshot(&mut self, speed: f64, window: f64) {
-        let mut count = CHART_MODES + 2;
-        let pairs = loop {
-            let pairs = self.lowest(speed, count);
-            let covered = pairs
-                .last()
-                .is_some_and(|(lambda, _)| lambda.norm() > window);
-            if covered || 2 * count >= self.system.order() {
-                break pairs;
-            }
-            count += count / 2;
-        };
-        let place = self.snapshots.partition_point(|s| s.speed < speed);
-        self.snapshots.insert(place, Snapshot { speed, pairs });
+    /// Every mode below the chart's height at each speed, and one above it.
+    fn add_snapshots(&mut self, speeds: &[f64]) {
+        let new: Vec<Snapshot> = speeds.par_iter().map(|&speed| self.snapshot(speed)).collect();
+        self.snapshots.extend(new);
+        self.snapshots.sort_by(|x, y| x.speed.total_cmp(&y.speed));
     }
 
-    /// The modes up to a window at every snapshot so far. With the standing waves
-    /// themselves in it the projected K(Ω) is singular at the same speeds as the
-    /// whole one, to the last digit.
-    fn basis(&self, window: f64) -> Mat<f64> {
-        let standing = self
-            .critical
-            .iter()
-            .take_while(|c| c.speed_rad_per_s <= self.range.1);
+    fn snapshot(&self, speed: f64) -> Snapshot {
+        let mut count = CHART_MODES + 2;
+        loop {
+            let pairs = self.lowest(speed, count);
+            let covered = pairs.last().is_some_and(|(lambda, _)| lambda.norm() > self.window);
+            if covered || 2 * count >= self.system.order() {
+                return Snapshot { speed, pairs };
+            }
+            count += count / 2;
+        }
+    }
+
+    /// The modes up to a height at some snapshots, and the standing waves of the critical
+    /// speeds between them: with these the projected K(Ω) is singular at the same speeds as
+    /// the whole one, to the last digit.
+    fn basis(&self, snapshots: &[Snapshot], height: f64) -> Mat<f64> {
+        let (from, to) = match (snapshots.first(), snapshots.last()) {
+            (Some(first), Some(last)) => (first.speed, last.speed),
+            _ => self.range,
+        };
+        let inside = |c: &&NamedCriticalSpeed| (from..=to).contains(&c.speed_rad_per_s);
+        let standing = self.critical.iter().filter(inside);
         let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
-        for (lambda, q) in self.snapshots.iter().flat_map(|s| &s.pairs) {
-            if lambda.norm() <= window {
+        for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
+            if lambda.norm() <= SNAPSHOT_MARGIN * height {
                 let (re, im) = split(q);
                 vectors.push(re);
                 vectors.push(im);
@@ -232,65 +252,87 @@ impl Builder<'_> {
         orthonormal(self.system.order(), &vectors)
     }
 
-    /// Adds snapshots until every mode up to the window is right between them too.
-    fn resolve(&mut self, window: f64, chart: f64) -> Reduction {
+    /// One projection for all speeds, from the modes up to a height at every snapshot;
+    /// snapshots are added until it is right halfway between them.
+    fn whole_range(&mut self, height: f64) -> Projection {
         loop {
-            let basis = self.basis(SNAPSHOT_MARGIN * window);
-            let unresolved = self.unresolved(&basis, window, FREQUENCY_TOLERANCE * chart);
-            if unresolved.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
-                return Reduction {
-                    basis,
-                    complete_to_rad_per_s: window,
-                };
+            let projection =
+                Projection::new(self.system, self.basis(&self.snapshots, height), self.range.1);
+            let halfway = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
+            let halfway: Vec<f64> = halfway.collect();
+            let coarse = self.unresolved(&halfway, height, |_| &projection);
+            if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
+                return projection;
             }
-            for speed in unresolved {
-                self.add_snapshot(speed, chart);
-            }
+            self.add_snapshots(&coarse);
         }
     }
 
-    /// Midpoints between snapshots at which some mode is not right yet.
-    fn unresolved(&self, basis: &Mat<f64>, window: f64, tolerance: f64) -> Vec<f64> {
-        let reduced = self.system.project(basis.as_ref());
-        let middles = self
-            .snapshots
-            .windows(2)
-            .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
-        middles
-            .filter(|&speed| self.frequency_error(&reduced, basis, speed, window) > tolerance)
-            .collect()
+    /// Projections between neighbouring snapshots, halved until right in their middle.
+    fn pieces(&mut self) -> Vec<Projection> {
+        loop {
+            let pieces: Vec<Projection> = self
+                .snapshots
+                .par_windows(2)
+                .map(|pair| Projection::new(self.system, self.basis(pair, self.window), pair[1].speed))
+                .collect();
+            let halfway = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
+            let halfway: Vec<f64> = halfway.collect();
+            let coarse = self.unresolved(&halfway, self.window, |index| &pieces[index]);
+            if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
+                return pieces;
+            }
+            self.add_snapshots(&coarse);
+        }
+    }
+
+    /// The speeds at which some mode up to a height is not right yet; each has its projection.
+    fn unresolved<'p>(
+        &self,
+        speeds: &[f64],
+        height: f64,
+        projection: impl Fn(usize) -> &'p Projection + Sync,
+    ) -> Vec<f64> {
+        let wrong: Vec<bool> = speeds
+            .par_iter()
+            .enumerate()
+            .map(|(index, &speed)| {
+                self.frequency_error(projection(index), speed, height)
+                    > FREQUENCY_TOLERANCE * self.window
+            })
+            .collect();
+        let chosen = speeds.iter().zip(wrong).filter(|(_, wrong)| *wrong);
+        chosen.map(|(speed, _)| *speed).collect()
     }
 
     /// Largest |rᴴ P⁻¹ r| / |qᴴ(2ω − 2iΩG)q| over the modes below the window, r the
     /// residual on the whole basis: the second-order shift of a simple frequency. P, the
     /// diagonal of K₀, stands for L, for r lives in the high functions, which stiffness rules.
-    fn frequency_error(
-        &self,
-        reduced: &GyroscopicSystem,
-        basis: &Mat<f64>,
-        speed: f64,
-        window: f64,
-    ) -> f64 {
+    fn frequency_error(&self, projection: &Projection, speed: f64, height: f64) -> f64 {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        let Ok(pairs) = companion_eigenpairs(reduced, speed) else {
+        let Ok(pairs) = companion_eigenpairs(&projection.reduced, speed) else {
             return f64::INFINITY;
         };
         let dynamic = DynamicStiffness::new(self.system, speed);
         pairs
             .iter()
-            .filter(|(lambda, _)| lambda.im <= window && lambda.re >= -1e-6 * window)
+            .filter(|(lambda, _)| lambda.im <= height && lambda.re >= -1e-6 * height)
             .map(|(lambda, q)| {
-                let lifted = lift(basis.as_ref(), q);
+                let lifted = lift(projection.basis.as_ref(), q);
                 let residual: Col<c64> = dynamic.residual(*lambda, &lifted);
+                let stiffness = &self.system.stiffness;
                 let shift: f64 = (0..residual.nrows())
-                    .map(|i| {
-                        residual[i].norm_sqr() / (self.system.stiffness[(i, i)] + window.powi(2))
-                    })
+                    .map(|i| residual[i].norm_sqr() / (stiffness[(i, i)] + height.powi(2)))
                     .sum();
-                shift / window
+                shift / height
             })
             .fold(0.0, f64::max)
     }
+}
+
+/// Speeds of the first snapshots.
+fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
+    [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
 }
 
 /// Orthonormal basis of the span, by QR with column pivoting.

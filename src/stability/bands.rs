@@ -136,7 +136,7 @@ fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [1e-6, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0 - 1e-6]
+            [1e-6, 0.1, 0.3, 0.7, 0.9, 1.0 - 1e-6]
                 .map(at)
                 .into_iter()
                 .chain([band.peak])
