@@ -56,6 +56,7 @@ impl Report {
             certificate: CertificateEntry {
                 speeds_checked: certificate.speeds_checked,
                 krein_violations: certificate.krein_violations,
+                violating_rpm: Vec::new(),
                 max_backward_error: errors.fold(0.0, f64::max),
             },
             campbell: CampbellEntry {
@@ -64,6 +65,8 @@ impl Report {
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
                 branches: branches(analysis),
             },
+            root_loci: None,
+            sensitivities: Vec::new(),
             warnings: warnings(analysis),
         })
     }

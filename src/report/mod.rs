@@ -40,6 +40,11 @@ pub struct Report {
     pub certificate: CertificateEntry,
     /// Branches over speed.
     pub campbell: CampbellEntry,
+    /// The two modes that meet at the flutter speed (or at the first merging), followed
+    /// through it in the complex plane.
+    pub root_loci: Option<RootLociEntry>,
+    /// How critical speeds and onsets move with the saw, when asked for.
+    pub sensitivities: Vec<SensitivityEntry>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }
@@ -160,8 +165,10 @@ pub struct AccuracyEntry {
 pub struct CertificateEntry {
     /// Speeds at which the index was compared; 0 for damped scenes, which have none.
     pub speeds_checked: usize,
-    /// Speeds at which it did not match; expected 0.
+    /// Speeds at which it did not match, not even on the whole basis; expected 0.
     pub krein_violations: usize,
+    /// These speeds.
+    pub violating_rpm: Vec<f64>,
     /// Largest backward error of any mode shown.
     pub max_backward_error: f64,
 }
@@ -204,4 +211,52 @@ pub struct BranchEntry {
     pub krein_sign: Vec<i8>,
     /// Nodal diameters of the dominant and of the next harmonic at each speed.
     pub dominant_harmonics: Vec<[usize; 2]>,
+}
+
+/// Eigenvalues around a flutter onset, in the complex plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RootLociEntry {
+    /// Onset of the band.
+    pub onset_rpm: f64,
+    /// End of the band.
+    pub end_rpm: f64,
+    /// Rotation speeds, ascending, from before the onset to after the end.
+    pub rpm: Vec<f64>,
+    /// The eigenvalues of both modes, which are the growing and the decaying one
+    /// inside the band.
+    pub paths: Vec<RootPathEntry>,
+}
+
+/// One eigenvalue over the speeds of a [`RootLociEntry`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RootPathEntry {
+    /// Name of the mode before the onset.
+    pub name: String,
+    /// Re λ.
+    pub growth_per_s: Vec<f64>,
+    /// Im λ/2π.
+    pub frequency_hz: Vec<f64>,
+    /// Krein sign: +1, −1, or 0 inside the band.
+    pub krein_sign: Vec<i8>,
+}
+
+/// Relative change of speeds for a change of one number of the scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensitivityEntry {
+    /// JSON path of the number in the scene.
+    pub parameter: String,
+    /// The change: "1 %" or "1 degree".
+    pub change: String,
+    /// Change of each reported critical speed, in percent.
+    pub critical_speeds_percent: Vec<f64>,
+    /// Change of the onset of each reported band, in percent.
+    pub onsets_percent: Vec<f64>,
+    /// dλ/dp of each mode at the operating speed (at rest without one), times the
+    /// change: growth in 1/s.
+    pub growth_per_s: Vec<f64>,
+    /// The same: frequency in Hz.
+    pub frequency_hz: Vec<f64>,
 }

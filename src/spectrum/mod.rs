@@ -1,6 +1,7 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
 mod dense;
+mod low;
 mod mode;
 mod model;
 mod name;
@@ -9,11 +10,12 @@ mod reduction;
 mod shift_invert;
 
 pub use dense::companion_eigenpairs;
+pub use low::LowModel;
 pub use mode::{Mode, ModeKind};
 pub use model::{DescribedMode, NamedCriticalSpeed, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
-pub use reduction::Projection;
 pub use pencil::{CriticalSpeed, critical_speeds};
+pub use reduction::Projection;
 pub use shift_invert::lowest_eigenpairs;
 
 /// Why a spectrum could not be computed.

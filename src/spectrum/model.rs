@@ -11,6 +11,7 @@ use faer::{Col, Mat, MatRef, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
+use super::low::LowModel;
 use super::mode::{DynamicStiffness, Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::reduction::{self, Projection};
@@ -117,7 +118,8 @@ impl SpectralModel {
                     let basis = reduction::of_harmonic(&plate, index, range);
                     part.chart = vec![Projection::new(&part.full, basis, range.1)];
                 } else {
-                    let found = reduction::of_guided(&part.full, range, scale, &critical, &counters);
+                    let found =
+                        reduction::of_guided(&part.full, range, scale, &critical, &counters);
                     part.chart = found.chart;
                     part.low = found.low.map(|low| (low, found.low_rad_per_s));
                     complete_to_rad_per_s = found.chart_rad_per_s;
@@ -158,7 +160,7 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn all_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        self.solve(speed_rad_per_s, f64::INFINITY, |part| part.at(speed_rad_per_s))
+        self.solve(speed_rad_per_s, f64::INFINITY)
     }
 
     /// Modes up to `complete_to`, without the rigid motions at rest.
@@ -166,35 +168,22 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s, |part| part.at(speed_rad_per_s))?;
+        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s)?;
         modes.retain(|m| m.kind != ModeKind::Rigid);
         Ok(modes)
     }
 
-    /// Every reflected, merged or divergent mode, and what they can meet, from the
-    /// smallest sound projection.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn low_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let [Part { low: Some((low, height)), .. }] = self.parts.as_slice() else {
-            return self.modes(speed_rad_per_s);
-        };
-        self.solve(speed_rad_per_s, *height, |_| low)
-    }
-
-    fn solve<'a>(
-        &'a self,
+    fn solve(
+        &self,
         speed_rad_per_s: f64,
         highest_rad_per_s: f64,
-        projection: impl Fn(&'a Part) -> &'a Projection,
     ) -> Result<Vec<Mode>, SpectrumError> {
         let scale = frequency_scale(&self.plate);
         let speed = speed_rad_per_s.max(SPLITTING * scale);
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            let system = &projection(part).reduced;
+            let system = &part.at(speed_rad_per_s).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
             let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
@@ -202,6 +191,25 @@ impl SpectralModel {
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
+    }
+
+    /// The modes that instabilities are made of, from the smallest sound projection.
+    /// `None` for a plate whose harmonics nothing couples: undamped, it has no bands.
+    pub fn low_model(&self) -> Option<LowModel<'_>> {
+        let [part] = self.parts.as_slice() else {
+            return None;
+        };
+        let (system, height_rad_per_s) = match &part.low {
+            Some((projection, height)) => (&projection.reduced, *height),
+            None => (&part.full, self.complete_to_rad_per_s),
+        };
+        let rigid_scale = (!part.free_rigid.is_empty()).then(|| frequency_scale(&self.plate));
+        Some(LowModel::new(
+            system,
+            height_rad_per_s,
+            rigid_scale,
+            &self.counters,
+        ))
     }
 
     /// Names and residuals of modes of one speed.
@@ -220,7 +228,12 @@ impl SpectralModel {
                 let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
                 let shape = self.embed(part.first, &lifted);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
-                DescribedMode { mode, shape, name, backward_error }
+                DescribedMode {
+                    mode,
+                    shape,
+                    name,
+                    backward_error,
+                }
             })
             .collect()
     }
@@ -279,7 +292,9 @@ impl Part {
 
     /// The projection for a speed; the last one also beyond the range.
     fn at(&self, speed_rad_per_s: f64) -> &Projection {
-        let place = self.chart.partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
+        let place = self
+            .chart
+            .partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
         &self.chart[place.min(self.chart.len() - 1)]
     }
 }

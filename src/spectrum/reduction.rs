@@ -27,7 +27,11 @@ impl Projection {
     /// Projects a part, for speeds up to `to_rad_per_s`.
     pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
         let reduced = system.project(basis.as_ref());
-        Projection { to_rad_per_s, basis, reduced }
+        Projection {
+            to_rad_per_s,
+            basis,
+            reduced,
+        }
     }
 }
 
@@ -64,7 +68,7 @@ pub fn of_harmonic(plate: &Plate, n: usize, range: (f64, f64)) -> Mat<f64> {
             vectors.push(column);
         }
     }
-    let elastic = orthonormal(size, &vectors);
+    let elastic = orthonormal(size, &vectors, SPAN_TOLERANCE);
     let radial = Mat::from_fn(size, rigid + elastic.ncols(), |i, k| {
         match k.checked_sub(rigid) {
             Some(k) => {
@@ -214,7 +218,10 @@ impl Builder<'_> {
 
     /// Every mode below the chart's height at each speed, and one above it.
     fn add_snapshots(&mut self, speeds: &[f64]) {
-        let new: Vec<Snapshot> = speeds.par_iter().map(|&speed| self.snapshot(speed)).collect();
+        let new: Vec<Snapshot> = speeds
+            .par_iter()
+            .map(|&speed| self.snapshot(speed))
+            .collect();
         self.snapshots.extend(new);
         self.snapshots.sort_by(|x, y| x.speed.total_cmp(&y.speed));
     }
@@ -223,7 +230,9 @@ impl Builder<'_> {
         let mut count = CHART_MODES + 2;
         loop {
             let pairs = self.lowest(speed, count);
-            let covered = pairs.last().is_some_and(|(lambda, _)| lambda.norm() > self.window);
+            let covered = pairs
+                .last()
+                .is_some_and(|(lambda, _)| lambda.norm() > self.window);
             if covered || 2 * count >= self.system.order() {
                 return Snapshot { speed, pairs };
             }
@@ -249,16 +258,22 @@ impl Builder<'_> {
                 vectors.push(im);
             }
         }
-        orthonormal(self.system.order(), &vectors)
+        orthonormal(self.system.order(), &vectors, SPAN_TOLERANCE)
     }
 
     /// One projection for all speeds, from the modes up to a height at every snapshot;
     /// snapshots are added until it is right halfway between them.
     fn whole_range(&mut self, height: f64) -> Projection {
         loop {
-            let projection =
-                Projection::new(self.system, self.basis(&self.snapshots, height), self.range.1);
-            let halfway = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
+            let projection = Projection::new(
+                self.system,
+                self.basis(&self.snapshots, height),
+                self.range.1,
+            );
+            let halfway = self
+                .snapshots
+                .windows(2)
+                .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
             let halfway: Vec<f64> = halfway.collect();
             let coarse = self.unresolved(&halfway, height, |_| &projection);
             if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
@@ -274,9 +289,14 @@ impl Builder<'_> {
             let pieces: Vec<Projection> = self
                 .snapshots
                 .par_windows(2)
-                .map(|pair| Projection::new(self.system, self.basis(pair, self.window), pair[1].speed))
+                .map(|pair| {
+                    Projection::new(self.system, self.basis(pair, self.window), pair[1].speed)
+                })
                 .collect();
-            let halfway = self.snapshots.windows(2).map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
+            let halfway = self
+                .snapshots
+                .windows(2)
+                .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
             let halfway: Vec<f64> = halfway.collect();
             let coarse = self.unresolved(&halfway, self.window, |index| &pieces[index]);
             if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
@@ -335,12 +355,13 @@ fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
     [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
 }
 
-/// Orthonormal basis of the span, by QR with column pivoting.
-fn orthonormal(rows: usize, vectors: &[Col<f64>]) -> Mat<f64> {
+/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
+/// closer than `tolerance` to the span of the others are left out.
+pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
     let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
     let qr = matrix.col_piv_qr();
     let rank = (0..rows.min(vectors.len()))
-        .take_while(|&k| qr.thin_R()[(k, k)].abs() > SPAN_TOLERANCE)
+        .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
         .count();
     qr.compute_thin_Q().subcols(0, rank).to_owned()
 }

@@ -1,5 +1,6 @@
 //! The stability chart of a saw: samples, branches and bands of a range of speeds.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::finder::{CRITICAL_GAP, Event, Finder};
@@ -71,24 +72,25 @@ pub fn chart(
 ) -> Result<StabilityChart, SpectrumError> {
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    let finder = Finder::new(model);
-    let stations = finder.stations(&speeds)?;
-    let mut instabilities = divergence(model, &finder, &stations)?;
-    instabilities.extend(flutter(model, &finder, &stations)?);
-    instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
-    samples.extend(campbell::sample(
-        model,
-        &inside(&instabilities, &samples),
-        &|_, _| (),
-    )?);
-    let (speeds_checked, krein_violations) = finder.certificate();
+    let mut instabilities = Vec::new();
+    let mut certificate = Certificate::default();
+    if let Some(finder) = Finder::new(model) {
+        let stations = finder.stations(&speeds)?;
+        instabilities = divergence(model, &finder, &stations)?;
+        instabilities.extend(flutter(model, &finder, &stations)?);
+        instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+        let (speeds_checked, krein_violations) = finder.certificate();
+        certificate = Certificate {
+            speeds_checked,
+            krein_violations,
+        };
+    }
+    let between = inside(&instabilities, &samples);
+    samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     Ok(StabilityChart {
         campbell: Campbell::track(samples),
         instabilities,
-        certificate: Certificate {
-            speeds_checked,
-            krein_violations,
-        },
+        certificate,
     })
 }
 
@@ -254,7 +256,7 @@ fn flutter(
             .map(|(from, _)| (*from, last.speed_rad_per_s, false)),
     );
     ranges
-        .into_iter()
+        .into_par_iter()
         .map(|(from, to, closed)| band(model, finder, from, to, closed))
         .collect()
 }
@@ -266,6 +268,7 @@ fn band(
     to: f64,
     closed: bool,
 ) -> Result<Instability, SpectrumError> {
+    let finder = finder.narrowed(from, to)?;
     let ends = [from + 1e-6 * (to - from), to - 1e-6 * (to - from)];
     let mut frequencies = [0.0; 2];
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {

@@ -5,13 +5,14 @@
 //! halved until each holds at most one such change; intervals without a change are
 //! halved too where the tangents of a + and a − mode meet inside.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use super::refine::{self, Inside};
 use super::station::{Change, Sign, Station, change};
-use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::spectrum::{LowModel, SpectralModel, SpectrumError};
 
 /// Relative distance kept from a critical speed, where a frequency is zero.
 pub const CRITICAL_GAP: f64 = 1e-7;
@@ -29,29 +30,54 @@ pub enum Event {
     Band(f64, f64),
 }
 
-/// Evaluates stations, checks the Krein index of each, and counts.
-pub struct Finder<'a> {
-    model: &'a SpectralModel,
+/// How often the Krein index was compared, and did not match.
+#[derive(Debug, Default)]
+struct Tally {
     checked: AtomicUsize,
     violations: AtomicUsize,
 }
 
+/// Evaluates stations, checks the Krein index of each, and counts.
+pub struct Finder<'a> {
+    model: &'a SpectralModel,
+    low: LowModel<'a>,
+    tally: Arc<Tally>,
+}
+
 impl<'a> Finder<'a> {
-    /// A finder on an undamped blade.
-    pub fn new(model: &'a SpectralModel) -> Self {
-        Finder {
+    /// A finder on an undamped guided blade; `None` where no bands can be.
+    pub fn new(model: &'a SpectralModel) -> Option<Self> {
+        let low = model.low_model()?;
+        Some(Finder {
             model,
-            checked: AtomicUsize::new(0),
-            violations: AtomicUsize::new(0),
-        }
+            low,
+            tally: Arc::default(),
+        })
     }
 
     /// (speeds checked, speeds at which the Krein index did not match).
     pub fn certificate(&self) -> (usize, usize) {
+        let Tally {
+            checked,
+            violations,
+        } = &*self.tally;
         (
-            self.checked.load(Ordering::Relaxed),
-            self.violations.load(Ordering::Relaxed),
+            checked.load(Ordering::Relaxed),
+            violations.load(Ordering::Relaxed),
         )
+    }
+
+    /// A cheaper finder for the speeds between `from` and `to`.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn narrowed(&self, from: f64, to: f64) -> Result<Self, SpectrumError> {
+        let low = self.low.narrowed(from, to)?;
+        Ok(Finder {
+            model: self.model,
+            low,
+            tally: Arc::clone(&self.tally),
+        })
     }
 
     /// The word of signs at a speed.
@@ -59,7 +85,7 @@ impl<'a> Finder<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
-        let modes = self.model.low_modes(speed_rad_per_s)?;
+        let modes = self.low.modes(speed_rad_per_s)?;
         let station = Station::new(speed_rad_per_s, modes.iter());
         self.check(&station);
         Ok(station)
@@ -83,9 +109,9 @@ impl<'a> Finder<'a> {
         let expected = self
             .model
             .negative_stiffness_directions(station.speed_rad_per_s);
-        self.checked.fetch_add(1, Ordering::Relaxed);
+        self.tally.checked.fetch_add(1, Ordering::Relaxed);
         if station.krein_index() != expected {
-            self.violations.fetch_add(1, Ordering::Relaxed);
+            self.tally.violations.fetch_add(1, Ordering::Relaxed);
         }
     }
 
@@ -128,23 +154,32 @@ impl<'a> Finder<'a> {
             self.search(a, &middle, events)?;
             return self.search(&middle, b, events);
         }
-        match seen {
-            Change::Exchange(place) => {
-                if let Some(Inside { from, to }) = refine::band_between(self, a, b, place)? {
-                    events.push(Event::Band(from, to));
-                }
-            }
+        if seen != Change::None {
+            let narrow = self.narrowed(x, y)?;
+            events.extend(narrow.refined(a, b, seen)?);
+        }
+        Ok(())
+    }
+
+    fn refined(
+        &self,
+        a: &Station,
+        b: &Station,
+        seen: Change,
+    ) -> Result<Option<Event>, SpectrumError> {
+        Ok(match seen {
+            Change::Exchange(place) => refine::band_between(self, a, b, place)?
+                .map(|Inside { from, to }| Event::Band(from, to)),
             Change::Merge(place) => {
                 let speed = refine::boundary(self, a, b, place)?;
-                events.push(Event::Begin(merged_before(b, place), speed));
+                Some(Event::Begin(merged_before(b, place), speed))
             }
             Change::Part(place) => {
                 let speed = refine::boundary(self, b, a, place)?;
-                events.push(Event::End(merged_before(a, place), speed));
+                Some(Event::End(merged_before(a, place), speed))
             }
-            Change::None | Change::Several => {}
-        }
-        Ok(())
+            Change::None | Change::Several => None,
+        })
     }
 }
 
