@@ -8,7 +8,7 @@
 use faer::{Col, c64};
 use rayon::prelude::*;
 
-use crate::spectrum::{DescribedMode, ModeKind, SpectralModel, SpectrumError};
+use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError};
 
 /// Told how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -117,9 +117,7 @@ struct Carrier<'a> {
 impl<'a> Carrier<'a> {
     fn new(described: &'a DescribedMode) -> Self {
         let mode = &described.mode;
-        // At a merging the + mode goes on as the growing and the − mode as the
-        // decaying member of the pair.
-        let conjugated = matches!(mode.kind, ModeKind::Negative | ModeKind::Decaying);
+        let conjugated = mode.action < 0;
         let sign = if conjugated { -1.0 } else { 1.0 };
         Carrier {
             frequency: sign * mode.lambda.im,

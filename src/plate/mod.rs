@@ -119,6 +119,11 @@ impl Plate {
         add(&mut self.guide_damping, guide.damping_n_s_per_m);
     }
 
+    /// The same plate without any damping.
+    pub fn undamped(&self) -> Self {
+        Plate { guide_damping: None, damping: None, ..self.clone() }
+    }
+
     /// n_max.
     pub fn max_diameters(&self) -> usize {
         self.resolution.max_diameters

@@ -31,7 +31,7 @@ impl Report {
         let errors = samples
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
-        let certificate = analysis.chart.certificate;
+        let certificate = &analysis.chart.certificate;
         let resolution = model.plate.resolution;
         Ok(Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -55,8 +55,8 @@ impl Report {
             },
             certificate: CertificateEntry {
                 speeds_checked: certificate.speeds_checked,
-                krein_violations: certificate.krein_violations,
-                violating_rpm: Vec::new(),
+                krein_violations: certificate.violations.len(),
+                violating_rpm: certificate.violations.iter().map(|s| rpm(*s)).collect(),
                 max_backward_error: errors.fold(0.0, f64::max),
             },
             campbell: CampbellEntry {
@@ -301,11 +301,13 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
             blade.thickness_m / width
         ));
     }
-    let certificate = analysis.chart.certificate;
-    if certificate.krein_violations > 0 {
+    let certificate = &analysis.chart.certificate;
+    if let Some(first) = certificate.violations.first() {
         warnings.push(format!(
-            "the Krein index did not match at {} of {} speeds: a mode may be missing",
-            certificate.krein_violations, certificate.speeds_checked
+            "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be missing",
+            certificate.violations.len(),
+            certificate.speeds_checked,
+            rpm(*first)
         ));
     }
     let unresolved = analysis

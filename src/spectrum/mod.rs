@@ -1,6 +1,7 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
 mod dense;
+pub mod derivative;
 mod low;
 mod mode;
 mod model;

@@ -35,6 +35,10 @@ pub struct Mode {
     pub kind: ModeKind,
     /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
     pub frequency_slope: f64,
+    /// Sign of the action, ω·κ: a reflected wave (ω, q) is the same motion as (−ω, q̄)
+    /// with positive action. The decaying partner of a flutter mode goes with the
+    /// negative one.
+    pub action: i8,
     /// Index of the part.
     pub part: usize,
     /// q in the coordinates of the part, ‖q‖ = 1.
@@ -92,6 +96,7 @@ pub fn classify(
                 lambda,
                 kind: ModeKind::Damped,
                 frequency_slope: 0.0,
+                action: 1,
                 part,
                 coordinates: q,
             };
@@ -99,48 +104,51 @@ pub fn classify(
                 mode.kind = ModeKind::Rigid;
                 mode.lambda = c64::new(0.0, 0.0);
             } else if system.is_conservative() {
-                let oscillates = lambda.im > noise;
-                if lambda.re > noise {
-                    mode.kind = if oscillates {
-                        ModeKind::Flutter
-                    } else {
-                        ModeKind::Divergent
-                    };
-                } else if !oscillates && lambda.re < noise {
-                    return None;
-                } else if lambda.re < -noise {
-                    mode.kind = ModeKind::Decaying;
-                } else {
-                    signed(system, speed_rad_per_s, &mut mode);
-                }
+                undamped_kind(system, speed_rad_per_s, noise, &mut mode)?;
+            } else if lambda.im > noise {
+                set_action(system, speed_rad_per_s, &mut mode);
             }
             Some(mode)
         })
         .collect()
 }
 
-/// Krein sign and slope of a mode on the imaginary axis, λ = iω, ω > 0, qᴴq = 1.
+/// Kind of a mode of an undamped system; `None` for the mirror image of a divergent one.
+fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut Mode) -> Option<()> {
+    let oscillates = mode.lambda.im > noise;
+    if mode.lambda.re > noise {
+        mode.kind = if oscillates { ModeKind::Flutter } else { ModeKind::Divergent };
+    } else if !oscillates && mode.lambda.re < noise {
+        return None;
+    } else if mode.lambda.re < -noise {
+        mode.kind = ModeKind::Decaying;
+        mode.action = -1;
+    } else {
+        mode.lambda.re = 0.0;
+        set_action(system, speed, mode);
+        mode.kind = if mode.action > 0 { ModeKind::Positive } else { ModeKind::Negative };
+    }
+    Some(())
+}
+
+/// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; of a damped one
+/// what they would be without damping.
 ///
 /// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
 /// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
-fn signed(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
+fn set_action(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
     let q = &mode.coordinates;
     let omega = mode.lambda.im;
     let gamma = quadratic_form(q, &system.gyroscopic).im;
     let spin = quadratic_form(q, &system.spin).re;
     let form = omega + speed * gamma;
-    mode.kind = if form >= 0.0 {
-        ModeKind::Positive
-    } else {
-        ModeKind::Negative
-    };
-    mode.lambda = c64::new(0.0, omega);
+    mode.action = if form >= 0.0 { 1 } else { -1 };
     let slope = (speed * spin - omega * gamma) / form;
     mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
 }
 
 /// qᴴ A q for a real matrix.
-fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
+pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
     let (re, im) = split(q);
     let (a_re, a_im) = (matrix * &re, matrix * &im);
     let dot = |x: &Col<f64>, y: &Col<f64>| x.transpose() * y;

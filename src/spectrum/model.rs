@@ -11,6 +11,7 @@ use faer::{Col, Mat, MatRef, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
+use super::derivative;
 use super::low::LowModel;
 use super::mode::{DynamicStiffness, Mode, ModeKind, classify};
 use super::name::ModeName;
@@ -171,6 +172,33 @@ impl SpectralModel {
         let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s)?;
         modes.retain(|m| m.kind != ModeKind::Rigid);
         Ok(modes)
+    }
+
+    /// Every mode of the whole basis, by brute force.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn full_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let scale = frequency_scale(&self.plate);
+        let mut modes = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
+            let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
+            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
+            modes.extend(classify(&part.full, speed_rad_per_s, index, rigid_scale, pairs));
+        }
+        Ok(modes)
+    }
+
+    /// Whether the scene is undamped: then modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.parts.iter().all(|part| part.full.is_conservative())
+    }
+
+    /// dλ/dΩ of a mode at a speed.
+    pub fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
+        let system = &self.parts[mode.part].at(speed_rad_per_s).reduced;
+        derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
     fn solve(
@@ -355,6 +383,7 @@ fn named_critical_speeds(
                 lambda: c64::new(0.0, 0.0),
                 kind: ModeKind::Positive,
                 frequency_slope: 0.0,
+                action: 1,
                 part: 0,
                 coordinates: Col::zeros(0),
             };

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::damped;
 use super::finder::{CRITICAL_GAP, Event, Finder};
 use super::refine;
 use super::station::{Sign, Station};
@@ -41,12 +42,12 @@ pub struct Instability {
 }
 
 /// Proof that the chart missed nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
-    /// Speeds at which the Krein index was compared.
+    /// Number of speeds at which the Krein index was compared.
     pub speeds_checked: usize,
-    /// Speeds at which it did not match.
-    pub krein_violations: usize,
+    /// Speeds at which it did not match, not even on the whole basis, in rad/s.
+    pub violations: Vec<f64>,
 }
 
 /// Everything about the stability of a saw over a range of speeds.
@@ -70,33 +71,38 @@ pub fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, SpectrumError> {
+    if !model.is_conservative() {
+        return damped::chart(model, range, count, progress);
+    }
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    let mut instabilities = Vec::new();
-    let mut certificate = Certificate::default();
-    if let Some(finder) = Finder::new(model) {
-        let stations = finder.stations(&speeds)?;
-        instabilities = divergence(model, &finder, &stations)?;
-        instabilities.extend(flutter(model, &finder, &stations)?);
-        instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
-        let (speeds_checked, krein_violations) = finder.certificate();
-        certificate = Certificate {
-            speeds_checked,
-            krein_violations,
-        };
-    }
+    let (instabilities, certificate) = bands(model, &speeds)?;
     let between = inside(&instabilities, &samples);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
-    Ok(StabilityChart {
-        campbell: Campbell::track(samples),
-        instabilities,
-        certificate,
-    })
+    Ok(StabilityChart { campbell: Campbell::track(samples), instabilities, certificate })
+}
+
+/// Every band of an undamped blade between the first and the last of the speeds,
+/// and the proof that none is missing.
+pub(super) fn bands(
+    model: &SpectralModel,
+    speeds: &[f64],
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let finder = Finder::new(model);
+    let stations = finder.stations(speeds)?;
+    let mut instabilities = Vec::new();
+    // Nothing couples the waves of a free blade, so they cross and never merge.
+    if !model.plate.is_axisymmetric() {
+        instabilities.extend(divergence(model, &finder, &stations)?);
+        instabilities.extend(flutter(model, &finder, &stations)?);
+        instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+    }
+    Ok((instabilities, finder.certificate()))
 }
 
 /// The speeds, and both sides of each group of critical speeds in the range, and the
 /// middle between groups.
-fn with_critical_speeds(
+pub(super) fn with_critical_speeds(
     model: &SpectralModel,
     range: (f64, f64),
     mut speeds: Vec<f64>,
@@ -133,7 +139,7 @@ fn with_critical_speeds(
 }
 
 /// Speeds inside and at the edges of the bands, so that the narrowest one is drawn.
-fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
+pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {

@@ -5,11 +5,12 @@
 //! halved until each holds at most one such change; intervals without a change are
 //! halved too where the tangents of a + and a − mode meet inside.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::bands::Certificate;
 use super::refine::{self, Inside};
 use super::station::{Change, Sign, Station, change};
 use crate::spectrum::{LowModel, SpectralModel, SpectrumError};
@@ -30,41 +31,32 @@ pub enum Event {
     Band(f64, f64),
 }
 
-/// How often the Krein index was compared, and did not match.
+/// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
 struct Tally {
     checked: AtomicUsize,
-    violations: AtomicUsize,
+    violations: Mutex<Vec<f64>>,
 }
 
 /// Evaluates stations, checks the Krein index of each, and counts.
 pub struct Finder<'a> {
     model: &'a SpectralModel,
-    low: LowModel<'a>,
+    low: Option<LowModel<'a>>,
     tally: Arc<Tally>,
 }
 
 impl<'a> Finder<'a> {
-    /// A finder on an undamped guided blade; `None` where no bands can be.
-    pub fn new(model: &'a SpectralModel) -> Option<Self> {
-        let low = model.low_model()?;
-        Some(Finder {
-            model,
-            low,
-            tally: Arc::default(),
-        })
+    /// A finder on an undamped blade.
+    pub fn new(model: &'a SpectralModel) -> Self {
+        Finder { model, low: model.low_model(), tally: Arc::default() }
     }
 
-    /// (speeds checked, speeds at which the Krein index did not match).
-    pub fn certificate(&self) -> (usize, usize) {
-        let Tally {
-            checked,
-            violations,
-        } = &*self.tally;
-        (
-            checked.load(Ordering::Relaxed),
-            violations.load(Ordering::Relaxed),
-        )
+    /// The speeds checked so far.
+    pub fn certificate(&self) -> Certificate {
+        let violations = self.tally.violations.lock();
+        let mut violations = violations.map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
+        violations.sort_by(f64::total_cmp);
+        Certificate { speeds_checked: self.tally.checked.load(Ordering::Relaxed), violations }
     }
 
     /// A cheaper finder for the speeds between `from` and `to`.
@@ -72,23 +64,39 @@ impl<'a> Finder<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn narrowed(&self, from: f64, to: f64) -> Result<Self, SpectrumError> {
-        let low = self.low.narrowed(from, to)?;
-        Ok(Finder {
-            model: self.model,
-            low,
-            tally: Arc::clone(&self.tally),
-        })
+        let low = self.low.as_ref().map(|low| low.narrowed(from, to)).transpose()?;
+        Ok(Finder { model: self.model, low, tally: Arc::clone(&self.tally) })
     }
 
-    /// The word of signs at a speed.
+    /// The word of signs at a speed. Where it contradicts the Krein index it is read
+    /// again off the whole basis; what contradicts even then is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
-        let modes = self.low.modes(speed_rad_per_s)?;
+        let modes = match &self.low {
+            Some(low) => low.modes(speed_rad_per_s)?,
+            None => self.model.all_modes(speed_rad_per_s)?,
+        };
+        self.tally.checked.fetch_add(1, Ordering::Relaxed);
         let station = Station::new(speed_rad_per_s, modes.iter());
-        self.check(&station);
+        if self.matches(&station) {
+            return Ok(station);
+        }
+        let modes = self.model.full_modes(speed_rad_per_s)?;
+        let station = Station::new(speed_rad_per_s, modes.iter());
+        if !self.matches(&station)
+            && let Ok(mut violations) = self.tally.violations.lock()
+        {
+            violations.push(speed_rad_per_s);
+        }
         Ok(station)
+    }
+
+    /// Holds the spectrum against the inertia of the stiffness, which comes from
+    /// another, symmetric eigenproblem on the whole basis.
+    fn matches(&self, station: &Station) -> bool {
+        station.krein_index() == self.model.negative_stiffness_directions(station.speed_rad_per_s)
     }
 
     /// The words of many speeds, in parallel.
@@ -101,18 +109,6 @@ impl<'a> Finder<'a> {
             .map(|&speed| self.station(speed))
             .collect();
         stations.into_iter().collect()
-    }
-
-    /// Holds the spectrum against the inertia of the stiffness, which comes from
-    /// another, symmetric eigenproblem on the whole basis.
-    fn check(&self, station: &Station) {
-        let expected = self
-            .model
-            .negative_stiffness_directions(station.speed_rad_per_s);
-        self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        if station.krein_index() != expected {
-            self.tally.violations.fetch_add(1, Ordering::Relaxed);
-        }
     }
 
     /// Events between neighbouring stations; the intervals are independent.

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod bands;
+mod damped;
 mod finder;
 mod refine;
 mod station;

@@ -1,0 +1,72 @@
+//! How an eigenvalue moves: dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x, with right and left vectors
+//! L(λ)x = 0, yᴴL(λ) = 0 (Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale, c64};
+
+use crate::system::GyroscopicSystem;
+
+use super::mode::split;
+
+/// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
+pub fn with_speed(system: &GyroscopicSystem, speed_rad_per_s: f64, lambda: c64, x: &Col<c64>) -> c64 {
+    let gyroscopic = apply(&system.gyroscopic, x);
+    let spin = apply(&system.spin, x);
+    let mut change = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed_rad_per_s, 0.0)) * spin;
+    if let Some(circulatory) = &system.circulatory {
+        change += apply(circulatory, x);
+    }
+    let y = left_vector(system, speed_rad_per_s, lambda, x);
+    -(y.adjoint() * change) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+}
+
+/// dλ/dp for ∂K/∂p of a parameter that moves the stiffness alone.
+pub fn with_stiffness(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    lambda: c64,
+    x: &Col<c64>,
+    stiffness_change: &Mat<f64>,
+) -> c64 {
+    let y = left_vector(system, speed_rad_per_s, lambda, x);
+    let change = apply(stiffness_change, x);
+    -(y.adjoint() * change) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+}
+
+/// (∂L/∂λ)x = (2λ + D)x.
+fn with_lambda(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
+    Scale(2.0 * lambda) * x + apply(&system.velocity_at(speed), x)
+}
+
+/// y by inverse iteration on L(λ)ᴴ. An undamped oscillation needs none: there L is
+/// Hermitian and y = x.
+fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
+    if system.is_conservative() && lambda.re == 0.0 {
+        return x.clone();
+    }
+    let stiffness = system.stiffness_at(speed);
+    let velocity = system.velocity_at(speed);
+    // A hair off the eigenvalue, so that L is not singular to the last bit.
+    let shifted = lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0);
+    let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
+        let inertia = if i == k { shifted * shifted } else { c64::new(0.0, 0.0) };
+        inertia + shifted * velocity[(i, k)] + stiffness[(i, k)]
+    });
+    let factors = dynamic.partial_piv_lu();
+    let mut y = x.clone();
+    for _ in 0..3 {
+        let solved: Col<c64> = factors.solve_adjoint(&y);
+        let norm = solved.norm_l2();
+        if !norm.is_finite() || norm == 0.0 {
+            return y;
+        }
+        y = Scale(c64::new(1.0 / norm, 0.0)) * solved;
+    }
+    y
+}
+
+fn apply(matrix: &Mat<f64>, x: &Col<c64>) -> Col<c64> {
+    let (re, im) = split(x);
+    let (re, im) = (matrix * re, matrix * im);
+    Col::from_fn(x.nrows(), |i| c64::new(re[i], im[i]))
+}
