@@ -137,6 +137,28 @@ impl GyroscopicSystem {
             circulatory: self.circulatory.as_ref().map(onto),
         }
     }
+
+    /// Σ weight · system, term by term: for differences of systems.
+    pub fn combination(terms: &[(f64, GyroscopicSystem)]) -> Option<Self> {
+        let (_, first) = terms.first()?;
+        let order = first.order();
+        let sum = |matrix: fn(&GyroscopicSystem) -> Option<&Mat<f64>>| {
+            let mut sum: Option<Mat<f64>> = None;
+            for (weight, system) in terms {
+                if let Some(matrix) = matrix(system) {
+                    *sum.get_or_insert_with(|| Mat::zeros(order, order)) += Scale(*weight) * matrix;
+                }
+            }
+            sum
+        };
+        Some(GyroscopicSystem {
+            stiffness: sum(|s| Some(&s.stiffness))?,
+            spin: sum(|s| Some(&s.spin))?,
+            gyroscopic: sum(|s| Some(&s.gyroscopic))?,
+            damping: sum(|s| s.damping.as_ref()),
+            circulatory: sum(|s| s.circulatory.as_ref()),
+        })
+    }
 }
 
 fn put(matrix: &mut Mat<f64>, offset: usize, block: &nalgebra::DMatrix<f64>) {

@@ -7,9 +7,9 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use sawflutter::figure;
-use sawflutter::report::Report;
+use sawflutter::report::{Report, SensitivityEntry};
 use sawflutter::scene::{Accuracy, Scene};
-use sawflutter::stability::Analysis;
+use sawflutter::stability::{Analysis, sensitivities};
 
 use super::output::OutputFolder;
 use super::summary::summary;
@@ -32,6 +32,10 @@ pub struct Arguments {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
+    /// Also say how critical speeds and onsets move with thickness, density, modulus and
+    /// the guides
+    #[arg(long)]
+    sensitivity: bool,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     json: bool,
@@ -58,7 +62,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         bar.set_position(done as u64);
     })?;
     bar.finish_and_clear();
-    let report = Report::new(&scene, &analysis)?;
+    let mut report = Report::new(&scene, &analysis)?;
+    if arguments.sensitivity {
+        let at = scene.operating_rad_per_s.unwrap_or(analysis.range.0);
+        let found = sensitivities(&scene, &analysis, at)?;
+        report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
+    }
     let json = serde_json::to_string_pretty(&report)?;
     let files = [
         ("campbell.csv", report.campbell_csv()?),

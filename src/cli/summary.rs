@@ -18,6 +18,7 @@ pub fn summary(report: &Report) -> String {
     let _ = critical_speeds(&mut text, report);
     let _ = bands(&mut text, report);
     let _ = verdict(&mut text, report);
+    let _ = sensitivity(&mut text, report);
     text
 }
 
@@ -108,7 +109,7 @@ fn verdict(text: &mut String, report: &Report) -> std::fmt::Result {
     if let Some(rpm) = report.first_merge_rpm {
         writeln!(
             text,
-            "First merging of two modes, whatever its growth: {rpm:.0} rpm"
+            "First flutter of all, whatever its growth: {rpm:.0} rpm"
         )?;
     }
     operating(text, report)?;
@@ -157,6 +158,34 @@ fn operating(text: &mut String, report: &Report) -> std::fmt::Result {
         100.0 * operating.limit,
         operating.limit * operating.rpm / ratio
     )
+}
+
+fn sensitivity(text: &mut String, report: &Report) -> std::fmt::Result {
+    if report.sensitivities.is_empty() {
+        return Ok(());
+    }
+    let flutter = report
+        .instabilities
+        .iter()
+        .position(|b| Some(b.from_rpm) == report.flutter_speed_rpm);
+    writeln!(
+        text,
+        "\nWhat moves the first critical speed, and the flutter speed"
+    )?;
+    for entry in &report.sensitivities {
+        let critical = entry.critical_speeds_percent.first().copied();
+        let onset = flutter.and_then(|i| entry.onsets_percent.get(i).copied().flatten());
+        let percent = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:+.3} %"));
+        writeln!(
+            text,
+            "  {:<8} more {:<34} {:>11} {:>11}",
+            entry.change,
+            entry.parameter,
+            percent(critical),
+            percent(onset)
+        )?;
+    }
+    Ok(())
 }
 
 fn kind(band: &InstabilityEntry) -> &'static str {

@@ -121,7 +121,11 @@ impl Plate {
 
     /// The same plate without any damping.
     pub fn undamped(&self) -> Self {
-        Plate { guide_damping: None, damping: None, ..self.clone() }
+        Plate {
+            guide_damping: None,
+            damping: None,
+            ..self.clone()
+        }
     }
 
     /// n_max.

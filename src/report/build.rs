@@ -6,13 +6,14 @@ use faer::c64;
 
 use super::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, OperatingEntry, Report, RestMode, ShapeEntry,
+    InstabilityEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
+    SensitivityEntry, ShapeEntry,
 };
 use crate::campbell::Branch;
 use crate::plate::Plate;
 use crate::scene::{Bore, Scene, rpm};
 use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
-use crate::stability::{Analysis, OPERATING_LIMIT};
+use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -65,10 +66,49 @@ impl Report {
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
                 branches: branches(analysis),
             },
-            root_loci: None,
+            root_loci: root_loci(analysis),
             sensitivities: Vec::new(),
             warnings: warnings(analysis),
         })
+    }
+}
+
+fn root_loci(analysis: &Analysis) -> Option<RootLociEntry> {
+    let loci = analysis.root_loci.as_ref()?;
+    let onset = analysis.flutter_speed.or(analysis.first_merge)?;
+    let band = analysis
+        .chart
+        .instabilities
+        .iter()
+        .find(|b| b.from == onset)?;
+    let paths = loci
+        .names
+        .iter()
+        .zip(&loci.paths)
+        .map(|(name, path)| RootPathEntry {
+            name: name.clone(),
+            growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
+            frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),
+            krein_sign: path.iter().map(|(_, sign)| *sign).collect(),
+        });
+    Some(RootLociEntry {
+        onset_rpm: rpm(onset),
+        end_rpm: rpm(band.to),
+        rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
+        paths: paths.collect(),
+    })
+}
+
+impl From<&Sensitivity> for SensitivityEntry {
+    fn from(s: &Sensitivity) -> Self {
+        SensitivityEntry {
+            parameter: s.parameter.clone(),
+            change: s.change.to_owned(),
+            critical_speeds_percent: s.critical_speeds.iter().map(|c| 100.0 * c).collect(),
+            onsets_percent: s.onsets.iter().map(|c| c.map(|c| 100.0 * c)).collect(),
+            growth_per_s: s.eigenvalues.iter().map(|l| l.re).collect(),
+            frequency_hz: s.eigenvalues.iter().map(|l| l.im / TAU).collect(),
+        }
     }
 }
 

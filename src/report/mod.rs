@@ -250,10 +250,12 @@ pub struct SensitivityEntry {
     pub parameter: String,
     /// The change: "1 %" or "1 degree".
     pub change: String,
-    /// Change of each reported critical speed, in percent.
+    /// Change of each critical speed up to the end of the sweep, in percent; the
+    /// double ones of a free blade stand twice.
     pub critical_speeds_percent: Vec<f64>,
-    /// Change of the onset of each reported band, in percent.
-    pub onsets_percent: Vec<f64>,
+    /// Change of the onset of each reported band, in percent; null where the sweep
+    /// begins inside the band.
+    pub onsets_percent: Vec<Option<f64>>,
     /// dλ/dp of each mode at the operating speed (at rest without one), times the
     /// change: growth in 1/s.
     pub growth_per_s: Vec<f64>,

@@ -9,28 +9,63 @@ use crate::system::GyroscopicSystem;
 use super::mode::split;
 
 /// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
-pub fn with_speed(system: &GyroscopicSystem, speed_rad_per_s: f64, lambda: c64, x: &Col<c64>) -> c64 {
-    let gyroscopic = apply(&system.gyroscopic, x);
-    let spin = apply(&system.spin, x);
-    let mut change = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed_rad_per_s, 0.0)) * spin;
-    if let Some(circulatory) = &system.circulatory {
-        change += apply(circulatory, x);
-    }
-    let y = left_vector(system, speed_rad_per_s, lambda, x);
-    -(y.adjoint() * change) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
-}
-
-/// dλ/dp for ∂K/∂p of a parameter that moves the stiffness alone.
-pub fn with_stiffness(
+pub fn with_speed(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     lambda: c64,
     x: &Col<c64>,
-    stiffness_change: &Mat<f64>,
 ) -> c64 {
+    let change = speed_slope(system, speed_rad_per_s, lambda, x);
     let y = left_vector(system, speed_rad_per_s, lambda, x);
-    let change = apply(stiffness_change, x);
     -(y.adjoint() * change) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+}
+
+/// dλ for a small change of the matrices.
+pub fn with_change(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    lambda: c64,
+    x: &Col<c64>,
+    change: &GyroscopicSystem,
+) -> c64 {
+    let changed = change_of_residual(change, speed_rad_per_s, lambda, x);
+    let y = left_vector(system, speed_rad_per_s, lambda, x);
+    -(y.adjoint() * changed) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+}
+
+/// dΩ of the speed at which two modes merge, λ = iω with ∂(xᴴLx)/∂ω = 0 there, for a small
+/// change of the matrices: −xᴴ(dL)x / xᴴ(∂L/∂Ω)x. With λ = 0 it is that of a critical speed.
+pub fn of_merging(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    lambda: c64,
+    x: &Col<c64>,
+    change: &GyroscopicSystem,
+) -> f64 {
+    let changed = change_of_residual(change, speed_rad_per_s, lambda, x);
+    let slope = speed_slope(system, speed_rad_per_s, lambda, x);
+    -(x.adjoint() * changed).re / (x.adjoint() * slope).re
+}
+
+/// (dL)x = (λ(2Ω dG + dC) + dK(Ω))x.
+fn change_of_residual(
+    change: &GyroscopicSystem,
+    speed: f64,
+    lambda: c64,
+    x: &Col<c64>,
+) -> Col<c64> {
+    Scale(lambda) * apply(&change.velocity_at(speed), x) + apply(&change.stiffness_at(speed), x)
+}
+
+/// (∂L/∂Ω)x.
+fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
+    let gyroscopic = apply(&system.gyroscopic, x);
+    let spin = apply(&system.spin, x);
+    let mut slope = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed, 0.0)) * spin;
+    if let Some(circulatory) = &system.circulatory {
+        slope += apply(circulatory, x);
+    }
+    slope
 }
 
 /// (∂L/∂λ)x = (2λ + D)x.
@@ -49,7 +84,11 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
     // A hair off the eigenvalue, so that L is not singular to the last bit.
     let shifted = lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0);
     let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
-        let inertia = if i == k { shifted * shifted } else { c64::new(0.0, 0.0) };
+        let inertia = if i == k {
+            shifted * shifted
+        } else {
+            c64::new(0.0, 0.0)
+        };
         inertia + shifted * velocity[(i, k)] + stiffness[(i, k)]
     });
     let factors = dynamic.partial_piv_lu();

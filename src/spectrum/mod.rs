@@ -13,7 +13,7 @@ mod shift_invert;
 pub use dense::companion_eigenpairs;
 pub use low::LowModel;
 pub use mode::{Mode, ModeKind};
-pub use model::{DescribedMode, NamedCriticalSpeed, SpectralModel, Strategy, WorkCounters};
+pub use model::{DescribedMode, NamedCriticalSpeed, Part, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
 pub use pencil::{CriticalSpeed, critical_speeds};
 pub use reduction::Projection;

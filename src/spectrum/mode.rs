@@ -117,7 +117,11 @@ pub fn classify(
 fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut Mode) -> Option<()> {
     let oscillates = mode.lambda.im > noise;
     if mode.lambda.re > noise {
-        mode.kind = if oscillates { ModeKind::Flutter } else { ModeKind::Divergent };
+        mode.kind = if oscillates {
+            ModeKind::Flutter
+        } else {
+            ModeKind::Divergent
+        };
     } else if !oscillates && mode.lambda.re < noise {
         return None;
     } else if mode.lambda.re < -noise {
@@ -126,7 +130,11 @@ fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut M
     } else {
         mode.lambda.re = 0.0;
         set_action(system, speed, mode);
-        mode.kind = if mode.action > 0 { ModeKind::Positive } else { ModeKind::Negative };
+        mode.kind = if mode.action > 0 {
+            ModeKind::Positive
+        } else {
+            ModeKind::Negative
+        };
     }
     Some(())
 }

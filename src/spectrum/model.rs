@@ -185,7 +185,13 @@ impl SpectralModel {
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
             let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
             let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
-            modes.extend(classify(&part.full, speed_rad_per_s, index, rigid_scale, pairs));
+            modes.extend(classify(
+                &part.full,
+                speed_rad_per_s,
+                index,
+                rigid_scale,
+                pairs,
+            ));
         }
         Ok(modes)
     }
@@ -288,7 +294,7 @@ impl SpectralModel {
 
 impl Part {
     /// The independent parts of a plate.
-    fn of(plate: &Plate) -> Vec<Part> {
+    pub(crate) fn of(plate: &Plate) -> Vec<Part> {
         if !plate.is_axisymmetric() {
             return vec![Part::new(plate, GyroscopicSystem::of_plate(plate), 0)];
         }
@@ -316,6 +322,16 @@ impl Part {
             free_rigid: free_rigid_motions(plate, &full, first),
             full,
         }
+    }
+
+    /// Coordinates in this part of a vector in the basis of the plate.
+    pub fn coordinates(&self, shape: &Col<c64>) -> Col<c64> {
+        Col::from_fn(self.full.order(), |i| shape[self.first + i])
+    }
+
+    /// Coordinates in this part of a mode of a speed.
+    pub fn lifted(&self, speed_rad_per_s: f64, coordinates: &Col<c64>) -> Col<c64> {
+        lift(self.at(speed_rad_per_s).basis.as_ref(), coordinates)
     }
 
     /// The projection for a speed; the last one also beyond the range.
@@ -348,6 +364,9 @@ fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) ->
         .filter_map(|index| index.checked_sub(first))
         .filter(|index| *index < order)
         .collect();
+    if rigid.is_empty() {
+        return Vec::new();
+    }
     let held = nalgebra::DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
         system.stiffness[(rigid[i], rigid[j])]
     });

@@ -1,6 +1,7 @@
 //! From a scene to its stability chart: the library's main call.
 
 use super::bands::{InstabilityKind, StabilityChart, chart};
+use super::loci::RootLoci;
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rad_per_s, rpm};
@@ -28,6 +29,8 @@ pub struct Analysis {
     pub flutter_speed: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
     pub first_merge: Option<f64>,
+    /// The eigenvalues of the band at the flutter speed, or of the first of all.
+    pub root_loci: Option<RootLoci>,
     /// Largest relative difference of the lowest critical speeds to those of a
     /// coarser basis: three quarters of the diameters, two radial functions less.
     pub estimated_relative_error: Option<f64>,
@@ -51,11 +54,14 @@ impl Analysis {
             .instabilities
             .iter()
             .filter(|b| b.kind == InstabilityKind::Flutter);
-        let first_merge = flutter.clone().next().map(|band| band.from);
-        let threshold = scene.flutter_threshold_per_s;
-        let flutter_speed = flutter
-            .find(|b| b.peak_growth_per_s >= threshold)
-            .map(|b| b.from);
+        let first = flutter.clone().next();
+        let strong = flutter.find(|b| b.peak_growth_per_s >= scene.flutter_threshold_per_s);
+        let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
+        let followed = strong.or(first).filter(|_| model.is_conservative());
+        let root_loci = match followed {
+            Some(band) => RootLoci::new(&model, band, range)?,
+            None => None,
+        };
         let fine = model.critical.iter().map(|c| c.speed_rad_per_s);
         let differences = fine
             .zip(&coarse)
@@ -68,6 +74,7 @@ impl Analysis {
             chart,
             flutter_speed,
             first_merge,
+            root_loci,
         })
     }
 

@@ -79,7 +79,11 @@ pub fn chart(
     let (instabilities, certificate) = bands(model, &speeds)?;
     let between = inside(&instabilities, &samples);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
-    Ok(StabilityChart { campbell: Campbell::track(samples), instabilities, certificate })
+    Ok(StabilityChart {
+        campbell: Campbell::track(samples),
+        instabilities,
+        certificate,
+    })
 }
 
 /// Every band of an undamped blade between the first and the last of the speeds,
@@ -107,6 +111,18 @@ pub(super) fn with_critical_speeds(
     range: (f64, f64),
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
+    if model.plate.is_axisymmetric() {
+        // A wave of the free blade runs through zero without diverging; a speed so
+        // close to that zero that its sign is rounding says nothing.
+        let clear = |s: &f64| {
+            model
+                .critical
+                .iter()
+                .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > 1e-5)
+        };
+        speeds.retain(clear);
+        return speeds;
+    }
     let mut sides: Vec<f64> = Vec::new();
     let mut previous: Option<f64> = None;
     for critical in &model.critical {
@@ -312,7 +328,7 @@ fn band(
 }
 
 /// Names of the + and the − mode next to a frequency just below an onset.
-fn meeting_modes(
+pub(super) fn meeting_modes(
     model: &SpectralModel,
     onset: f64,
     frequency: f64,

@@ -30,7 +30,11 @@ pub(super) fn chart(
     let twin = SpectralModel::new(model.plate.undamped(), range, Strategy::Reduced)?;
     let mut speeds = with_critical_speeds(&twin, range, campbell::even_speeds(range, count));
     let (undamped, _) = bands::bands(&twin, &speeds)?;
-    speeds.extend(undamped.iter().flat_map(|band| [band.from, band.peak, band.to]));
+    speeds.extend(
+        undamped
+            .iter()
+            .flat_map(|band| [band.from, band.peak, band.to]),
+    );
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     let mut samples = campbell::sample(model, &speeds, progress)?;
@@ -57,7 +61,11 @@ pub(super) fn chart(
         .collect();
     let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
     instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
-    Ok(StabilityChart { campbell, instabilities, certificate: Certificate::default() })
+    Ok(StabilityChart {
+        campbell,
+        instabilities,
+        certificate: Certificate::default(),
+    })
 }
 
 /// A point of a branch.
@@ -98,7 +106,9 @@ fn doubtful_speeds(model: &SpectralModel, campbell: &Campbell, branch: &Branch) 
                 return None;
             }
             let cubic = |t: f64| hermite(t, pair[0].growth(), rise, pair[1].growth(), fall);
-            let top = (1..32).map(|k| f64::from(k) / 32.0).max_by(|x, y| cubic(*x).total_cmp(&cubic(*y)))?;
+            let top = (1..32)
+                .map(|k| f64::from(k) / 32.0)
+                .max_by(|x, y| cubic(*x).total_cmp(&cubic(*y)))?;
             (cubic(top) > 0.0).then_some(pair[0].speed + top * width)
         })
         .collect()
@@ -145,7 +155,11 @@ fn unstable_stretches(
 }
 
 /// Speed of Re λ = 0 between a stable and an unstable point: false position.
-fn crossing(model: &SpectralModel, stable: &Point<'_>, unstable: &Point<'_>) -> Result<f64, SpectrumError> {
+fn crossing(
+    model: &SpectralModel,
+    stable: &Point<'_>,
+    unstable: &Point<'_>,
+) -> Result<f64, SpectrumError> {
     let (mut low, mut high) = (
         (stable.speed, stable.described.mode.clone()),
         (unstable.speed, unstable.described.mode.clone()),
@@ -155,7 +169,11 @@ fn crossing(model: &SpectralModel, stable: &Point<'_>, unstable: &Point<'_>) -> 
         if (high.0 - low.0).abs() <= SPEED_TOLERANCE * high.0.abs() || g_low >= 0.0 {
             break;
         }
-        let share = if step % 4 == 3 { 0.5 } else { (g_low / (g_low - g_high)).clamp(1e-3, 0.999) };
+        let share = if step % 4 == 3 {
+            0.5
+        } else {
+            (g_low / (g_low - g_high)).clamp(1e-3, 0.999)
+        };
         let speed = low.0 + share * (high.0 - low.0);
         let guess = low.1.lambda * (1.0 - share) + high.1.lambda * share;
         let Some(mode) = nearest(model, speed, guess, high.1.part)? else {
@@ -176,7 +194,12 @@ fn crossing(model: &SpectralModel, stable: &Point<'_>, unstable: &Point<'_>) -> 
 }
 
 /// The mode of a part with the eigenvalue next to a guess.
-fn nearest(model: &SpectralModel, speed: f64, guess: c64, part: usize) -> Result<Option<Mode>, SpectrumError> {
+fn nearest(
+    model: &SpectralModel,
+    speed: f64,
+    guess: c64,
+    part: usize,
+) -> Result<Option<Mode>, SpectrumError> {
     let distance = |m: &Mode| (m.lambda - guess).norm();
     let modes = model.all_modes(speed)?;
     let same_part = modes.into_iter().filter(|m| m.part == part);
@@ -191,7 +214,9 @@ fn stretch(
     closed: bool,
 ) -> Result<Instability, SpectrumError> {
     let interpolated = |speed: f64| -> (c64, usize) {
-        let place = points.partition_point(|p| p.speed < speed).min(points.len() - 1);
+        let place = points
+            .partition_point(|p| p.speed < speed)
+            .min(points.len() - 1);
         let mode = &points[place].described.mode;
         (mode.lambda, mode.part)
     };
@@ -200,12 +225,20 @@ fn stretch(
         Ok(nearest(model, speed, guess, part)?.map_or(guess, |m| m.lambda))
     };
     let (found, value) = maximise(from, to, |speed| Ok(at(speed)?.re))?;
-    let best = points.iter().max_by(|x, y| x.growth().total_cmp(&y.growth()));
-    let peak = best.filter(|p| p.growth() > value).map_or(found, |p| p.speed);
+    let best = points
+        .iter()
+        .max_by(|x, y| x.growth().total_cmp(&y.growth()));
+    let peak = best
+        .filter(|p| p.growth() > value)
+        .map_or(found, |p| p.speed);
     let lambda = at(peak)?;
     let first = &points[0].described.name;
     Ok(Instability {
-        kind: if lambda.im == 0.0 { InstabilityKind::Divergence } else { InstabilityKind::Flutter },
+        kind: if lambda.im == 0.0 {
+            InstabilityKind::Divergence
+        } else {
+            InstabilityKind::Flutter
+        },
         from,
         to,
         closed,

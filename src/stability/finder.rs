@@ -5,8 +5,8 @@
 //! halved until each holds at most one such change; intervals without a change are
 //! halved too where the tangents of a + and a − mode meet inside.
 
-use std::sync::{Arc, Mutex};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
@@ -48,15 +48,23 @@ pub struct Finder<'a> {
 impl<'a> Finder<'a> {
     /// A finder on an undamped blade.
     pub fn new(model: &'a SpectralModel) -> Self {
-        Finder { model, low: model.low_model(), tally: Arc::default() }
+        Finder {
+            model,
+            low: model.low_model(),
+            tally: Arc::default(),
+        }
     }
 
     /// The speeds checked so far.
     pub fn certificate(&self) -> Certificate {
         let violations = self.tally.violations.lock();
-        let mut violations = violations.map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
+        let mut violations =
+            violations.map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
         violations.sort_by(f64::total_cmp);
-        Certificate { speeds_checked: self.tally.checked.load(Ordering::Relaxed), violations }
+        Certificate {
+            speeds_checked: self.tally.checked.load(Ordering::Relaxed),
+            violations,
+        }
     }
 
     /// A cheaper finder for the speeds between `from` and `to`.
@@ -64,8 +72,16 @@ impl<'a> Finder<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn narrowed(&self, from: f64, to: f64) -> Result<Self, SpectrumError> {
-        let low = self.low.as_ref().map(|low| low.narrowed(from, to)).transpose()?;
-        Ok(Finder { model: self.model, low, tally: Arc::clone(&self.tally) })
+        let low = self
+            .low
+            .as_ref()
+            .map(|low| low.narrowed(from, to))
+            .transpose()?;
+        Ok(Finder {
+            model: self.model,
+            low,
+            tally: Arc::clone(&self.tally),
+        })
     }
 
     /// The word of signs at a speed. Where it contradicts the Krein index it is read
@@ -96,7 +112,10 @@ impl<'a> Finder<'a> {
     /// Holds the spectrum against the inertia of the stiffness, which comes from
     /// another, symmetric eigenproblem on the whole basis.
     fn matches(&self, station: &Station) -> bool {
-        station.krein_index() == self.model.negative_stiffness_directions(station.speed_rad_per_s)
+        station.krein_index()
+            == self
+                .model
+                .negative_stiffness_directions(station.speed_rad_per_s)
     }
 
     /// The words of many speeds, in parallel.

@@ -4,8 +4,12 @@ mod analysis;
 mod bands;
 mod damped;
 mod finder;
+mod loci;
 mod refine;
+mod sensitivity;
 mod station;
 
 pub use analysis::{Analysis, OPERATING_LIMIT};
 pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart};
+pub use loci::RootLoci;
+pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};

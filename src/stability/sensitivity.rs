@@ -1,0 +1,282 @@
+//! How critical speeds, onsets and eigenvalues move with the numbers of the scene.
+//!
+//! The matrices are smooth in every number, so they are differentiated by a
+//! fourth-order central difference of the assembly; the eigenvalues are then
+//! differentiated exactly, with left and right vectors.
+
+use faer::{Col, c64};
+
+use super::analysis::Analysis;
+use super::bands::{Instability, InstabilityKind};
+use crate::plate::Plate;
+use crate::scene::{Scene, SceneError, SceneFile};
+use crate::spectrum::{Mode, Part, SpectrumError, derivative};
+use crate::system::GyroscopicSystem;
+
+/// Relative step of the difference: truncation (1e-3)⁴ and rounding 1e-16/1e-3 are
+/// both below 1e-11.
+const STEP: f64 = 1e-3;
+
+/// Effect of one change of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivity {
+    /// JSON path of the number.
+    pub parameter: String,
+    /// The change in words: "1 %".
+    pub change: &'static str,
+    /// Relative change of each critical speed within the range.
+    pub critical_speeds: Vec<f64>,
+    /// Relative change of the onset of each band; `None` where the range begins in it.
+    pub onsets: Vec<Option<f64>>,
+    /// Change of λ of each mode at `modes_at`, in 1/s.
+    pub eigenvalues: Vec<c64>,
+}
+
+/// Why no sensitivity could be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum SensitivityError {
+    /// A number stands so close to the edge of what is allowed that it cannot be moved.
+    #[error("a number of the scene cannot be moved by {STEP} to differentiate by it: {0}")]
+    Edge(#[from] SceneError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
+
+/// A number of the scene and the change that is asked about.
+struct Parameter {
+    path: String,
+    words: &'static str,
+    /// Moves the number by a multiple of the change.
+    shift: Box<dyn Fn(&mut SceneFile, f64)>,
+}
+
+/// Sensitivities of an analysis, most influential on the lowest critical speed first.
+///
+/// # Errors
+/// [`SensitivityError`].
+pub fn sensitivities(
+    scene: &Scene,
+    analysis: &Analysis,
+    modes_at_rad_per_s: f64,
+) -> Result<Vec<Sensitivity>, SensitivityError> {
+    let modes = analysis.model.modes(modes_at_rad_per_s)?;
+    let modes = analysis.model.describe(modes_at_rad_per_s, modes);
+    let mergings: Vec<Option<Merging>> = analysis
+        .chart
+        .instabilities
+        .iter()
+        .map(|band| Merging::new(analysis, band))
+        .collect::<Result<_, _>>()?;
+    let mut all = Vec::new();
+    for parameter in parameters(scene) {
+        let changes = changed_parts(scene, &analysis.model.plate, &parameter)?;
+        let relative = |merging: &Merging| {
+            let system = &analysis.model.parts[merging.part].full;
+            let change = &changes[merging.part];
+            merging.change(system, change) / merging.speed
+        };
+        let critical = analysis.model.critical.iter();
+        all.push(Sensitivity {
+            critical_speeds: critical
+                .take_while(|c| c.speed_rad_per_s <= analysis.range.1)
+                .map(|c| relative(&Merging::standing(c.part, c.speed_rad_per_s, &c.shape)))
+                .collect(),
+            onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
+            eigenvalues: modes
+                .iter()
+                .map(|m| {
+                    let part = &analysis.model.parts[m.mode.part];
+                    let x = part.coordinates(&m.shape);
+                    let change = &changes[m.mode.part];
+                    derivative::with_change(
+                        &part.full,
+                        modes_at_rad_per_s,
+                        m.mode.lambda,
+                        &x,
+                        change,
+                    )
+                })
+                .collect(),
+            parameter: parameter.path,
+            change: parameter.words,
+        });
+    }
+    let influence = |s: &Sensitivity| s.critical_speeds.first().map_or(0.0, |c| c.abs());
+    all.sort_by(|x, y| influence(y).total_cmp(&influence(x)));
+    Ok(all)
+}
+
+fn parameters(scene: &Scene) -> Vec<Parameter> {
+    let percent = |path: String, number: fn(&mut SceneFile) -> &mut f64| Parameter {
+        path,
+        words: "1 %",
+        shift: Box::new(move |file, share| *number(file) *= 1.0 + 0.01 * share),
+    };
+    let mut parameters = vec![
+        percent("blade.thickness_m".into(), |f| &mut f.blade.thickness_m),
+        percent("blade.material.youngs_modulus_pa".into(), |f| {
+            &mut f.blade.material.youngs_modulus_pa
+        }),
+        percent("blade.material.density_kg_per_m3".into(), |f| {
+            &mut f.blade.material.density_kg_per_m3
+        }),
+    ];
+    for index in 0..scene.file.guides.len() {
+        let mut add = |name: &str, words, shift: Box<dyn Fn(&mut SceneFile, f64)>| {
+            parameters.push(Parameter {
+                path: format!("guides[{index}].{name}"),
+                words,
+                shift,
+            });
+        };
+        let percent = |share: f64| 1.0 + 0.01 * share;
+        add(
+            "radius_m",
+            "1 %",
+            Box::new(move |f, share| f.guides[index].radius_m *= percent(share)),
+        );
+        add(
+            "angle_deg",
+            "1 degree",
+            Box::new(move |f, share| f.guides[index].angle_deg += share),
+        );
+        let stiffness =
+            move |f: &mut SceneFile, share| f.guides[index].stiffness_n_per_m *= percent(share);
+        add("stiffness_n_per_m", "1 %", Box::new(stiffness));
+    }
+    parameters
+}
+
+/// Change of the matrices of every part for the whole change of a parameter.
+fn changed_parts(
+    scene: &Scene,
+    plate: &Plate,
+    parameter: &Parameter,
+) -> Result<Vec<GyroscopicSystem>, SceneError> {
+    // f' ≈ (f(−2h) − 8f(−h) + 8f(h) − f(2h)) / 12h, in shares of the change.
+    let share = 100.0 * STEP;
+    let stencil = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
+    let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
+    for (place, weight) in stencil {
+        let mut file = scene.file.clone();
+        (parameter.shift)(&mut file, place * share);
+        let scene = Scene::try_from(file)?;
+        let parts = Part::of(&Plate::new(&scene, plate.resolution));
+        moved.resize_with(parts.len(), Vec::new);
+        for (terms, part) in moved.iter_mut().zip(parts) {
+            terms.push((weight / (12.0 * share), part.full));
+        }
+    }
+    Ok(moved
+        .iter()
+        .filter_map(|terms| GyroscopicSystem::combination(terms))
+        .collect())
+}
+
+/// A speed at which something begins: two modes merge, or a wave stands still.
+struct Merging {
+    part: usize,
+    speed: f64,
+    lambda: c64,
+    x: Col<c64>,
+    /// Re λ = 0 of a damped mode moves with the real part alone.
+    damped: bool,
+}
+
+impl Merging {
+    fn standing(part: usize, speed: f64, shape: &Col<f64>) -> Self {
+        let x = Col::from_fn(shape.nrows(), |i| c64::new(shape[i], 0.0));
+        Merging {
+            part,
+            speed,
+            lambda: c64::new(0.0, 0.0),
+            x,
+            damped: false,
+        }
+    }
+
+    /// The onset of a band; `None` where the range begins inside it.
+    fn new(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
+        let model = &analysis.model;
+        if band.from <= analysis.range.0 {
+            return Ok(None);
+        }
+        if !model.is_conservative() {
+            return Ok(Some(Self::damped(analysis, band)?));
+        }
+        if band.kind == InstabilityKind::Divergence {
+            let distance = |speed: f64| (speed - band.from).abs();
+            let nearest = model
+                .critical
+                .iter()
+                .min_by(|x, y| distance(x.speed_rad_per_s).total_cmp(&distance(y.speed_rad_per_s)));
+            return Ok(nearest.map(|c| Self::standing(c.part, c.speed_rad_per_s, &c.shape)));
+        }
+        // Just below the onset the two vectors are x ± εu: their mean is x up to ε².
+        let before = band.from * (1.0 - 1e-8);
+        let modes = model.modes(before)?;
+        let pair = closest_opposite(&modes);
+        let Some((first, second)) = pair else {
+            return Ok(None);
+        };
+        let part = &model.parts[first.part];
+        let lift = |mode: &Mode| part.lifted(before, &mode.coordinates);
+        let (x, y) = (lift(first), lift(second));
+        let overlap: c64 = y.adjoint() * &x;
+        let turn = overlap / overlap.norm().max(f64::MIN_POSITIVE);
+        let mean = faer::Scale(c64::new(0.5, 0.0)) * (x + faer::Scale(turn) * y);
+        Ok(Some(Merging {
+            part: first.part,
+            speed: band.from,
+            lambda: (first.lambda + second.lambda) * 0.5,
+            x: mean,
+            damped: false,
+        }))
+    }
+
+    fn damped(analysis: &Analysis, band: &Instability) -> Result<Self, SpectrumError> {
+        let modes = analysis.model.modes(band.from)?;
+        let marginal = |m: &&Mode| m.lambda.re.abs();
+        let mode = modes
+            .iter()
+            .min_by(|x, y| marginal(x).total_cmp(&marginal(y)));
+        let (part, lambda, x) = match mode {
+            Some(m) => {
+                let part = &analysis.model.parts[m.part];
+                (m.part, m.lambda, part.lifted(band.from, &m.coordinates))
+            }
+            None => (
+                0,
+                c64::new(0.0, 0.0),
+                Col::zeros(analysis.model.parts[0].full.order()),
+            ),
+        };
+        Ok(Merging {
+            part,
+            speed: band.from,
+            lambda,
+            x,
+            damped: true,
+        })
+    }
+
+    /// dΩ for a change of the matrices.
+    fn change(&self, system: &GyroscopicSystem, change: &GyroscopicSystem) -> f64 {
+        if self.damped {
+            let moved = derivative::with_change(system, self.speed, self.lambda, &self.x, change);
+            let slope = derivative::with_speed(system, self.speed, self.lambda, &self.x);
+            return -moved.re / slope.re;
+        }
+        derivative::of_merging(system, self.speed, self.lambda, &self.x, change)
+    }
+}
+
+/// The + and the − mode whose frequencies are closest.
+fn closest_opposite(modes: &[Mode]) -> Option<(&Mode, &Mode)> {
+    let signed = |sign: i8| modes.iter().filter(move |m| m.krein_sign() == sign);
+    let gap = |pair: &(&Mode, &Mode)| (pair.0.lambda - pair.1.lambda).norm();
+    signed(1)
+        .flat_map(|plus| signed(-1).map(move |minus| (plus, minus)))
+        .min_by(|x, y| gap(x).total_cmp(&gap(y)))
+}
