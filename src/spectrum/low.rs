@@ -43,14 +43,14 @@ impl<'a> LowModel<'a> {
         }
     }
 
-    /// Modes up to the height.
+    /// Its modes. Those above the height are there to tell what comes next, and not to
+    /// be trusted to many digits.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        let mut pairs = companion_eigenpairs(&self.system, speed_rad_per_s)?;
-        pairs.retain(|(lambda, _)| lambda.im <= self.height_rad_per_s);
+        let pairs = companion_eigenpairs(&self.system, speed_rad_per_s)?;
         Ok(classify(
             &self.system,
             speed_rad_per_s,

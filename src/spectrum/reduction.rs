@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use faer::{Col, Mat, Side, c64};
+use faer::{Col, Mat, Scale, Side, c64};
 use rayon::prelude::*;
 
 use crate::plate::Plate;
@@ -48,6 +48,8 @@ const FREQUENCY_TOLERANCE: f64 = 1e-8;
 const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
 const SNAPSHOT_MARGIN: f64 = 1.5;
+/// Length given to vectors of which no part may be left out.
+const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
@@ -250,7 +252,7 @@ impl Builder<'_> {
         };
         let inside = |c: &&NamedCriticalSpeed| (from..=to).contains(&c.speed_rad_per_s);
         let standing = self.critical.iter().filter(inside);
-        let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
+        let mut vectors: Vec<Col<f64>> = standing.map(|c| Scale(KEPT_WHOLE) * &c.shape).collect();
         for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
             if lambda.norm() <= SNAPSHOT_MARGIN * height {
                 let (re, im) = split(q);

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::damped;
-use super::finder::{CRITICAL_GAP, Event, Finder};
+use super::finder::{CRITICAL_GAP, CRITICAL_GROUP, Event, Finder};
 use super::refine;
 use super::station::{Sign, Station};
 use crate::campbell::{self, Campbell, Progress, SpeedSample};
@@ -86,8 +86,23 @@ pub fn chart(
     })
 }
 
-/// Every band of an undamped blade between the first and the last of the speeds,
-/// and the proof that none is missing.
+/// Every band of an undamped blade in a range of speeds, searched from `count` even
+/// speeds and both sides of every critical one, and the proof that none is missing.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn undamped_bands(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    bands(
+        model,
+        &with_critical_speeds(model, range, campbell::even_speeds(range, count)),
+    )
+}
+
+/// Every band between the first and the last of the speeds.
 pub(super) fn bands(
     model: &SpectralModel,
     speeds: &[f64],
@@ -98,6 +113,7 @@ pub(super) fn bands(
     // Nothing couples the waves of a free blade, so they cross and never merge.
     if !model.plate.is_axisymmetric() {
         instabilities.extend(divergence(model, &finder, &stations)?);
+        instabilities.extend(close_pairs(model, &finder, speeds)?);
         instabilities.extend(flutter(model, &finder, &stations)?);
         instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
     }
@@ -132,21 +148,21 @@ pub(super) fn with_critical_speeds(
             continue;
         }
         match previous {
-            // Closer than their distances: one group.
-            Some(last) if last >= below => {
+            Some(last) if speed <= last * (1.0 + CRITICAL_GROUP) => {
                 sides.pop();
             }
             Some(last) => sides.extend([0.5 * (last + below), below]),
             None => sides.push(below),
         }
         sides.push(above);
-        previous = Some(above);
+        previous = Some(speed);
     }
+    let near = CRITICAL_GAP + CRITICAL_GROUP;
     speeds.retain(|s| {
         model
             .critical
             .iter()
-            .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > CRITICAL_GAP)
+            .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > near)
     });
     speeds.extend(sides);
     speeds.sort_by(f64::total_cmp);
@@ -160,7 +176,7 @@ pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> 
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [1e-6, 0.1, 0.3, 0.7, 0.9, 1.0 - 1e-6]
+            [0.01, 0.1, 0.3, 0.7, 0.9, 0.99]
                 .map(at)
                 .into_iter()
                 .chain([band.peak])
@@ -194,7 +210,7 @@ fn divergence(
             let (to, ends) = edge(model, stations, (!last).then_some(index + 1), index);
             let growth =
                 |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
-            let (peak, square) = refine::maximise(from, to, growth)?;
+            let (peak, square) = refine::maximise((from, to), begins && ends, growth)?;
             bands.push(Instability {
                 kind: InstabilityKind::Divergence,
                 from,
@@ -207,6 +223,38 @@ fn divergence(
             });
             start = None;
         }
+    }
+    Ok(bands)
+}
+
+/// Divergence between two critical speeds that the stations pass in one step. Where the
+/// number of negative directions of K(Ω) is odd there is a real λ > 0.
+fn close_pairs(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    speeds: &[f64],
+) -> Result<Vec<Instability>, SpectrumError> {
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
+        return Ok(Vec::new());
+    };
+    let close = |pair: &[f64]| (1e-12..=CRITICAL_GROUP).contains(&(pair[1] / pair[0] - 1.0));
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let mut bands = Vec::new();
+    for (below, pair) in critical.windows(2).enumerate() {
+        if below % 2 == 1 || pair[0] < first || pair[1] > last || !close(pair) {
+            continue;
+        }
+        let peak = 0.5 * (pair[0] + pair[1]);
+        bands.push(Instability {
+            kind: InstabilityKind::Divergence,
+            from: pair[0],
+            to: pair[1],
+            closed: true,
+            peak,
+            peak_growth_per_s: finder.divergence(peak)?,
+            frequency: 0.0,
+            modes: standing_waves(model, pair[0], pair[1]),
+        });
     }
     Ok(bands)
 }
@@ -291,7 +339,7 @@ fn band(
     closed: bool,
 ) -> Result<Instability, SpectrumError> {
     let finder = finder.narrowed(from, to)?;
-    let ends = [from + 1e-6 * (to - from), to - 1e-6 * (to - from)];
+    let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
     let mut frequencies = [0.0; 2];
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
         let station = finder.station(speed)?;
@@ -313,7 +361,7 @@ fn band(
             .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
         Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
     };
-    let (peak, _) = refine::maximise(from, to, |speed| Ok(pair(speed)?.0.powi(2)))?;
+    let (peak, _) = refine::maximise((from, to), closed, |speed| Ok(pair(speed)?.0.powi(2)))?;
     let (peak_growth_per_s, frequency) = pair(peak)?;
     Ok(Instability {
         kind: InstabilityKind::Flutter,

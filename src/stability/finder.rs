@@ -15,8 +15,12 @@ use super::refine::{self, Inside};
 use super::station::{Change, Sign, Station, change};
 use crate::spectrum::{LowModel, SpectralModel, SpectrumError};
 
-/// Relative distance kept from a critical speed, where a frequency is zero.
-pub const CRITICAL_GAP: f64 = 1e-7;
+/// Relative distance kept from a critical speed: λ² passes through zero there, and is
+/// known to 1e-15 of the stiffness only.
+pub const CRITICAL_GAP: f64 = 5e-6;
+/// Critical speeds closer than this are passed in one step. The divergence between them
+/// grows by less than a hundredth of 1/s; that it is there follows from the inertia.
+pub const CRITICAL_GROUP: f64 = 2e-5;
 /// Intervals below this relative width are not halved any more.
 const LEAST_WIDTH: f64 = 1e-9;
 
@@ -109,6 +113,21 @@ impl<'a> Finder<'a> {
         Ok(station)
     }
 
+    /// Largest growth of a divergent mode next to a critical speed, where the Krein index
+    /// cannot be read off rounded eigenvalues.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
+        let modes = match &self.low {
+            Some(low) => low.modes(speed_rad_per_s)?,
+            None => return Ok(0.0),
+        };
+        Ok(Station::new(speed_rad_per_s, modes.iter())
+            .divergence()
+            .unwrap_or(0.0))
+    }
+
     /// Holds the spectrum against the inertia of the stiffness, which comes from
     /// another, symmetric eigenproblem on the whole basis.
     fn matches(&self, station: &Station) -> bool {
@@ -170,8 +189,7 @@ impl<'a> Finder<'a> {
             return self.search(&middle, b, events);
         }
         if seen != Change::None {
-            let narrow = self.narrowed(x, y)?;
-            events.extend(narrow.refined(a, b, seen)?);
+            events.extend(self.refined(a, b, seen)?);
         }
         Ok(())
     }

@@ -10,6 +10,6 @@ mod sensitivity;
 mod station;
 
 pub use analysis::{Analysis, OPERATING_LIMIT};
-pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart};
+pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
 pub use loci::RootLoci;
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};

@@ -10,6 +10,8 @@ use crate::spectrum::SpectrumError;
 
 /// Relative accuracy in speed to which onsets are bracketed.
 const SPEED_TOLERANCE: f64 = 1e-11;
+/// Relative distance from a rough onset at which the last look begins.
+const VICINITY: f64 = 1e-5;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
 const MAX_STEPS: usize = 120;
@@ -40,53 +42,78 @@ fn discriminant(station: &Station, place: usize, real: bool) -> Option<f64> {
 }
 
 /// Speed at which the pair at `place` merges, between a station where it is apart and
-/// one where it is merged: false position in its Illinois form on the discriminant.
+/// one where it is merged. The first look goes by the modes at the two ends; the last by
+/// the modes next to the onset, where their span is exact to rounding.
 pub fn boundary(
     finder: &Finder<'_>,
     apart: &Station,
     merged: &Station,
     place: usize,
 ) -> Result<f64, SpectrumError> {
-    let real = apart
+    let (out, inn) = (apart.speed_rad_per_s, merged.speed_rad_per_s);
+    let narrow = finder.narrowed(out.min(inn), out.max(inn))?;
+    let rough = false_position(&narrow, apart, merged, place)?;
+    let outwards = if out < inn { -1.0 } else { 1.0 };
+    let clamped = |speed: f64| speed.clamp(out.min(inn), out.max(inn));
+    let before = finder.station(clamped(rough * (1.0 + outwards * VICINITY)))?;
+    let after = finder.station(clamped(rough * (1.0 - outwards * VICINITY)))?;
+    let brackets = |station: &Station, inside: bool| {
+        discriminant(station, place, is_real(apart, place)).is_some_and(|d| (d < 0.0) == inside)
+    };
+    if !(brackets(&before, false) && brackets(&after, true)) {
+        return false_position(finder, apart, merged, place);
+    }
+    let (low, high) = (before.speed_rad_per_s, after.speed_rad_per_s);
+    let near = finder.narrowed(low.min(high), low.max(high))?;
+    false_position(&near, &before, &after, place)
+}
+
+fn is_real(station: &Station, place: usize) -> bool {
+    station
         .doubled()
         .get(place)
-        .is_some_and(|t| t.sign == Sign::Real);
-    let value = |station: &Station| discriminant(station, place, real);
+        .is_some_and(|t| t.sign == Sign::Real)
+}
+
+/// False position in its Illinois form on the discriminant.
+fn false_position(
+    finder: &Finder<'_>,
+    apart: &Station,
+    merged: &Station,
+    place: usize,
+) -> Result<f64, SpectrumError> {
+    let value = |station: &Station| discriminant(station, place, is_real(apart, place));
     let (mut out, mut inn) = (apart.speed_rad_per_s, merged.speed_rad_per_s);
     let mut d_out = value(apart).unwrap_or(1.0);
     let mut d_inn = value(merged).unwrap_or(-1.0);
-    let mut last_moved = 0;
-    for _ in 0..MAX_STEPS {
-        let width = (inn - out).abs();
-        if width <= SPEED_TOLERANCE * inn.abs() || d_out == d_inn {
+    for step in 0..MAX_STEPS {
+        if (inn - out).abs() <= SPEED_TOLERANCE * inn.abs() || d_out == d_inn {
             break;
         }
-        let share = (d_out / (d_out - d_inn)).clamp(1e-3, 1.0 - 1e-3);
-        let speed = out + share * (inn - out);
+        // A halving now and then bounds the steps whatever the function does.
+        let share = if step % 8 == 7 {
+            0.5
+        } else {
+            d_out / (d_out - d_inn)
+        };
+        let speed = out + share.clamp(1e-4, 1.0 - 1e-4) * (inn - out);
         let station = finder.station(speed)?;
         // Where neighbours in the word have moved, the place is not the pair's any
         // more; then the word alone says which side this is.
-        let d = value(&station).unwrap_or_else(|| {
+        let side = || {
             if station.word() == merged.word() {
-                -1e-3 * d_out.abs()
+                -1e-3 * d_out
             } else {
-                1e-3 * d_inn.abs()
+                -1e-3 * d_inn
             }
-        });
+        };
+        let d = value(&station).unwrap_or_else(side);
         if d > 0.0 {
-            out = speed;
-            d_out = d;
-            if last_moved == 1 {
-                d_inn *= 0.5;
-            }
-            last_moved = 1;
+            (out, d_out) = (speed, d);
+            d_inn *= 0.5;
         } else {
-            inn = speed;
-            d_inn = d;
-            if last_moved == -1 {
-                d_out *= 0.5;
-            }
-            last_moved = -1;
+            (inn, d_inn) = (speed, d);
+            d_out *= 0.5;
         }
     }
     Ok(inn)
@@ -101,21 +128,18 @@ pub fn band_between(
     after: &Station,
     place: usize,
 ) -> Result<Option<Inside>, SpectrumError> {
+    let narrow = finder.narrowed(before.speed_rad_per_s, after.speed_rad_per_s)?;
     let (mut low, mut high) = (before.clone(), after.clone());
     for step in 0..MAX_STEPS {
-        let gap = |station: &Station| {
-            discriminant(station, place, false).map(|d| 2.0 * d.max(0.0).sqrt())
-        };
-        let (Some(g_low), Some(g_high)) = (gap(&low), gap(&high)) else {
-            return Ok(None);
-        };
+        let gap =
+            |s: &Station| discriminant(s, place, false).map_or(0.0, |d| 2.0 * d.max(0.0).sqrt());
+        let (g_low, g_high) = (gap(&low), gap(&high));
         let width = high.speed_rad_per_s - low.speed_rad_per_s;
         // Two modes whose gap closes at slope s cannot grow faster than s·width/4
         // inside this width: what is left is below what eigenvalues can show.
-        let steepness = (g_low + g_high) / width;
-        let floor =
-            GROWTH_FLOOR * (high.speed_rad_per_s + high.tokens.last().map_or(0.0, |t| t.frequency));
-        if 0.25 * steepness * width < floor || width <= SPEED_TOLERANCE * high.speed_rad_per_s {
+        let highest = high.tokens.last().map_or(0.0, |t| t.frequency);
+        let floor = GROWTH_FLOOR * (high.speed_rad_per_s + highest);
+        if 0.25 * (g_low + g_high) < floor || width <= SPEED_TOLERANCE * high.speed_rad_per_s {
             return Ok(None);
         }
         let share = if step % 3 == 2 {
@@ -123,39 +147,36 @@ pub fn band_between(
         } else {
             (g_low / (g_low + g_high)).clamp(0.02, 0.98)
         };
-        let middle = finder.station(low.speed_rad_per_s + share * width)?;
+        let middle = narrow.station(low.speed_rad_per_s + share * width)?;
         if discriminant(&middle, place, false).is_some_and(|d| d < 0.0) {
             return Ok(Some(Inside {
                 from: boundary(finder, &low, &middle, place)?,
                 to: boundary(finder, &high, &middle, place)?,
             }));
         }
-        let word = middle.word();
-        if word == before.word() {
-            low = middle;
-        } else if word == after.word() {
+        if middle.word() == after.word() {
             high = middle;
         } else {
-            return Ok(None);
+            low = middle;
         }
     }
     Ok(None)
 }
 
 /// Speed and value of the largest f on [from, to], by a coarse look and then
-/// successive parabolas: squared growth is nearly a parabola across a band.
+/// successive parabolas: squared growth is nearly a parabola across a band. At the ends of a
+/// `closed` band f is zero, and not looked at: there the modes cannot be told apart.
 pub fn maximise(
-    from: f64,
-    to: f64,
+    (from, to): (f64, f64),
+    closed: bool,
     mut f: impl FnMut(f64) -> Result<f64, SpectrumError>,
 ) -> Result<(f64, f64), SpectrumError> {
     const LOOKS: usize = 4;
     let mut points = Vec::new();
     for k in 0..=LOOKS {
-        // A hair inside: at the very ends the pair has only just merged.
-        let share = (k as f64 / LOOKS as f64).clamp(1e-6, 1.0 - 1e-6);
-        let speed = from + share * (to - from);
-        points.push((speed, f(speed)?));
+        let speed = from + (to - from) * k as f64 / LOOKS as f64;
+        let end = k == 0 || k == LOOKS;
+        points.push((speed, if end && closed { 0.0 } else { f(speed)? }));
     }
     for _ in 0..12 {
         points.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -203,7 +224,7 @@ mod tests {
 
     #[test]
     fn the_maximum_of_a_skew_hump_is_found() {
-        let (speed, value) = maximise(0.0, 2.0, |x| Ok(x * (-x * x).exp())).unwrap();
+        let (speed, value) = maximise((0.0, 2.0), false, |x| Ok(x * (-x * x).exp())).unwrap();
         assert!((speed - 0.5_f64.sqrt()).abs() < 1e-4, "{speed}");
         assert!(value > 0.42888);
     }
