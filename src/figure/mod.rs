@@ -9,10 +9,18 @@ mod campbell;
 mod canvas;
 mod clip;
 mod declutter;
+mod heading;
+mod meeting;
 mod render;
+mod root_loci;
+#[cfg(test)]
+mod sample;
 mod style;
+#[cfg(test)]
+mod tidy;
 
 pub use campbell::{campbell_png, campbell_svg};
+pub use root_loci::{root_loci_png, root_loci_svg};
 
 /// Why a figure could not be rendered.
 #[derive(Debug, thiserror::Error)]

@@ -1,9 +1,9 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::super::style::{HAIRLINE, LABEL_SIZE, PAPER};
+use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
 use super::speeds::{NARROW, band_places, line_colour, operating_place};
-use super::{Chart, MARGIN, WIDTH};
+use super::{Chart, WIDTH};
 use crate::report::{InstabilityEntry, InstabilityKind};
 
 const ROWS: usize = 4;
