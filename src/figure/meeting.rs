@@ -108,7 +108,13 @@ mod tests {
     fn a_band_cut_short_by_the_sweep_does_not_end_at_zero() {
         let meeting = Meeting::new([10.0, 14.0], [true, false], [[14.0, 9.0]]).unwrap();
         assert_eq!(meeting.square(14.0), 9.0);
-        assert_eq!(Meeting::new([10.0, f64::NAN], [true; 2], [[11.0, 1.0]]), None);
-        assert_eq!(Meeting::new([10.0, 14.0], [true; 2], [[11.0, f64::NAN]]), None);
+        assert_eq!(
+            Meeting::new([10.0, f64::NAN], [true; 2], [[11.0, 1.0]]),
+            None
+        );
+        assert_eq!(
+            Meeting::new([10.0, 14.0], [true; 2], [[11.0, f64::NAN]]),
+            None
+        );
     }
 }

@@ -7,13 +7,14 @@ mod tracks;
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::declutter::{Wish, push_apart};
 use super::style::{
-    AXIS_SIZE, BACKWARD, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD,
-    GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STANDING, tint,
+    AXIS_SIZE, BACKWARD, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID,
+    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, tint,
 };
 use super::{FigureError, heading, render};
 use crate::report::Report;
-use tracks::{Loci, Look, Sample};
+use tracks::{Loci, Look, Sample, Track};
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 800;
@@ -21,17 +22,22 @@ const PLOT_TOP: f64 = 110.0;
 const PLOT_BOTTOM: f64 = 706.0;
 const PLANE: [f64; 2] = [92.0, 772.0];
 const SPEED: [f64; 2] = [812.0, 1152.0];
+const SIGN_SIZE: f64 = 15.0;
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
 /// The root loci as PNG, 1200 × 800 pixels; `None` if the report has none.
 pub fn root_loci_png(report: &Report) -> Result<Option<Vec<u8>>, FigureError> {
-    root_loci(report).map(|sheet| render::png(&sheet)).transpose()
+    root_loci(report)
+        .map(|sheet| render::png(&sheet))
+        .transpose()
 }
 
 /// The root loci as SVG; `None` if the report has none.
 pub fn root_loci_svg(report: &Report) -> Result<Option<String>, FigureError> {
-    root_loci(report).map(|sheet| render::svg(&sheet)).transpose()
+    root_loci(report)
+        .map(|sheet| render::svg(&sheet))
+        .transpose()
 }
 
 /// What the parts of the figure share.
@@ -92,7 +98,7 @@ impl Chart {
             speed: Axis::new(speeds, SPEED, Spread::Linear),
             plane: panel(PLANE),
             over_speed: panel(SPEED),
-            decimals: (1.0 - (band / 2.0).log10().floor()).clamp(0.0, 3.0) as usize,
+            decimals: (5.0 / band).log10().ceil().clamp(0.0, 3.0) as usize,
             loci,
         }
     }
@@ -156,8 +162,11 @@ fn draw_over_speed(sheet: &mut Sheet, chart: &Chart) {
     let name = format!("flutter {}–{}", chart.rpm(onset.rpm), chart.rpm(end.rpm));
     let letters = Lettering::regular(LABEL_SIZE, FLUTTER, Anchor::Middle);
     let length = text_frame([0.0, 0.0], &letters, &name).right * 2.0;
-    let ends = [SPEED[0] + length / 2.0, f64::from(WIDTH) - MARGIN - length / 2.0];
-    let middle = ((left + right) / 2.0).clamp(ends[0], ends[1]);
+    let ends = [
+        SPEED[0] + length / 2.0,
+        f64::from(WIDTH) - MARGIN - length / 2.0,
+    ];
+    let middle = ((left + right) / 2.0).min(ends[1]).max(ends[0]);
     sheet.text([middle, PLOT_TOP - 8.0], letters, &name);
 
     // From panel to panel, so that the eye finds the same event in both.
@@ -185,25 +194,39 @@ fn draw_over_speed(sheet: &mut Sheet, chart: &Chart) {
 /// The Krein signs at the outer ends of the lines over speed.
 fn draw_signs(sheet: &mut Sheet, chart: &Chart) {
     let [left, right] = SPEED;
-    for track in &chart.loci.tracks {
-        let Some(sign) = labels::sign(track.look) else {
-            continue;
+    let first = |track: &Track| track.samples.first().copied();
+    let last = |track: &Track| track.samples.last().copied();
+    draw_signs_at(sheet, chart, &first, left, (left - 8.0, Anchor::End));
+    draw_signs_at(sheet, chart, &last, right, (right + 8.0, Anchor::Start));
+}
+
+/// The signs of the tracks of which one end lies at the given edge.
+fn draw_signs_at(
+    sheet: &mut Sheet,
+    chart: &Chart,
+    end: &dyn Fn(&Track) -> Option<Sample>,
+    edge: f64,
+    (x, anchor): (f64, Anchor),
+) {
+    let signed = chart.loci.tracks.iter().filter_map(|track| {
+        let (sign, sample) = (labels::sign(track.look)?, end(track)?);
+        let at_edge = (chart.speed.at(sample.rpm) - edge).abs() < 0.5;
+        let wish = Wish {
+            centre: chart.frequency.at(sample.hz),
+            length: SIGN_SIZE,
         };
-        let ends = [track.samples.first(), track.samples.last()];
-        let outer = ends.into_iter().flatten().find_map(|sample| {
-            let x = chart.speed.at(sample.rpm);
-            if x <= left {
-                Some((left - 8.0, Anchor::End, sample))
-            } else if x >= right {
-                Some((right + 8.0, Anchor::Start, sample))
-            } else {
-                None
-            }
-        });
-        if let Some((x, anchor, sample)) = outer {
-            let letters = Lettering::regular(AXIS_SIZE, colour(track.look), anchor);
-            let y = chart.frequency.at(sample.hz) + 0.36 * AXIS_SIZE;
-            sheet.text([x, y], letters, sign);
+        at_edge.then_some((sign, colour(track.look), wish))
+    });
+    let signed: Vec<_> = signed.collect();
+    let wishes: Vec<_> = signed.iter().map(|(_, _, wish)| *wish).collect();
+    let centres = push_apart(&wishes, PLOT_TOP, PLOT_BOTTOM);
+    for ((sign, colour, _), centre) in signed.into_iter().zip(centres) {
+        let letters = Lettering {
+            weight: Weight::SemiBold,
+            ..Lettering::regular(SIGN_SIZE, colour, anchor)
+        };
+        if let Some(centre) = centre {
+            sheet.text([x, centre + 0.36 * SIGN_SIZE], letters, sign);
         }
     }
 }
@@ -219,8 +242,11 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
             "where Re λ = 0 the two paths are drawn beside the axis, not on each other",
         ]
         .join(BETWEEN_FACTS),
-        false => [arrows, "with damping the modes pass each other without merging"]
-            .join(BETWEEN_FACTS),
+        false => [
+            arrows,
+            "with damping the modes pass each other without merging",
+        ]
+        .join(BETWEEN_FACTS),
     };
     sheet.text([PLANE[0], baseline], letters, &notes);
 }

@@ -233,7 +233,7 @@ fn measured() -> Measured {
 /// Two modes of opposite sign that meet at 6 Hz; `drift` is how fast their mean
 /// frequency moves, in Hz/rpm.
 pub fn root_loci(drift: f64) -> RootLociEntry {
-    let (onset, end, peak) = (2255.6, 2266.5, 0.53);
+    let (onset, end, peak) = (2255.6, 2266.52, 0.53);
     let (middle, half) = ((onset + end) / 2.0, (end - onset) / 2.0);
     let inside = |rpm: f64| ((rpm - middle) / half).abs() < 1.0;
     let rpm: Vec<f64> = (0..=42).map(|i| 2240.0 + f64::from(i)).collect();

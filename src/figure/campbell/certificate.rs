@@ -1,7 +1,7 @@
 //! The line at the foot that says how far the figure can be trusted.
 
-use super::super::canvas::{Anchor, Lettering, Sheet};
 use super::super::axis::two_digits;
+use super::super::canvas::{Anchor, Lettering, Sheet};
 use super::super::style::{
     ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten, text_width,
 };
@@ -48,7 +48,9 @@ fn facts(report: &Report) -> Vec<String> {
     let mut facts = Vec::new();
     let checked = certificate.speeds_checked;
     if checked > 0 && certificate.krein_violations == 0 {
-        facts.push(format!("Krein index matches at {checked} of {checked} speeds"));
+        facts.push(format!(
+            "Krein index matches at {checked} of {checked} speeds"
+        ));
     }
     if let Some(bound) = power_of_ten_above(certificate.max_backward_error) {
         facts.push(format!("backward error below {bound}"));

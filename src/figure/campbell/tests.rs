@@ -1,5 +1,5 @@
-use super::super::sample::{busy_report, empty_report};
 use super::super::canvas::Mark;
+use super::super::sample::{busy_report, empty_report};
 use super::super::tidy::assert_tidy;
 use super::*;
 use crate::report::CriticalSpeedEntry;

@@ -33,7 +33,7 @@ pub fn places(chart: &Chart, track: &Track) -> Vec<[f64; 2]> {
         onset, peak, end, ..
     } = chart.loci;
     let [way_out, way_back] = [onset, end].map(|s| chart.frequency.at(s.hz));
-    let apart = (2.5 - (way_out - way_back).abs() / 4.0).max(0.0);
+    let apart = (3.0 - (way_out - way_back).abs() / 4.0).max(0.0);
     let apart = if way_out <= way_back { -apart } else { apart };
     let place = |sample: &Sample| {
         let [x, y] = at(chart, sample);
@@ -49,7 +49,10 @@ pub fn places(chart: &Chart, track: &Track) -> Vec<[f64; 2]> {
 
 /// The exact place of an eigenvalue.
 pub fn at(chart: &Chart, sample: &Sample) -> [f64; 2] {
-    [chart.growth.at(sample.growth), chart.frequency.at(sample.hz)]
+    [
+        chart.growth.at(sample.growth),
+        chart.frequency.at(sample.hz),
+    ]
 }
 
 pub fn draw(sheet: &mut Sheet, chart: &Chart) {
@@ -64,8 +67,9 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart) {
         }
         let arrows: &[f64] = match track.look {
             // On the way out and on the way back.
-            Look::Growing | Look::Decaying if chart.loci.merge => &[0.3, 0.7],
-            _ => &[0.5],
+            Look::Growing | Look::Decaying if chart.loci.merge => &[0.3, 0.82],
+            // Not halfway, where that of the path beside it may be.
+            _ => &[0.42],
         };
         for &share in arrows {
             draw_arrow(sheet, &line, share, stroke);
@@ -86,7 +90,12 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart) {
     for sample in [&chart.loci.onset, &chart.loci.end] {
         sheet.disc(at(chart, sample), 5.0, INK);
     }
-    sheet.disc(at(chart, &chart.loci.peak), 4.5, FLUTTER);
+    let peak = at(chart, &chart.loci.peak);
+    sheet.disc(peak, 4.5, FLUTTER);
+    if chart.loci.merge {
+        let mirrored = [2.0 * zero - peak[0], peak[1]];
+        sheet.disc(mirrored, 3.5, colour(Look::Decaying));
+    }
 }
 
 /// An arrowhead at a share of the length of a line.
@@ -112,7 +121,7 @@ fn draw_arrow(sheet: &mut Sheet, line: &[[f64; 2]], share: f64, stroke: Stroke) 
             ]
         };
         let head = Stroke {
-            width: CURVE,
+            width: 1.25 * CURVE,
             ..stroke
         };
         sheet.line([barb(0.8), tip, barb(-0.8)], head);

@@ -1,8 +1,8 @@
 use super::super::sample::{busy_report, root_loci as sample_loci};
 use super::super::tidy::{assert_tidy, texts};
 use super::*;
-use std::f64::consts::TAU;
 use crate::report::Report;
+use std::f64::consts::TAU;
 
 fn report() -> Report {
     let mut report = busy_report();

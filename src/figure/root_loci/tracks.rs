@@ -59,7 +59,8 @@ impl Loci {
     /// `None` if the report does not hold two paths through a band.
     pub fn new(entry: &RootLociEntry) -> Option<Self> {
         let rows = rows(entry);
-        if rows.len() < 2 || !(entry.onset_rpm < entry.end_rpm) {
+        let ends = [entry.onset_rpm, entry.end_rpm];
+        if rows.len() < 2 || !ends.iter().all(|rpm| is_sound(*rpm)) || ends[0] >= ends[1] {
             return None;
         }
         let is_outside = |row: &&Row| row.rpm < entry.onset_rpm || entry.end_rpm < row.rpm;
@@ -74,6 +75,11 @@ impl Loci {
     pub fn samples(&self) -> impl Iterator<Item = &Sample> {
         self.tracks.iter().flat_map(|track| &track.samples)
     }
+}
+
+/// A number that a saw may have; labels have room for no other.
+fn is_sound(value: f64) -> bool {
+    value.abs() < 1e9
 }
 
 /// Speeds in ascending order at which all numbers are known.
@@ -92,7 +98,7 @@ fn rows(entry: &RootLociEntry) -> Vec<Row> {
         let sign = [first, second].map(|path| path.krein_sign.get(i).copied().unwrap_or(0));
         let known = [[rpm, 0.0], growth, hz];
         let ascends = rows.last().is_none_or(|last| last.rpm < rpm);
-        if ascends && known.as_flattened().iter().all(|value| value.is_finite()) {
+        if ascends && known.as_flattened().iter().all(|value| is_sound(*value)) {
             rows.push(Row {
                 rpm,
                 growth,
@@ -115,7 +121,14 @@ fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
         let growth = (row.growth[0] - row.growth[1]) / 2.0;
         let apart = TAU * (row.hz[0] - row.hz[1]) / 2.0;
         let inside = onset <= row.rpm && row.rpm <= end;
-        [row.rpm, if inside { growth * growth } else { -apart * apart }]
+        [
+            row.rpm,
+            if inside {
+                growth * growth
+            } else {
+                -apart * apart
+            },
+        ]
     };
     let meeting = Meeting::new([onset, end], [true; 2], rows.iter().map(square))?;
     let sample = |rpm: f64, side: f64| {
@@ -176,20 +189,18 @@ fn damped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
         };
         rows.iter().map(sample).collect()
     };
-    let both = [samples(0), samples(1)];
+    let mut both = [samples(0), samples(1)];
     let peaks = [highest(&both[0])?, highest(&both[1])?];
     let flutters = usize::from(peaks[1].growth > peaks[0].growth);
-    let at = |rpm: f64| {
-        let of = |value: fn(&Sample) -> f64| {
-            let points: Vec<_> = both[flutters].iter().map(|s| [s.rpm, value(s)]).collect();
-            interpolate(&points, rpm)
-        };
-        Sample {
-            rpm,
-            growth: of(|s| s.growth),
-            hz: of(|s| s.hz),
-        }
-    };
+    let path: Vec<_> = both[flutters].iter().map(|s| [s.rpm, s.hz]).collect();
+    let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| Sample {
+        rpm,
+        growth: 0.0,
+        hz: interpolate(&path, rpm),
+    });
+    for end in ends {
+        insert(&mut both[flutters], end);
+    }
     let mut tracks: Vec<Track> = Vec::new();
     for (path, samples) in both.iter().enumerate() {
         let start = tracks.len();
@@ -215,11 +226,20 @@ fn damped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
     }
     Some(Loci {
         tracks,
-        onset: at(entry.onset_rpm),
+        onset: ends[0],
         peak: peaks[flutters],
-        end: at(entry.end_rpm),
+        end: ends[1],
         merge: false,
     })
+}
+
+/// Puts a sample in its place, unless the speed is known already or not within.
+fn insert(samples: &mut Vec<Sample>, new: Sample) {
+    let i = samples.partition_point(|sample| sample.rpm < new.rpm);
+    let known = samples.get(i).is_none_or(|next| next.rpm == new.rpm);
+    if i > 0 && !known {
+        samples.insert(i, new);
+    }
 }
 
 fn highest(samples: &[Sample]) -> Option<Sample> {
