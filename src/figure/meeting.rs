@@ -23,7 +23,7 @@ impl Meeting {
         closed: [bool; 2],
         squares: impl IntoIterator<Item = [f64; 2]>,
     ) -> Option<Self> {
-        if !(ends[0] < ends[1]) {
+        if ends[0].is_nan() || ends[1].is_nan() || ends[0] >= ends[1] {
             return None;
         }
         let factors = Vec::new();

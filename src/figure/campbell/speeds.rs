@@ -1,6 +1,6 @@
 //! What belongs to single speeds: bands, critical speeds, the operating speed.
 
-use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
 use super::super::declutter::{Cluster, join_close};
 use super::super::style::{
     Colour, DIVERGENCE, DIVERGENCE_SHADE, DIVERGENCE_STREAK, FINE_DASH, FLUTTER, FLUTTER_SHADE,
@@ -131,16 +131,19 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
     }
 }
 
-/// Writes the operating speed beside its line, as high up as nothing is in the way.
+/// Writes the operating speed at the upper end of its line, or beside the line, as
+/// high up as nothing is in the way.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let (Some(x), Some(rpm)) = (operating_place(chart), chart.report.scene.operating_rpm) else {
         return;
     };
     let label = format!("operating {rpm:.0}");
+    let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
     let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
     let rows = (0..).map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row));
     let rows = rows.take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
     let candidates = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
+    let candidates = std::iter::once(above).chain(candidates);
     let candidates = candidates.map(|(at, anchor)| {
         let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
         (at, letters, text_frame(at, &letters, &label))
@@ -148,7 +151,8 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
         let crossed = waves::is_crossed(chart, frame);
-        (outside, crossed, is_on_upright(chart, frame))
+        let upright = is_on_upright(chart, frame);
+        (outside, hides_text(sheet, frame), crossed, upright)
     };
     let best = candidates.min_by_key(|(_, _, frame)| cost(frame));
     let Some((at, letters, frame)) = best else {
@@ -160,9 +164,18 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     sheet.text(at, letters, &label);
 }
 
+/// Whether a text is in the frame already.
+fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
+    sheet.marks().iter().any(|mark| match mark {
+        Mark::Text(at, letters, text) => text_frame(*at, letters, text).overlaps(frame),
+        _ => false,
+    })
+}
+
 /// Whether the frame meets a band, or the dashed line of a critical speed.
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
-    let bands = chart.report.instabilities.iter();
+    let within = frame.bottom > chart.upper.top;
+    let bands = chart.report.instabilities.iter().filter(|_| within);
     let bands = bands.filter_map(|band| band_places(chart, band));
     let critical = critical_shown(chart).into_iter();
     let critical = critical.map(|rpm| [chart.speed.at(rpm); 2]);

@@ -151,7 +151,7 @@ fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
     let mut tracks = Vec::new();
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     for (outermost, ends) in [(first, [first.rpm, onset]), (last, [end, last.rpm])] {
-        if !(ends[0] < ends[1]) {
+        if ends[0] >= ends[1] {
             continue;
         }
         let upper = usize::from(outermost.hz[1] > outermost.hz[0]);
