@@ -12,7 +12,7 @@ use super::style::{
     AXIS_SIZE, BACKWARD, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID,
     HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, tint,
 };
-use super::{FigureError, heading, render};
+use super::{FigureError, heading, is_damped, render};
 use crate::report::Report;
 use tracks::{Loci, Look, Sample, Track};
 
@@ -54,7 +54,7 @@ struct Chart {
 
 fn root_loci(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
-    let chart = Chart::new(Loci::new(entry)?);
+    let chart = Chart::new(Loci::new(entry, is_damped(report))?);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = format!(
         "Root loci around the flutter onset at {:.0} rpm",

@@ -3,6 +3,7 @@
 use super::super::axis::{Axis, Spread};
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::clip::clip;
+use super::super::is_damped;
 use super::super::meeting::Meeting;
 use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, QUIET, tint};
 use super::speeds::line_colour;
@@ -11,10 +12,6 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, Report};
 
 const STABLE: &str = "no growth: stable at every speed shown";
-
-fn is_damped(report: &Report) -> bool {
-    report.terms.iter().any(|term| term.contains("damping"))
-}
 
 fn greatest_growth(report: &Report) -> f64 {
     let peaks = report

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::super::meeting::{Meeting, between, interpolate};
-use super::NEGLIGIBLE_PER_S;
 use crate::report::RootLociEntry;
 
 /// An eigenvalue at a speed.
@@ -57,16 +56,13 @@ struct Row {
 
 impl Loci {
     /// `None` if the report does not hold two paths through a band.
-    pub fn new(entry: &RootLociEntry) -> Option<Self> {
+    pub fn new(entry: &RootLociEntry, is_damped: bool) -> Option<Self> {
         let rows = rows(entry);
         let ends = [entry.onset_rpm, entry.end_rpm];
         if rows.len() < 2 || !ends.iter().all(|rpm| is_sound(*rpm)) || ends[0] >= ends[1] {
             return None;
         }
-        let is_outside = |row: &&Row| row.rpm < entry.onset_rpm || entry.end_rpm < row.rpm;
-        let mut outside = rows.iter().filter(is_outside);
-        let moves = |row: &Row| row.growth.iter().any(|g| g.abs() > NEGLIGIBLE_PER_S);
-        match outside.any(moves) {
+        match is_damped {
             true => damped(entry, &rows),
             false => undamped(entry, &rows),
         }
