@@ -160,6 +160,13 @@ pub fn tick_label(value: f64) -> String {
     format!("{rounded}").replace('-', "\u{2212}")
 }
 
+/// A number to two digits, for what is known no better than that.
+pub fn two_digits(value: f64) -> String {
+    let magnitude = value.abs().max(1e-6).log10().floor();
+    let decimals = (1.0 - magnitude).clamp(0.0, 8.0) as usize;
+    format!("{value:.decimals$}").replace('-', "\u{2212}")
+}
+
 /// Draws grid lines, ticks and numbers of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
@@ -241,5 +248,12 @@ mod tests {
         assert_eq!(tick_label(-0.3), "\u{2212}0.3");
         assert_eq!(tick_label(-0.0), "0");
         assert_eq!(tick_label(3.0 * 0.1), "0.3");
+    }
+
+    #[test]
+    fn numbers_are_cut_to_two_digits() {
+        assert_eq!(two_digits(0.0014056), "0.0014");
+        assert_eq!(two_digits(-0.5318), "\u{2212}0.53");
+        assert_eq!(two_digits(31.4), "31");
     }
 }

@@ -1,6 +1,7 @@
 //! The Campbell diagram: frequencies and growth rates over rotation speed.
 
 mod band_labels;
+mod certificate;
 mod growth;
 mod speeds;
 mod waves;
@@ -10,26 +11,25 @@ use band_labels::BandLabels;
 use super::FigureError;
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::render;
 use super::style::{
-    AXIS_SIZE, HAIRLINE, INK, LABEL_SIZE, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten,
+    AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten,
 };
+use super::{heading, render};
 use crate::report::{InstabilityKind, Report};
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 900;
-/// Space left free around everything.
-const MARGIN: f64 = 28.0;
 const PLOT_LEFT: f64 = 92.0;
 const PLOT_TOP: f64 = 122.0;
-const PLOT_BOTTOM: f64 = 820.0;
+const PLOT_BOTTOM: f64 = 802.0;
 const BETWEEN_PANELS: f64 = 16.0;
 const GROWTH_HEIGHT: f64 = 236.0;
 /// Height of the lower panel when there is nothing to see in it.
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
 
-/// Wide spaces, which SVG does not draw together as it does ordinary ones.
-const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
+/// Baselines of the two lines at the foot.
+const NOTES_ABOVE_FOOT: f64 = 34.0;
+const CERTIFICATE_ABOVE_FOOT: f64 = 14.0;
 
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
@@ -56,7 +56,7 @@ struct Chart<'a> {
 fn campbell(report: &Report) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let chart = Chart::new(report);
-    draw_heading(&mut sheet, report);
+    heading::draw(&mut sheet, &report.scene.name, &key_facts(report));
 
     let labels = BandLabels::new(&chart);
     let growth_axis = growth::axis(&chart, labels.height());
@@ -76,6 +76,7 @@ fn campbell(report: &Report) -> Sheet {
     waves::label_branches(&mut sheet, &chart);
     speeds::label_operating(&mut sheet, &chart);
     draw_notes(&mut sheet, &chart);
+    certificate::draw(&mut sheet, report);
     sheet
 }
 
@@ -127,20 +128,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
     let middle = (chart.upper.left + chart.upper.right) / 2.0;
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
     let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, PLOT_BOTTOM + 42.0], letters, name);
-}
-
-fn draw_heading(sheet: &mut Sheet, report: &Report) {
-    let room = f64::from(WIDTH) - 2.0 * MARGIN;
-    let title = Lettering {
-        weight: Weight::SemiBold,
-        ..Lettering::regular(TITLE_SIZE, INK, Anchor::Start)
-    };
-    let name = shorten(&report.scene.name, TITLE_SIZE, Weight::SemiBold, room);
-    sheet.text([MARGIN, 38.0], title, &name);
-    let subtitle = Lettering::regular(SUBTITLE_SIZE, QUIET, Anchor::Start);
-    let facts = shorten(&key_facts(report), SUBTITLE_SIZE, Weight::Regular, room);
-    sheet.text([MARGIN, 61.0], subtitle, &facts);
+    sheet.text([middle, PLOT_BOTTOM + 40.0], letters, name);
 }
 
 fn key_facts(report: &Report) -> String {
@@ -193,7 +181,7 @@ fn count(number: usize, one: &str, many: &str) -> String {
 /// One line at the foot that explains the marks that are not labelled in place.
 fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let baseline = f64::from(HEIGHT) - 14.0;
+    let baseline = f64::from(HEIGHT) - NOTES_ABOVE_FOOT;
     let mut x = PLOT_LEFT;
     let shown = waves::marks_shown(chart);
     if let Some(source) = shown.measured {
@@ -211,7 +199,7 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
         (shown.unstable, "thick: unstable"),
         (
             growth::hides_decay(chart.report),
-            "decay of the mirror images not shown",
+            "each growing mode has a decaying mirror image, not shown",
         ),
     ];
     let notes: Vec<_> = explained

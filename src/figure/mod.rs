@@ -9,10 +9,23 @@ mod campbell;
 mod canvas;
 mod clip;
 mod declutter;
+mod heading;
+mod meeting;
 mod render;
+mod root_loci;
+#[cfg(test)]
+mod sample;
 mod style;
+#[cfg(test)]
+mod tidy;
 
 pub use campbell::{campbell_png, campbell_svg};
+pub use root_loci::{root_loci_png, root_loci_svg};
+
+/// Whether any term of the equation of motion takes energy out of the saw.
+fn is_damped(report: &crate::report::Report) -> bool {
+    report.terms.iter().any(|term| term.contains("damping"))
+}
 
 /// Why a figure could not be rendered.
 #[derive(Debug, thiserror::Error)]

@@ -31,6 +31,9 @@ pub const DIVERGENCE: Colour = RGBColor(104, 71, 153);
 /// Growing oscillation: lines and letters.
 pub const FLUTTER: Colour = RGBColor(163, 98, 0);
 
+/// What must not be overlooked.
+pub const ALARM: Colour = RGBColor(200, 16, 46);
+
 /// Bands of divergence.
 pub const DIVERGENCE_SHADE: Colour = RGBColor(226, 217, 241);
 /// Bands of flutter.
@@ -39,6 +42,11 @@ pub const FLUTTER_SHADE: Colour = RGBColor(255, 229, 173);
 pub const DIVERGENCE_STREAK: Colour = RGBColor(158, 132, 203);
 /// Bands of flutter too narrow for their shade to be seen.
 pub const FLUTTER_STREAK: Colour = RGBColor(240, 178, 62);
+
+/// Space left free around everything.
+pub const MARGIN: f64 = 28.0;
+/// Wide spaces, which SVG does not draw together as it does ordinary ones.
+pub const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
 
 /// Size of the title.
 pub const TITLE_SIZE: f64 = 20.0;

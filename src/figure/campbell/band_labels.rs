@@ -1,12 +1,12 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::super::style::{HAIRLINE, LABEL_SIZE, PAPER};
+use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
 use super::speeds::{NARROW, band_places, line_colour, operating_place};
-use super::{Chart, MARGIN, WIDTH};
+use super::{Chart, WIDTH};
 use crate::report::{InstabilityEntry, InstabilityKind};
 
-const ROWS: usize = 4;
+const ROWS: usize = 5;
 const ROW_HEIGHT: f64 = 16.0;
 /// Between a band and the label beside it, bridged by a short line.
 const FLAG_GAP: f64 = 8.0;
@@ -64,7 +64,7 @@ impl BandLabels {
         let cost = |place: &Placed| {
             let foreign = self.thin.iter().filter(|line| **line != own);
             let crossed = foreign.filter(|line| crosses(line, &place.frame)).count();
-            2 * crossed + place.row + place.burden
+            4 * crossed + place.row + place.burden
         };
         let candidates = (0..ROWS).flat_map(|row| places_in_row(chart, band, own, row));
         candidates.filter(free).min_by_key(cost)
@@ -136,7 +136,7 @@ fn places_in_row(
             Anchor::Start => 0,
             Anchor::End => 1,
             Anchor::Middle if fits_inside => 0,
-            Anchor::Middle => 3,
+            Anchor::Middle => 6,
         };
         Placed {
             at: [x, baseline],

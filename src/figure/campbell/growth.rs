@@ -3,6 +3,8 @@
 use super::super::axis::{Axis, Spread};
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::clip::clip;
+use super::super::is_damped;
+use super::super::meeting::Meeting;
 use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, QUIET, tint};
 use super::speeds::line_colour;
 use super::waves::direction_colour;
@@ -10,14 +12,6 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, Report};
 
 const STABLE: &str = "no growth: stable at every speed shown";
-
-fn is_damped(report: &Report) -> bool {
-    let blade = report.scene.damping.unwrap_or_default();
-    let guides = &report.scene.guides;
-    blade.material_retardation_time_s != 0.0
-        || blade.air_n_s_per_m3 != 0.0
-        || guides.iter().any(|guide| guide.damping_n_s_per_m != 0.0)
-}
 
 fn greatest_growth(report: &Report) -> f64 {
     let peaks = report
@@ -71,7 +65,11 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
     }
     let (growth, decay) = (greatest_growth(report), greatest_decay(report));
     let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
-    let (growth, decay) = (growth.max(least), decay.max(least));
+    let growth = growth.max(least);
+    let decay = match is_damped(report) {
+        true => decay.max(least),
+        false => 0.0,
+    };
     let places = [chart.lower.bottom, chart.lower.top + labels_height];
     let spread = spread(report, growth.max(decay));
     Some(Axis::new([-decay, growth], places, spread))
@@ -99,11 +97,9 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
     let zero = axis.at(0.0);
     let zero_line = [[chart.lower.left, zero], [chart.lower.right, zero]];
     sheet.line(zero_line, Stroke::solid(INK, HAIRLINE));
-    let branches = &chart.report.campbell.branches;
-    for growing in [false, true] {
-        for branch in branches.iter().rev() {
-            draw_branch(sheet, chart, axis, branch, growing);
-        }
+    match is_damped(chart.report) {
+        true => draw_damped(sheet, chart, axis),
+        false => draw_undamped(sheet, chart, axis),
     }
     for band in &chart.report.instabilities {
         draw_peak(sheet, chart, axis, band);
@@ -163,41 +159,92 @@ fn draw_branch(sheet: &mut Sheet, chart: &Chart, axis: &Axis, branch: &BranchEnt
     finish(&mut run, run_colour);
 }
 
-/// Colour of the band that a sample of a branch belongs to.
 fn growth_colour(report: &Report, branch: &BranchEntry, sample: usize) -> Colour {
+    band_of_sample(report, branch, sample).map_or(FLUTTER, |band| line_colour(band.kind))
+}
+
+/// The band that a sample of a branch belongs to: of those around it the one that is
+/// nearest in frequency.
+fn band_of_sample<'a>(
+    report: &'a Report,
+    branch: &BranchEntry,
+    sample: usize,
+) -> Option<&'a InstabilityEntry> {
     let rpm = branch.rpm.get(sample).copied().unwrap_or(f64::NAN);
     let hz = branch.frequency_hz.get(sample).copied().unwrap_or(0.0);
     let around = report.instabilities.iter();
     let around = around.filter(|band| band.from_rpm <= rpm && rpm <= band.to_rpm);
     let off = |band: &InstabilityEntry| (band.frequency_hz - hz).abs();
-    let nearest = around.min_by(|a, b| off(a).total_cmp(&off(b)));
-    nearest.map_or(FLUTTER, |band| line_colour(band.kind))
+    around.min_by(|a, b| off(a).total_cmp(&off(b)))
 }
 
-/// Marks the peak of a band. Where no sample of a branch came near it, an arch
-/// stands for the branch: close to the speeds where two modes meet, growth goes
-/// with the root of the distance, hence half an ellipse.
-fn draw_peak(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
-    let (peak, colour) = (band.peak_growth_per_s, line_colour(band.kind));
-    if !chart.speed.shows(band.peak_rpm) || !axis.shows(peak) {
-        return;
+/// Growth within the bands alone: without damping there is none outside, and the
+/// decaying eigenvalues mirror the growing ones.
+fn draw_undamped(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
+    for band in &chart.report.instabilities {
+        draw_band(sheet, chart, axis, band);
     }
-    if !is_sampled(chart.report, band) {
-        let (middle, half) = (
-            (band.from_rpm + band.to_rpm) / 2.0,
-            (band.to_rpm - band.from_rpm) / 2.0,
-        );
-        let arch = (0..=32).map(|i| {
-            let angle = std::f64::consts::PI * f64::from(i) / 32.0;
-            let rpm = middle - half * angle.cos();
-            [chart.speed.at(rpm), axis.at(peak * angle.sin())]
-        });
-        let arch: Vec<_> = arch.collect();
-        for part in clip(&arch, &chart.lower) {
-            sheet.line(part, Stroke::solid(colour, 1.25 * CURVE));
+}
+
+/// All branches; bands that no sample came near get the curve that is expected.
+fn draw_damped(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
+    let branches = &chart.report.campbell.branches;
+    for growing in [false, true] {
+        for branch in branches.iter().rev() {
+            draw_branch(sheet, chart, axis, branch, growing);
         }
     }
-    sheet.disc([chart.speed.at(band.peak_rpm), axis.at(peak)], 2.75, colour);
+    let bands = chart.report.instabilities.iter();
+    for band in bands.filter(|band| !is_sampled(chart.report, band)) {
+        draw_band(sheet, chart, axis, band);
+    }
+}
+
+fn draw_band(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
+    let [first, last] = chart.speed.values();
+    let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
+    let closed = [
+        band.closed || band.from_rpm > first,
+        band.closed || band.to_rpm < last,
+    ];
+    let mut samples = vec![[band.peak_rpm, band.peak_growth_per_s]];
+    samples.extend(samples_within(chart.report, band));
+    let squares = samples.iter().map(|&[rpm, growth]| [rpm, growth * growth]);
+    let Some(meeting) = Meeting::new(ends, closed, squares) else {
+        return;
+    };
+    let curve = meeting.growth();
+    let curve: Vec<_> = curve
+        .iter()
+        .map(|&[rpm, growth]| [chart.speed.at(rpm), axis.at(growth)])
+        .collect();
+    for part in clip(&curve, &chart.lower) {
+        sheet.line(part, Stroke::solid(line_colour(band.kind), 1.25 * CURVE));
+    }
+}
+
+/// Speeds and growth rates of the mode that the band belongs to.
+fn samples_within(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
+    let mut found = Vec::new();
+    for branch in &report.campbell.branches {
+        let samples = branch.rpm.iter().zip(&branch.growth_per_s);
+        for (i, (&rpm, &growth)) in samples.enumerate() {
+            let inside = band.from_rpm < rpm && rpm < band.to_rpm;
+            let own = || band_of_sample(report, branch, i).is_some_and(|b| std::ptr::eq(b, band));
+            if inside && growth > NEGLIGIBLE_PER_S && own() {
+                found.push([rpm, growth]);
+            }
+        }
+    }
+    found
+}
+
+fn draw_peak(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
+    let peak = band.peak_growth_per_s;
+    if chart.speed.shows(band.peak_rpm) && axis.shows(peak) {
+        let at = [chart.speed.at(band.peak_rpm), axis.at(peak)];
+        sheet.disc(at, 2.75, line_colour(band.kind));
+    }
 }
 
 fn is_sampled(report: &Report, band: &InstabilityEntry) -> bool {

@@ -1,12 +1,12 @@
 //! What belongs to single speeds: bands, critical speeds, the operating speed.
 
-use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
 use super::super::declutter::{Cluster, join_close};
 use super::super::style::{
     Colour, DIVERGENCE, DIVERGENCE_SHADE, DIVERGENCE_STREAK, FINE_DASH, FLUTTER, FLUTTER_SHADE,
-    FLUTTER_STREAK, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, Weight, text_width,
+    FLUTTER_STREAK, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, text_width,
 };
-use super::{Chart, MARGIN, WIDTH};
+use super::{Chart, WIDTH, waves};
 use crate::report::{InstabilityEntry, InstabilityKind};
 
 /// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
@@ -131,40 +131,55 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
     }
 }
 
+/// Writes the operating speed at the upper end of its line, or beside the line, as
+/// high up as nothing is in the way.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let (Some(x), Some(rpm)) = (operating_place(chart), chart.report.scene.operating_rpm) else {
         return;
     };
     let label = format!("operating {rpm:.0}");
-    let baseline = chart.upper.top + 16.0;
-    let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)].map(|(x, anchor)| {
+    let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
+    let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
+    let rows = (0..).map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row));
+    let rows = rows.take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
+    let candidates = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
+    let candidates = std::iter::once(above).chain(candidates);
+    let candidates = candidates.map(|(at, anchor)| {
         let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-        let frame = text_frame([x, baseline], &letters, &label);
-        (x, letters, frame)
+        (at, letters, text_frame(at, &letters, &label))
     });
-    // Branches are cleared away behind the label; bands should not be.
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
-        (outside, bands_crossed(chart, frame))
+        let crossed = waves::is_crossed(chart, frame);
+        let upright = is_on_upright(chart, frame);
+        (outside, hides_text(sheet, frame), crossed, upright)
     };
-    let [first, second] = sides;
-    let (x, letters, frame) = match cost(&second.2) < cost(&first.2) {
-        true => second,
-        false => first,
+    let best = candidates.min_by_key(|(_, _, frame)| cost(frame));
+    let Some((at, letters, frame)) = best else {
+        return;
     };
-    let cleared = Frame {
-        left: frame.left - 3.0,
-        right: frame.right + 3.0,
-        ..frame
-    };
-    sheet.fill(cleared, PAPER);
-    sheet.text([x, baseline], letters, &label);
+    if waves::is_crossed(chart, &frame) {
+        sheet.fill(frame, PAPER);
+    }
+    sheet.text(at, letters, &label);
 }
 
-fn bands_crossed(chart: &Chart, frame: &Frame) -> usize {
-    let bands = chart.report.instabilities.iter();
-    let places = bands.filter_map(|band| band_places(chart, band));
-    places
-        .filter(|[left, right]| *left < frame.right && frame.left < *right)
-        .count()
+/// Whether a text is in the frame already.
+fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
+    sheet.marks().iter().any(|mark| match mark {
+        Mark::Text(at, letters, text) => text_frame(*at, letters, text).overlaps(frame),
+        _ => false,
+    })
+}
+
+/// Whether the frame meets a band, or the dashed line of a critical speed.
+fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
+    let within = frame.bottom > chart.upper.top;
+    let bands = chart.report.instabilities.iter().filter(|_| within);
+    let bands = bands.filter_map(|band| band_places(chart, band));
+    let critical = critical_shown(chart).into_iter();
+    let critical = critical.map(|rpm| [chart.speed.at(rpm); 2]);
+    bands
+        .chain(critical)
+        .any(|[left, right]| left < frame.right + 2.0 && frame.left - 2.0 < right)
 }

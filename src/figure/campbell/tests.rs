@@ -1,31 +1,8 @@
-mod sample;
-
-use super::super::canvas::{Frame, Mark, text_frame};
+use super::super::canvas::Mark;
+use super::super::sample::{busy_report, empty_report};
+use super::super::tidy::assert_tidy;
 use super::*;
 use crate::report::CriticalSpeedEntry;
-use sample::{busy_report, empty_report};
-
-fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
-    let text = |mark| match mark {
-        &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),
-        _ => None,
-    };
-    sheet.marks().iter().filter_map(text).collect()
-}
-
-fn assert_tidy(sheet: &Sheet) {
-    let texts = texts(sheet);
-    for (i, (frame, text)) in texts.iter().enumerate() {
-        let inside = frame.left >= 0.0
-            && frame.top >= 0.0
-            && frame.right <= f64::from(WIDTH)
-            && frame.bottom <= f64::from(HEIGHT);
-        assert!(inside, "'{text}' is cut off: {frame:?}");
-        for (other, second) in &texts[..i] {
-            assert!(!frame.overlaps(other), "'{text}' lies on '{second}'");
-        }
-    }
-}
 
 #[test]
 fn every_critical_speed_is_labelled() {
@@ -118,4 +95,45 @@ fn odd_input_is_drawn_without_complaint() {
         assert_tidy(&campbell(&odd));
         assert!(!campbell_svg(&odd).unwrap().contains("\"NaN"));
     }
+}
+
+#[test]
+fn growth_is_drawn_within_the_bands_and_never_below_zero() {
+    let report = busy_report();
+    let chart = Chart::new(&report);
+    let axis = growth::axis(&chart, 50.0).unwrap();
+    assert_eq!(axis.values()[0], 0.0);
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    growth::draw(&mut sheet, &chart, &axis);
+    let curves = sheet.marks().iter().filter_map(|mark| match mark {
+        Mark::Line(points, stroke) if stroke.width > 1.0 => Some(points),
+        _ => None,
+    });
+    let curves: Vec<_> = curves.collect();
+    assert_eq!(curves.len(), report.instabilities.len());
+    let zero = axis.at(0.0);
+    for (curve, band) in curves.iter().zip(&report.instabilities) {
+        let ends = [band.from_rpm, band.to_rpm].map(|rpm| [chart.speed.at(rpm), zero]);
+        assert_eq!([curve[0], curve[curve.len() - 1]], ends);
+        assert!(curve.iter().all(|[_, y]| *y <= zero));
+    }
+}
+
+#[test]
+fn the_certificate_is_told_and_violations_are_red() {
+    let mut report = busy_report();
+    let svg = campbell_svg(&report).unwrap();
+    assert!(svg.contains("Krein index matches at 567 of 567 speeds"));
+    assert!(svg.contains("backward error below 2·10⁻⁸"));
+    assert!(svg.contains("68 functions, critical speeds within 0.14 %"));
+    report.certificate.krein_violations = 2;
+    report.certificate.violating_rpm = vec![1200.0, 1300.0];
+    assert_tidy(&campbell(&report));
+    let svg = campbell_svg(&report).unwrap();
+    assert!(svg.contains("Krein index does not match at 2 speeds, 1200 to 1300 rpm"));
+    assert!(!svg.contains("index matches"));
+    assert!(svg.contains("fill=\"#C8102E\""));
+    report.certificate.krein_violations = 0;
+    report.certificate.speeds_checked = 0;
+    assert!(!campbell_svg(&report).unwrap().contains("Krein"));
 }

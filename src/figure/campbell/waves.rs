@@ -1,6 +1,6 @@
 //! The upper panel: branches with their labels, and measured points.
 
-use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::clip::clip;
 use super::super::declutter::{Wish, push_apart};
 use super::super::style::{
@@ -52,23 +52,28 @@ pub fn end_label_room(report: &Report) -> f64 {
     LABEL_GAP + widths.fold(40.0, f64::max)
 }
 
-/// Upper end of the frequency axis: high enough for the branches that come down
-/// to zero, for the bands and the measured points, and not higher, since forward
-/// waves would press everything that matters onto the axis.
+/// Upper end of the frequency axis: high enough for the lowest branches at rest, for
+/// reflected waves, bands and measured points, and not higher, since everything
+/// that matters happens near the axis.
 pub fn highest_shown_hz(report: &Report) -> f64 {
-    const HEADROOM: f64 = 1.25;
-    const LOWEST_BRANCHES: usize = 8;
+    const HEADROOM: f64 = 1.1;
+    const LOWEST_BRANCHES: usize = 6;
     let branches = &report.campbell.branches;
-    let first = |branch: &BranchEntry| branch.frequency_hz.first().copied();
-    let lowest = branches.iter().take(LOWEST_BRANCHES).filter_map(first);
-    let critical = branches
-        .iter()
-        .filter(|b| comes_to_zero(b))
-        .filter_map(first);
+    let from = report.campbell.from_rpm;
+    let at_rest = branches.iter().filter(|b| b.rpm.first() == Some(&from));
+    let mut at_rest: Vec<f64> = at_rest
+        .filter_map(|branch| branch.frequency_hz.first().copied())
+        .collect();
+    at_rest.sort_by(f64::total_cmp);
+    let lowest = at_rest.into_iter().take(LOWEST_BRANCHES);
+    let reflected = branches.iter().flat_map(|branch| {
+        let samples = branch.frequency_hz.iter().zip(&branch.krein_sign);
+        samples.filter(|(_, sign)| **sign < 0).map(|(hz, _)| *hz)
+    });
     let bands = report.instabilities.iter().map(|band| band.frequency_hz);
     let measured = report.scene.measured.iter().flat_map(|m| &m.rows);
     let measured = measured.flat_map(|row| row.frequencies_hz.iter().copied());
-    let wanted = HEADROOM * greatest(lowest.chain(critical).chain(bands).chain(measured));
+    let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;
     let bound = if complete > 0.0 {
@@ -84,11 +89,6 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|v| v.is_finite()).fold(0.0, f64::max)
 }
 
-fn comes_to_zero(branch: &BranchEntry) -> bool {
-    let start = branch.frequency_hz.first().copied().unwrap_or(0.0);
-    branch.frequency_hz.iter().any(|&hz| hz <= 0.02 * start)
-}
-
 /// What a stretch of a branch looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Stretch {
@@ -99,13 +99,10 @@ enum Stretch {
 
 /// Stretches of equal look, each ending where the next begins.
 fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Stretch, Vec<[f64; 2]>)> {
-    let points = branch.rpm.iter().zip(&branch.frequency_hz);
-    let points: Vec<_> = points
-        .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
-        .collect();
+    let points = places(branch, chart);
     let mut all: Vec<(Stretch, Vec<[f64; 2]>)> = Vec::new();
     for (i, segment) in points.windows(2).enumerate() {
-        let look = look_of_segment(branch, i);
+        let look = look_of_segment(chart.report, branch, i);
         match all.last_mut() {
             Some((last, line)) if *last == look => line.push(segment[1]),
             _ => all.push((look, segment.to_vec())),
@@ -114,7 +111,7 @@ fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Stretch, Vec<[f64; 2]>
     all
 }
 
-fn look_of_segment(branch: &BranchEntry, i: usize) -> Stretch {
+fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
     let at_an_end = |holds: &dyn Fn(usize) -> bool| holds(i) || holds(i + 1);
     let grows = |i: usize| {
         branch
@@ -123,7 +120,11 @@ fn look_of_segment(branch: &BranchEntry, i: usize) -> Stretch {
             .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
     };
     let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
-    if at_an_end(&grows) {
+    // A segment that leads up to a band ends on its edge, growing or not.
+    let middle = (branch.rpm[i] + branch.rpm[i + 1]) / 2.0;
+    let mut bands = report.instabilities.iter();
+    let in_band = bands.any(|band| band.from_rpm <= middle && middle <= band.to_rpm);
+    if in_band && at_an_end(&grows) {
         Stretch::Unstable
     } else if at_an_end(&reflected) {
         Stretch::Reflected
@@ -163,16 +164,40 @@ fn dot(sheet: &mut Sheet, chart: &Chart, rpm: f64, hz: f64, colour: Colour) {
     }
 }
 
+/// Whether a branch or a measured point passes through the frame.
+pub fn is_crossed(chart: &Chart, frame: &Frame) -> bool {
+    let around = Frame {
+        left: frame.left - 2.0,
+        top: frame.top - 2.0,
+        right: frame.right + 2.0,
+        bottom: frame.bottom + 2.0,
+    };
+    let mut branches = chart.report.campbell.branches.iter();
+    branches.any(|branch| !clip(&places(branch, chart), &around).is_empty())
+        || measured_places(chart).iter().any(|[x, y]| {
+            let dot = Frame {
+                left: x - 4.0,
+                top: y - 4.0,
+                right: x + 4.0,
+                bottom: y + 4.0,
+            };
+            dot.overlaps(&around)
+        })
+}
+
+fn places(branch: &BranchEntry, chart: &Chart) -> Vec<[f64; 2]> {
+    let points = branch.rpm.iter().zip(&branch.frequency_hz);
+    points
+        .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
+        .collect()
+}
+
 pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
     let branches = &chart.report.campbell.branches;
     let mut on_the_right = Vec::new();
     let mut above = Vec::new();
     for branch in branches {
-        let points = branch.rpm.iter().zip(&branch.frequency_hz);
-        let line: Vec<_> = points
-            .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
-            .collect();
-        let parts = clip(&line, &chart.upper);
+        let parts = clip(&places(branch, chart), &chart.upper);
         let Some(&[x, y]) = parts.last().and_then(|part| part.last()) else {
             continue;
         };

@@ -3,7 +3,7 @@
 
 use crate::report::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
-    InstabilityEntry, InstabilityKind, Report,
+    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry,
 };
 use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
@@ -56,6 +56,7 @@ pub fn empty_report(name: &str) -> Report {
         certificate: CertificateEntry {
             speeds_checked: 0,
             krein_violations: 0,
+            violating_rpm: Vec::new(),
             max_backward_error: 0.0,
         },
         campbell: CampbellEntry {
@@ -64,6 +65,8 @@ pub fn empty_report(name: &str) -> Report {
             complete_to_hz: 0.0,
             branches: Vec::new(),
         },
+        root_loci: None,
+        sensitivities: Vec::new(),
         warnings: Vec::new(),
     }
 }
@@ -139,6 +142,9 @@ pub fn busy_report() -> Report {
         complete_to_hz: 160.0,
         branches: branches(&report.instabilities),
     };
+    report.certificate.speeds_checked = 567;
+    report.certificate.max_backward_error = 1.294e-8;
+    report.accuracy.estimated_relative_error = Some(0.0014056);
     report.scene.operating_rpm = Some(1800.0);
     report.scene.guides = vec![guide(); 2];
     report.scene.measured = Some(measured());
@@ -221,5 +227,47 @@ fn measured() -> Measured {
     Measured {
         source: "read off a published table".to_owned(),
         rows: rows.map(row).to_vec(),
+    }
+}
+
+/// Two modes of opposite sign that meet at 6 Hz; `drift` is how fast their mean
+/// frequency moves, in Hz/rpm.
+pub fn root_loci(drift: f64) -> RootLociEntry {
+    let (onset, end, peak) = (2255.6, 2266.52, 0.53);
+    let (middle, half) = ((onset + end) / 2.0, (end - onset) / 2.0);
+    let inside = |rpm: f64| ((rpm - middle) / half).abs() < 1.0;
+    let rpm: Vec<f64> = (0..=42).map(|i| 2240.0 + f64::from(i)).collect();
+    let apart = |rpm: f64| {
+        let square = ((rpm - middle) / half).powi(2) - 1.0;
+        peak * square.abs().sqrt()
+    };
+    let path = |name: &str, side: f64| {
+        // The upper wave of the one sign becomes the lower one.
+        let turned = |rpm: f64| if rpm < middle { side } else { -side };
+        let hz = |&rpm: &f64| {
+            let mean = 6.0 + drift * (rpm - middle);
+            match inside(rpm) {
+                true => mean,
+                false => mean + turned(rpm) * apart(rpm) / std::f64::consts::TAU,
+            }
+        };
+        let growth = |&rpm: &f64| if inside(rpm) { side * apart(rpm) } else { 0.0 };
+        let sign = |&rpm: &f64| if inside(rpm) { 0 } else { side as i8 };
+        RootPathEntry {
+            name: name.to_owned(),
+            growth_per_s: rpm.iter().map(growth).collect(),
+            frequency_hz: rpm.iter().map(hz).collect(),
+            krein_sign: rpm.iter().map(sign).collect(),
+        }
+    };
+    let paths = vec![
+        path("4 diameters, backward", 1.0),
+        path("4 diameters, reflected", -1.0),
+    ];
+    RootLociEntry {
+        onset_rpm: onset,
+        end_rpm: end,
+        rpm,
+        paths,
     }
 }

@@ -1,0 +1,18 @@
+//! Title and subtitle.
+
+use super::canvas::{Anchor, Lettering, Sheet};
+use super::style::{INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten};
+
+/// Writes both at the upper left, cut to the width of the sheet.
+pub fn draw(sheet: &mut Sheet, title: &str, subtitle: &str) {
+    let room = f64::from(sheet.size().0) - 2.0 * MARGIN;
+    let letters = Lettering {
+        weight: Weight::SemiBold,
+        ..Lettering::regular(TITLE_SIZE, INK, Anchor::Start)
+    };
+    let title = shorten(title, TITLE_SIZE, Weight::SemiBold, room);
+    sheet.text([MARGIN, 38.0], letters, &title);
+    let letters = Lettering::regular(SUBTITLE_SIZE, QUIET, Anchor::Start);
+    let subtitle = shorten(subtitle, SUBTITLE_SIZE, Weight::Regular, room);
+    sheet.text([MARGIN, 61.0], letters, &subtitle);
+}

@@ -1,0 +1,120 @@
+//! How two modes behave where they meet, between the speeds that were computed.
+//!
+//! Growth rate inside the band and half the distance of the frequencies outside it
+//! are one function: its square goes smoothly through zero at both ends of the
+//! band. Lines drawn through the square have the right shape, steep at the ends,
+//! however few samples there are.
+
+/// The square of the growth rate of a pair of modes, over rotation speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Meeting {
+    ends: [f64; 2],
+    /// Ends at which the modes do meet; the sweep may cut a band short instead.
+    closed: [bool; 2],
+    /// Speed and square / `weight`, ascending by speed.
+    factors: Vec<[f64; 2]>,
+}
+
+impl Meeting {
+    /// From speeds with squares: growth² within the band, −(half the distance of
+    /// the frequencies)² outside. `None` if no sample says anything.
+    pub fn new(
+        ends: [f64; 2],
+        closed: [bool; 2],
+        squares: impl IntoIterator<Item = [f64; 2]>,
+    ) -> Option<Self> {
+        if ends[0].is_nan() || ends[1].is_nan() || ends[0] >= ends[1] {
+            return None;
+        }
+        let factors = Vec::new();
+        let mut meeting = Self {
+            ends,
+            closed,
+            factors,
+        };
+        // Next to the ends the quotient is that of two rounding errors.
+        const CLOSE: f64 = 0.01;
+        for [rpm, square] in squares {
+            let weight = meeting.weight(rpm);
+            let factor = square / weight;
+            if weight.abs() > CLOSE && factor.is_finite() && factor >= 0.0 {
+                meeting.factors.push([rpm, factor]);
+            }
+        }
+        meeting.factors.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        meeting.factors.dedup_by(|next, kept| next[0] == kept[0]);
+        (!meeting.factors.is_empty()).then_some(meeting)
+    }
+
+    /// Positive within the band, negative outside.
+    fn weight(&self, rpm: f64) -> f64 {
+        let [from, to] = self.ends;
+        let from_end = |closed: bool, way: f64| if closed { way / (to - from) } else { 1.0 };
+        from_end(self.closed[0], rpm - from) * from_end(self.closed[1], to - rpm)
+    }
+
+    /// The square at a speed.
+    pub fn square(&self, rpm: f64) -> f64 {
+        self.weight(rpm) * interpolate(&self.factors, rpm)
+    }
+
+    /// Growth rate at speeds from one end of the band to the other, closest together
+    /// at the ends.
+    pub fn growth(&self) -> Vec<[f64; 2]> {
+        let point = |rpm: f64| [rpm, self.square(rpm).max(0.0).sqrt()];
+        between(self.ends).map(point).collect()
+    }
+}
+
+/// Speeds from the first to the last, closest together at both.
+pub fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+    const STEPS: u32 = 64;
+    let angle = |i: u32| std::f64::consts::PI * f64::from(i) / f64::from(STEPS);
+    (0..=STEPS).map(move |i| match i {
+        0 => from,
+        STEPS => to,
+        _ => from + (to - from) * (1.0 - angle(i).cos()) / 2.0,
+    })
+}
+
+/// The line through points that ascend by their first number, level beyond them.
+pub fn interpolate(points: &[[f64; 2]], x: f64) -> f64 {
+    let after = points.partition_point(|point| point[0] <= x);
+    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (x - x0) / (x1 - x0) * (y1 - y0),
+        (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+        (None, None) => f64::NAN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_is_zero_at_the_ends_and_goes_through_the_samples() {
+        let samples = [[10.5, 1.0], [12.0, 4.0], [13.9, 0.2], [16.0, -9.0]];
+        let meeting = Meeting::new([10.0, 14.0], [true; 2], samples).unwrap();
+        for [rpm, square] in samples {
+            assert!((meeting.square(rpm) - square).abs() < 1e-12);
+        }
+        let growth = meeting.growth();
+        assert_eq!(growth.first(), Some(&[10.0, 0.0]));
+        assert_eq!(growth.last(), Some(&[14.0, 0.0]));
+        assert!(growth.iter().any(|[_, g]| *g > 1.9));
+    }
+
+    #[test]
+    fn a_band_cut_short_by_the_sweep_does_not_end_at_zero() {
+        let meeting = Meeting::new([10.0, 14.0], [true, false], [[14.0, 9.0]]).unwrap();
+        assert_eq!(meeting.square(14.0), 9.0);
+        assert_eq!(
+            Meeting::new([10.0, f64::NAN], [true; 2], [[11.0, 1.0]]),
+            None
+        );
+        assert_eq!(
+            Meeting::new([10.0, 14.0], [true; 2], [[11.0, f64::NAN]]),
+            None
+        );
+    }
+}
