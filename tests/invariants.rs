@@ -130,7 +130,7 @@ fn distance(left: &[c64], right: &[c64]) -> f64 {
             .min_by(|&i, &k| off(&rest[i]).total_cmp(&off(&rest[k])))
             .unwrap();
         let error = off(&rest.swap_remove(nearest)) / (l.norm() * largest).sqrt();
-        if !(error <= worst) {
+        if error > worst || error.is_nan() {
             worst = error;
         }
     }
@@ -305,13 +305,13 @@ fn the_krein_index_counts_every_unstable_and_reflected_mode() {
 #[test]
 fn charts_of_random_saws_miss_nothing() {
     let bands = std::cell::Cell::new(0);
-    check(10, any_saw(), |file| {
+    check(8, any_saw(), |file| {
         let range = (0.0, 1.6 * lowest_critical(&file));
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
         prop_assert!(chart.certificate.speeds_checked >= 21);
-        prop_assert_eq!(chart.certificate.krein_violations, 0);
+        prop_assert_eq!(chart.certificate.violations, Vec::<f64>::new());
         let first = model.critical[0].speed_rad_per_s;
         for band in &chart.instabilities {
             prop_assert!(band.from >= first * (1.0 - 1e-9), "{:?}", band);

@@ -38,7 +38,7 @@ pub fn assert_close(what: &str, actual: f64, expected: f64, tolerance: f64) {
     );
 }
 
-/// The largest of many errors, and where it occurred; a NaN counts as the largest.
+/// The largest of many errors, and where it occurred; a NaN counts as larger than any.
 #[derive(Debug, Default)]
 pub struct Worst {
     pub error: f64,
@@ -49,7 +49,8 @@ pub struct Worst {
 impl Worst {
     pub fn add(&mut self, error: f64, place: impl FnOnce() -> String) {
         self.count += 1;
-        if !(error <= self.error) {
+        // A NaN, once there, stays.
+        if error > self.error || error.is_nan() {
             self.error = error;
             self.place = place();
         }
