@@ -1,7 +1,7 @@
 //! Goal: a spinning blade between collars has the frequencies and critical speeds of
 //! an independent computation, with either condition in its plane.
 //!
-//! Source: tests/reference/collar_saw.json, a Kirchhoff–Ritz code of other authorship,
+//! Source: tests/reference/collar_saw.json, computed by another Kirchhoff–Ritz code,
 //! which 3-D solids confirm to 0.02 to 0.75 %. Its frequencies are those on the blade;
 //! in space the wave of n diameters is seen at f ± nΩ/2π.
 
