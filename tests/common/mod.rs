@@ -1,0 +1,87 @@
+//! What several test files share. Each uses its own part of it.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::spectrum::{Mode, SpectralModel, Strategy};
+
+/// A file that comes with the crate.
+pub fn path(inside: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(inside)
+}
+
+/// A scene from `scenes/`.
+pub fn scene(name: &str) -> Scene {
+    Scene::from_path(&path(&format!("scenes/{name}.json"))).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The modes of a saw from rest to a speed, at reference accuracy.
+pub fn reference_model(scene: &Scene, top_rad_per_s: f64) -> SpectralModel {
+    let plate = Plate::new(scene, Resolution::of(Accuracy::Reference));
+    SpectralModel::new(plate, (0.0, top_rad_per_s), Strategy::Reduced).expect("a spectrum")
+}
+
+/// |actual/expected − 1|.
+pub fn relative_error(actual: f64, expected: f64) -> f64 {
+    (actual / expected - 1.0).abs()
+}
+
+/// Fails unless the relative error is at most the tolerance; a NaN fails.
+#[track_caller]
+pub fn assert_close(what: &str, actual: f64, expected: f64, tolerance: f64) {
+    let error = relative_error(actual, expected);
+    assert!(
+        error <= tolerance,
+        "{what}: {actual} instead of {expected}, off by {error:.2e}, allowed {tolerance:.0e}"
+    );
+}
+
+/// The largest of many errors, and where it occurred; a NaN counts as larger than any.
+#[derive(Debug, Default)]
+pub struct Worst {
+    pub error: f64,
+    pub place: String,
+    pub count: usize,
+}
+
+impl Worst {
+    pub fn add(&mut self, error: f64, place: impl FnOnce() -> String) {
+        self.count += 1;
+        // A NaN, once there, stays.
+        if error > self.error || error.is_nan() {
+            self.error = error;
+            self.place = place();
+        }
+    }
+
+    /// Prints (`cargo test -- --nocapture`) and judges what was collected.
+    #[track_caller]
+    pub fn assert_at_most(&self, what: &str, tolerance: f64) {
+        println!(
+            "{what}: {} values, largest error {:.2e} at {}",
+            self.count, self.error, self.place
+        );
+        assert!(
+            self.count > 0 && self.error <= tolerance,
+            "{what}: {:.2e} at {}, allowed {tolerance:.0e}",
+            self.error,
+            self.place
+        );
+    }
+}
+
+/// Modes of one harmonic of an unguided blade, by frequency: there every n is a part.
+pub fn of_diameters(modes: &[Mode], n: usize) -> impl Iterator<Item = &Mode> {
+    modes.iter().filter(move |mode| mode.part == n)
+}
+
+/// The records of a reference table, without its comments.
+pub fn table<T: serde::de::DeserializeOwned>(name: &str) -> Vec<T> {
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .from_path(path(&format!("tests/reference/{name}")))
+        .expect("a reference table");
+    reader.deserialize().map(|row| row.expect(name)).collect()
+}

@@ -1,0 +1,106 @@
+//! Goal: the resting blade has the natural frequencies of the exact annular plate.
+//!
+//! Source: tests/reference/annulus_exact.csv, roots of the Bessel determinant of the
+//! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
+//! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6.
+
+mod common;
+
+use common::{Worst, of_diameters, reference_model, relative_error};
+use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
+use sawflutter::spectrum::ModeKind;
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+struct Root {
+    bc: String,
+    nu: f64,
+    ratio: f64,
+    n: usize,
+    s: usize,
+    lambda2: f64,
+}
+
+fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
+    let mut file: SceneFile = Scene::paper().file;
+    file.guides.clear();
+    file.sweep = None;
+    let blade = &mut file.blade;
+    blade.outer_diameter_m = 0.8;
+    blade.inner_diameter_m = 0.8 * ratio;
+    blade.thickness_m = 0.003;
+    blade.material = Material {
+        youngs_modulus_pa: 2.1e11,
+        poisson_ratio: nu,
+        density_kg_per_m3: 7850.0,
+    };
+    file.mount = match bc {
+        "FF" => Mount::Spline {},
+        // At rest there is no stress in plane, and either condition will do.
+        "CF" => Mount::Collar {
+            diameter_m: blade.inner_diameter_m,
+            in_plane: InPlane::Free,
+        },
+        other => panic!("unknown condition {other}"),
+    };
+    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Largest relative error over all roots with one s. Every n ≥ 1 must come twice.
+fn worst_of(bc: &str, s: usize) -> Worst {
+    let roots: Vec<Root> = common::table("annulus_exact.csv");
+    let mut ratios: Vec<f64> = roots.iter().map(|root| root.ratio).collect();
+    ratios.dedup();
+    ratios.sort_by(f64::total_cmp);
+    ratios.dedup();
+    assert_eq!(ratios.len(), 5);
+    let mut worst = Worst::default();
+    for ratio in ratios {
+        let scene = annulus(bc, 0.3, ratio);
+        let model = reference_model(&scene, rad_per_s(1000.0));
+        let modes = model.all_modes(0.0).unwrap();
+        let blade = &scene.blade;
+        let unit = (blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()).sqrt()
+            / blade.outer_radius_m.powi(2);
+        let here = |root: &&Root| root.bc == bc && root.ratio == ratio && root.s == s;
+        for root in roots.iter().filter(here) {
+            assert_eq!(root.nu, 0.3);
+            let elastic: Vec<f64> = of_diameters(&modes, root.n)
+                .filter(|mode| mode.kind != ModeKind::Rigid)
+                .map(|mode| mode.frequency_rad_per_s() / unit)
+                .collect();
+            let multiplicity = if root.n == 0 { 1 } else { 2 };
+            for lambda2 in &elastic[multiplicity * s..multiplicity * (s + 1)] {
+                worst.add(relative_error(*lambda2, root.lambda2), || {
+                    format!("{bc} a/b = {ratio}, n = {}, s = {s}", root.n)
+                });
+            }
+        }
+    }
+    // Five ratios, one value for n = 0 and two for n = 1 … 6.
+    assert_eq!(worst.count, 5 * 13);
+    worst
+}
+
+/// The promise: 1e-5 relative.
+#[test]
+fn free_annulus_without_and_with_one_nodal_circle() {
+    for s in [0, 1] {
+        worst_of("FF", s).assert_at_most(&format!("free annulus, s = {s}"), 1e-5);
+    }
+}
+
+#[test]
+fn clamped_annulus_without_and_with_one_nodal_circle() {
+    for s in [0, 1] {
+        worst_of("CF", s).assert_at_most(&format!("clamped annulus, s = {s}"), 1e-5);
+    }
+}
+
+/// Beyond the promise: s = 2 lies above the range of any chart.
+#[test]
+fn third_root_of_either_annulus() {
+    for bc in ["FF", "CF"] {
+        worst_of(bc, 2).assert_at_most(&format!("{bc}, s = 2"), 1e-4);
+    }
+}
