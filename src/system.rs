@@ -48,7 +48,7 @@ impl GyroscopicSystem {
     fn of_harmonics(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Self {
         let first = plate.offset(*range.start());
         let size = plate.offset(range.end() + 1) - first;
-        let radial = plate.basis.len();
+        let radial = plate.basis.count();
         let mut stiffness = Mat::zeros(size, size);
         let mut spin = Mat::zeros(size, size);
         let mut gyroscopic = Mat::zeros(size, size);

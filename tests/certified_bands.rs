@@ -121,7 +121,15 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
         }
         let coarse = bands_of(&model, range, 25);
         let fine = bands_of(&model, range, 100);
-        eprintln!("saw {saw} r {} solves {:?} bands {}", model.parts[0].low.as_ref().map_or(0, |l| l.0.reduced.order()), model.counters, fine.len());
+        eprintln!(
+            "saw {saw} r {} solves {:?} bands {}",
+            model.parts[0]
+                .low
+                .as_ref()
+                .map_or(0, |l| l.0.reduced.order()),
+            model.counters,
+            fine.len()
+        );
         assert_same(&coarse, &fine, &format!("saw {saw}: {draw:?}"));
         for band in &fine {
             assert!(

@@ -25,7 +25,7 @@ Examples:
 pub struct Arguments {
     /// Scene to chart; without it, the built-in guided spline saw
     scene: Option<PathBuf>,
-    /// Folder for report.json, campbell.csv, campbell.png and campbell.svg
+    /// Folder for report.json, campbell.csv and the figures
     /// [default: sawflutter-out]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -69,20 +69,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }
     let json = serde_json::to_string_pretty(&report)?;
-    let files = [
+    let mut files = vec![
         ("campbell.csv", report.campbell_csv()?),
-        (
-            "campbell.png",
-            figure::campbell_png(&report).context("cannot draw campbell.png")?,
-        ),
-        (
-            "campbell.svg",
-            figure::campbell_svg(&report)
-                .context("cannot draw campbell.svg")?
-                .into_bytes(),
-        ),
-        ("report.json", json.clone().into_bytes()),
+        ("campbell.png", figure::campbell_png(&report)?),
+        ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
     ];
+    match figure::root_loci_png(&report)?.zip(figure::root_loci_svg(&report)?) {
+        Some((png, svg)) => {
+            files.push(("root-loci.png", png));
+            files.push(("root-loci.svg", svg.into_bytes()));
+        }
+        None => ["root-loci.png", "root-loci.svg"]
+            .iter()
+            .try_for_each(|name| folder.remove(name))?,
+    }
+    files.push(("report.json", json.clone().into_bytes()));
     for (name, content) in &files {
         folder.write(name, content)?;
     }
@@ -91,7 +92,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         writeln!(stdout, "{json}")?;
     } else {
         write!(stdout, "{}", summary(&report))?;
-        let names = files.map(|(name, _)| name).join(", ");
+        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+        let names = names.join(", ");
         writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
     }
     Ok(())

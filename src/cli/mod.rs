@@ -18,7 +18,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Chart a saw: report.json, campbell.csv, campbell.png and campbell.svg
+    /// Chart a saw: report.json, campbell.csv, and figures as PNG and SVG
     #[command(after_help = analyze::EXAMPLES)]
     Analyze(analyze::Arguments),
     /// Print the JSON schema of a scene

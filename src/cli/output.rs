@@ -43,6 +43,17 @@ impl OutputFolder {
         Ok(())
     }
 
+    /// Removes what an earlier run left under a name that this one does not write.
+    pub fn remove(&self, name: &str) -> anyhow::Result<()> {
+        let target = self.path.join(name);
+        match std::fs::remove_file(&target) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(error).with_context(|| format!("cannot remove the old {}", target.display()))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.path

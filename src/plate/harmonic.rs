@@ -27,7 +27,7 @@ impl HarmonicBlock {
         let nu = blade.material.poisson_ratio;
         let specific_rigidity = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
         let stress = CentrifugalStress::new(blade);
-        let size = basis.len();
+        let size = basis.count();
         let mut bending = DMatrix::zeros(size, size);
         let mut spin = DMatrix::from_diagonal_element(size, size, -n2);
         for (r, w) in basis.rule().iter() {

@@ -140,7 +140,7 @@ impl Plate {
 
     /// Index of the first cosine of n nodal diameters.
     pub fn offset(&self, n: usize) -> usize {
-        let size = self.basis.len();
+        let size = self.basis.count();
         if n == 0 { 0 } else { size * (2 * n - 1) }
     }
 

@@ -24,7 +24,7 @@ struct PadHarmonics {
 pub fn coupling(blade: &Blade, basis: &RadialBasis, plate: &Plate, pad: &Guide) -> faer::Mat<f64> {
     let max_diameters = plate.max_diameters();
     let harmonics = PadHarmonics::new(blade, basis, pad, 2 * max_diameters);
-    let size = basis.len();
+    let size = basis.count();
     let mut coupling = faer::Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
     for n in 0..=max_diameters {
         for m in 0..=n {
@@ -57,7 +57,7 @@ pub fn coupling(blade: &Blade, basis: &RadialBasis, plate: &Plate, pad: &Guide) 
 
 impl PadHarmonics {
     fn new(blade: &Blade, basis: &RadialBasis, pad: &Guide, max_order: usize) -> Self {
-        let size = basis.len();
+        let size = basis.count();
         let mut by_order = vec![DMatrix::zeros(size, size); max_order + 1];
         let mut add = |r: f64, arc_weights: &[f64]| {
             let values = nalgebra::DVector::from_vec(basis.evaluate(0, r).value);
@@ -70,7 +70,7 @@ impl PadHarmonics {
             add(pad.radius_m, &vec![1.0; max_order + 1]);
         } else {
             let area = pad.radial_length_m * pad.tangential_length_m;
-            let points = basis.len() + max_order / 2 + 12;
+            let points = basis.count() + max_order / 2 + 12;
             for (low, high) in smooth_radii(blade, pad) {
                 for (r, w) in quadrature::root_ended(low, high, points).iter() {
                     let arcs = arcs(pad, r);

@@ -57,7 +57,7 @@ impl RadialBasis {
     }
 
     /// Number J of radial functions.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.diag.len()
     }
 
@@ -131,7 +131,7 @@ impl RadialBasis {
         let mut values = RadialValues::default();
         let mut previous = [0.0; 3];
         let mut p = [1.0 / self.off[0], 0.0, 0.0];
-        for j in 0..self.len() {
+        for j in 0..self.count() {
             values.value.push(c * p[0]);
             values.slope.push(dc * p[0] + c * p[1] * dx);
             let curvature = ddc * p[0] + 2.0 * dc * p[1] * dx + c * p[2] * dx * dx;

@@ -168,7 +168,7 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
     } else {
         c64::new(1.0, 0.0)
     };
-    let size = plate.basis.len();
+    let size = plate.basis.count();
     let radius_m: Vec<f64> = plate.sampled_radii_m().step_by(4).collect();
     let profile = |n: usize, offset: usize| -> Vec<f64> {
         let values = plate.sampled_functions(n).iter().step_by(4);

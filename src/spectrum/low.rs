@@ -18,7 +18,7 @@ use super::{SpectrumError, companion_eigenpairs};
 pub struct LowModel<'a> {
     system: Cow<'a, GyroscopicSystem>,
     height_rad_per_s: f64,
-    rigid_scale_rad_per_s: Option<f64>,
+    has_free_rigid_motions: bool,
     counters: &'a WorkCounters,
 }
 
@@ -32,13 +32,13 @@ impl<'a> LowModel<'a> {
     pub(super) fn new(
         system: &'a GyroscopicSystem,
         height_rad_per_s: f64,
-        rigid_scale_rad_per_s: Option<f64>,
+        has_free_rigid_motions: bool,
         counters: &'a WorkCounters,
     ) -> Self {
         LowModel {
             system: Cow::Borrowed(system),
             height_rad_per_s,
-            rigid_scale_rad_per_s,
+            has_free_rigid_motions,
             counters,
         }
     }
@@ -55,7 +55,7 @@ impl<'a> LowModel<'a> {
             &self.system,
             speed_rad_per_s,
             0,
-            self.rigid_scale_rad_per_s,
+            self.has_free_rigid_motions,
             pairs,
         ))
     }
@@ -86,7 +86,7 @@ impl<'a> LowModel<'a> {
             system: Cow::Owned(self.system.project(basis.as_ref())),
             counters,
             height_rad_per_s: self.height_rad_per_s,
-            rigid_scale_rad_per_s: self.rigid_scale_rad_per_s,
+            has_free_rigid_motions: self.has_free_rigid_motions,
         })
     }
 }

@@ -4,7 +4,7 @@ use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::dense::Eigenpair;
+use super::dense::{Eigenpair, time_scale};
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,9 +48,9 @@ pub struct Mode {
 /// A growth rate below this share of |λ| + Ω is rounding: at a merging of two modes
 /// eigenvalues are known to √ε only.
 const GROWTH_NOISE: f64 = 1e-7;
-/// Eigenvalues below this share of the mean frequency are zero, where rigid
-/// motions are free: a double zero is known to √ε only.
-const RIGID_NOISE: f64 = 1e-6;
+/// Eigenvalues below this share of the root mean square frequency are zero, where rigid
+/// motions are free: a double zero is known to √ε of it only.
+const RIGID_NOISE: f64 = 2e-7;
 
 impl Mode {
     /// ω = |Im λ|, in rad/s.
@@ -84,14 +84,15 @@ pub fn classify(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     part: usize,
-    rigid_scale_rad_per_s: Option<f64>,
+    has_free_rigid_motions: bool,
     pairs: Vec<Eigenpair>,
 ) -> Vec<Mode> {
+    let rigid_noise = has_free_rigid_motions.then(|| RIGID_NOISE * time_scale(&system.stiffness));
     pairs
         .into_iter()
         .filter_map(|(lambda, q)| {
             let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
-            let rigid = rigid_scale_rad_per_s.is_some_and(|w| lambda.norm() < RIGID_NOISE * w);
+            let rigid = rigid_noise.is_some_and(|noise| lambda.norm() < noise);
             let mut mode = Mode {
                 lambda,
                 kind: ModeKind::Damped,

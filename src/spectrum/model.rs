@@ -179,17 +179,16 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn full_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let scale = frequency_scale(&self.plate);
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
             let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
-            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
+            let free_rigid = !part.free_rigid.is_empty();
             modes.extend(classify(
                 &part.full,
                 speed_rad_per_s,
                 index,
-                rigid_scale,
+                free_rigid,
                 pairs,
             ));
         }
@@ -220,8 +219,8 @@ impl SpectralModel {
             let system = &part.at(speed_rad_per_s).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
-            let rigid_scale = (!part.free_rigid.is_empty()).then_some(scale);
-            modes.extend(classify(system, speed, index, rigid_scale, pairs));
+            let free_rigid = !part.free_rigid.is_empty();
+            modes.extend(classify(system, speed, index, free_rigid, pairs));
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
@@ -237,11 +236,11 @@ impl SpectralModel {
             Some((projection, height)) => (&projection.reduced, *height),
             None => (&part.full, self.complete_to_rad_per_s),
         };
-        let rigid_scale = (!part.free_rigid.is_empty()).then(|| frequency_scale(&self.plate));
+        let free_rigid = !part.free_rigid.is_empty();
         Some(LowModel::new(
             system,
             height_rad_per_s,
-            rigid_scale,
+            free_rigid,
             &self.counters,
         ))
     }
@@ -356,7 +355,7 @@ fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) ->
         return Vec::new();
     }
     let order = system.order();
-    let size = plate.basis.len();
+    let size = plate.basis.count();
     let tilts = [plate.offset(1), plate.offset(1) + size];
     let rigid: Vec<usize> = [0]
         .into_iter()

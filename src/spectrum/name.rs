@@ -120,7 +120,7 @@ struct Wave {
 impl Wave {
     /// q_c cos nθ + q_s sin nθ has (q_c + i q_s)/2 on e^{−inθ}, (q_c − i q_s)/2 on e^{+inθ}.
     fn new(plate: &Plate, lambda: c64, q: &Col<c64>, diameters: usize, speed: f64) -> Self {
-        let size = plate.basis.len();
+        let size = plate.basis.count();
         let offset = plate.offset(diameters);
         let wave = |sign: f64| {
             let combine = |j: usize| {

@@ -202,7 +202,7 @@ impl Builder<'_> {
         let mut count = CHART_MODES + index;
         loop {
             let pairs = self.lowest(speed, count);
-            let modes = classify(self.system, speed, 0, None, pairs);
+            let modes = classify(self.system, speed, 0, false, pairs);
             let negative = |kind| match kind {
                 ModeKind::Negative | ModeKind::Flutter => 2,
                 ModeKind::Divergent => 1,

@@ -43,12 +43,14 @@ pub enum SensitivityError {
     Spectrum(#[from] SpectrumError),
 }
 
+/// Moves a number of the scene by a multiple of the change asked about.
+type Shift = Box<dyn Fn(&mut SceneFile, f64)>;
+
 /// A number of the scene and the change that is asked about.
 struct Parameter {
     path: String,
     words: &'static str,
-    /// Moves the number by a multiple of the change.
-    shift: Box<dyn Fn(&mut SceneFile, f64)>,
+    shift: Shift,
 }
 
 /// Sensitivities of an analysis, most influential on the lowest critical speed first.
@@ -123,7 +125,7 @@ fn parameters(scene: &Scene) -> Vec<Parameter> {
         }),
     ];
     for index in 0..scene.file.guides.len() {
-        let mut add = |name: &str, words, shift: Box<dyn Fn(&mut SceneFile, f64)>| {
+        let mut add = |name: &str, words, shift: Shift| {
             parameters.push(Parameter {
                 path: format!("guides[{index}].{name}"),
                 words,

@@ -1,0 +1,40 @@
+//! Remakes `figures/`: `cargo run --release --example gallery`.
+
+use std::path::Path;
+
+use anyhow::Context;
+use sawflutter::figure;
+use sawflutter::report::Report;
+use sawflutter::scene::Scene;
+use sawflutter::stability::Analysis;
+
+fn main() -> anyhow::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut scenes: Vec<_> = std::fs::read_dir(root.join("scenes"))?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<_, _>>()?;
+    scenes.sort();
+    for path in scenes {
+        let name = path
+            .file_stem()
+            .context("a scene has a name")?
+            .to_string_lossy()
+            .into_owned();
+        let scene = Scene::from_path(&path)?;
+        let analysis = Analysis::new(&scene, &|_, _| ())?;
+        let report = Report::new(&scene, &analysis)?;
+        let write = |suffix: &str, content: &[u8]| {
+            std::fs::write(
+                root.join("figures").join(format!("{name}-{suffix}")),
+                content,
+            )
+        };
+        write("campbell.png", &figure::campbell_png(&report)?)?;
+        write("campbell.svg", figure::campbell_svg(&report)?.as_bytes())?;
+        if let Some(png) = figure::root_loci_png(&report)? {
+            write("root-loci.png", &png)?;
+        }
+        println!("{name}");
+    }
+    Ok(())
+}

@@ -1,0 +1,148 @@
+//! What damping does depends on the frame it lives in.
+//!
+//! Air resists motion in space, and feeds reflected waves, whose energy in space is
+//! negative. Material damping resists straining on the blade, and never feeds a free
+//! blade. With both, their ratio decides. (Huang and Crandall, J. Appl. Mech. 41, 1974,
+//! for rotating shafts and disks.)
+
+use nalgebra::DMatrix;
+use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
+use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
+use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::stability::Analysis;
+
+const AIR: f64 = 6.3;
+const MATERIAL: f64 = 1e-6;
+
+fn free_blade(damping: DampingFile) -> Scene {
+    let mut file: SceneFile = Scene::paper().file;
+    file.guides.clear();
+    file.accuracy = Accuracy::Draft;
+    file.damping = Some(damping);
+    file.sweep = Some(SweepFile {
+        from_rpm: 0.0,
+        to_rpm: 2700.0,
+    });
+    Scene::try_from(file).unwrap()
+}
+
+fn analysis_of(air: f64, material: f64) -> Analysis {
+    let damping = DampingFile {
+        air_n_s_per_m3: air,
+        material_retardation_time_s: material,
+    };
+    Analysis::new(&free_blade(damping), &|_, _| ()).unwrap()
+}
+
+#[test]
+fn material_damping_alone_leaves_the_free_blade_stable_at_every_speed() {
+    let analysis = analysis_of(0.0, MATERIAL);
+    assert!(
+        analysis.chart.instabilities.is_empty(),
+        "{:?}",
+        analysis.chart.instabilities
+    );
+    let samples = &analysis.chart.campbell.samples;
+    let damped = samples
+        .iter()
+        .flat_map(|s| &s.modes)
+        .filter(|m| m.mode.lambda.re < 0.0)
+        .count();
+    assert!(damped > 500, "damping acts on the modes: {damped}");
+}
+
+/// A wave of the free blade is critical at nΩ = ω_b; from there on, and not before, it
+/// is reflected and air feeds it.
+#[test]
+fn air_destabilises_exactly_the_reflected_waves() {
+    let analysis = analysis_of(AIR, 0.0);
+    let bands = &analysis.chart.instabilities;
+    let mut critical: Vec<f64> = analysis
+        .model
+        .critical
+        .iter()
+        .map(|c| c.speed_rad_per_s)
+        .collect();
+    critical.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
+    critical.retain(|c| *c < analysis.range.1);
+    assert_eq!(bands.len(), critical.len());
+    for (band, critical) in bands.iter().zip(critical) {
+        assert!(
+            (band.from / critical - 1.0).abs() < 1e-7,
+            "{} {}",
+            rpm(band.from),
+            rpm(critical)
+        );
+        assert!(!band.closed, "a reflected wave stays unstable");
+    }
+}
+
+/// Onset under light damping of both kinds. A backward wave of the blade has body
+/// frequency ω_b(Ω) and shape x; in space it turns at ω = ω_b − nΩ. The work of both
+/// dampings vanishes where η xᵀK_b x ω_b + (c/ρh)(ω_b − nΩ) = 0.
+fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64) -> f64 {
+    let n = block.diameters as f64;
+    let work = |speed: f64| {
+        let inertia = DMatrix::identity(block.spin.nrows(), block.spin.nrows()) * (n * n);
+        let eigen = (&block.bending + (&block.spin + inertia) * speed.powi(2)).symmetric_eigen();
+        let lowest = eigen.eigenvalues.imin();
+        let x = eigen.eigenvectors.column(lowest);
+        let omega = eigen.eigenvalues[lowest].sqrt();
+        let bending = (x.transpose() * &block.bending * x)[(0, 0)];
+        eta * bending * omega + air_per_mass * (omega - n * speed)
+    };
+    let (mut low, mut high) = (rad_per_s(1000.0), rad_per_s(2700.0));
+    assert!(work(low) > 0.0 && work(high) < 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if work(middle) > 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
+    }
+    low
+}
+
+#[test]
+fn with_both_the_onset_agrees_with_its_closed_form() {
+    let analysis = analysis_of(AIR, MATERIAL);
+    let plate = &analysis.model.plate;
+    let air_per_mass = AIR / plate.blade.mass_per_area_kg_per_m2();
+    let expected = onset_in_closed_form(&plate.harmonics[2], MATERIAL, air_per_mass);
+    let first = &analysis.chart.instabilities[0];
+    // The closed form is of first order in damping ratios of 1e-4.
+    assert!(
+        (first.from / expected - 1.0).abs() < 1e-6,
+        "{} {}",
+        rpm(first.from),
+        rpm(expected)
+    );
+    let critical = analysis.model.critical[0].speed_rad_per_s;
+    assert!(
+        first.from > 1.02 * critical,
+        "material damping holds on past the critical speed"
+    );
+}
+
+/// λ of the guided saw tends to the undamped one linearly in the damping.
+#[test]
+fn the_undamped_limit_is_continuous() {
+    let eigenvalues = |share: f64| {
+        let mut scene = Scene::paper();
+        scene.damping = (share > 0.0).then_some(sawflutter::scene::Damping {
+            material_retardation_time_s: 1e-6 * share,
+            air_n_s_per_m3: 5.0 * share,
+        });
+        let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
+        let model = SpectralModel::new(plate, (0.0, rad_per_s(2000.0)), Strategy::Dense).unwrap();
+        let modes = model.all_modes(rad_per_s(1800.0)).unwrap();
+        modes.iter().take(8).map(|m| m.lambda).collect::<Vec<_>>()
+    };
+    let (none, half, whole) = (eigenvalues(0.0), eigenvalues(0.01), eigenvalues(0.02));
+    for k in 0..8 {
+        let (near, far) = ((half[k] - none[k]).norm(), (whole[k] - none[k]).norm());
+        assert!(far < 0.05 && far > 1e-6, "mode {k}: {far}");
+        assert!((far / near - 2.0).abs() < 0.01, "mode {k}: {near} {far}");
+    }
+}
