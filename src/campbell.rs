@@ -204,7 +204,8 @@ mod tests {
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples);
-        let whole = campbell.branches.iter().filter(|b| b.points.len() == 31);
+        // The others leave the chart at its top.
+        let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);
         let mut followed = 0;
         for branch in whole {
             let names: Vec<_> = branch.points[1..]

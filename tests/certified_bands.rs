@@ -116,20 +116,8 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
         let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;
         let range = (0.0, 1.7 * first);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        if saw % 5 == 0 {
-            eprintln!("saw {saw} {:?}", std::time::SystemTime::now());
-        }
         let coarse = bands_of(&model, range, 25);
         let fine = bands_of(&model, range, 100);
-        eprintln!(
-            "saw {saw} r {} solves {:?} bands {}",
-            model.parts[0]
-                .low
-                .as_ref()
-                .map_or(0, |l| l.0.reduced.order()),
-            model.counters,
-            fine.len()
-        );
         assert_same(&coarse, &fine, &format!("saw {saw}: {draw:?}"));
         for band in &fine {
             assert!(

@@ -17,11 +17,13 @@ use sawflutter::report::Report;
 use sawflutter::scene::{Scene, SceneFile};
 use tempfile::TempDir;
 
-const FILES: [&str; 4] = [
+const FILES: [&str; 6] = [
     "campbell.csv",
     "campbell.png",
     "campbell.svg",
     "report.json",
+    "root-loci.png",
+    "root-loci.svg",
 ];
 
 fn sawflutter() -> Command {
@@ -93,7 +95,7 @@ fn write_scene(folder: &TempDir, file: &SceneFile) -> PathBuf {
 // A run that goes well.
 
 #[test]
-fn the_default_run_writes_four_files_and_no_fifth() {
+fn the_default_run_writes_its_files_and_no_other() {
     let run = default_run();
     assert_eq!(run.output.status.code(), Some(0));
     assert_eq!(stderr(&run.output), "");

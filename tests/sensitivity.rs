@@ -53,8 +53,8 @@ fn sensitivities_agree_with_central_differences() {
         middle.chart.instabilities.len() >= 4,
         "both kinds of onset are there"
     );
-    let share = 0.02;
-    // Rounding 1e-11 and truncation (2e-4)² of the differences, over a step of 4e-4.
+    let share = 0.01;
+    // Rounding 1e-11 and truncation (1e-4)² of the differences, over a step of 2e-4.
     let tolerance = 1e-6;
     for sensitivity in &found {
         let path = sensitivity.parameter.as_str();

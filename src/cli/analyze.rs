@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 use sawflutter::figure;
 use sawflutter::report::{Report, SensitivityEntry};
 use sawflutter::scene::{Accuracy, Scene};
@@ -69,20 +70,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }
     let json = serde_json::to_string_pretty(&report)?;
-    let mut files = vec![
-        ("campbell.csv", report.campbell_csv()?),
-        ("campbell.png", figure::campbell_png(&report)?),
-        ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
-    ];
-    match figure::root_loci_png(&report)?.zip(figure::root_loci_svg(&report)?) {
-        Some((png, svg)) => {
-            files.push(("root-loci.png", png));
-            files.push(("root-loci.svg", svg.into_bytes()));
-        }
-        None => ["root-loci.png", "root-loci.svg"]
-            .iter()
-            .try_for_each(|name| folder.remove(name))?,
+    let mut files = figures(&report)?;
+    if !files.iter().any(|(name, _)| name.starts_with("root-loci")) {
+        folder.remove("root-loci.png")?;
+        folder.remove("root-loci.svg")?;
     }
+    files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     for (name, content) in &files {
         folder.write(name, content)?;
@@ -97,6 +90,30 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
     }
     Ok(())
+}
+
+/// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.
+fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::FigureError> {
+    type Draw = fn(&Report) -> Result<Option<Vec<u8>>, figure::FigureError>;
+    let all: [(&'static str, Draw); 4] = [
+        ("campbell.png", |r| figure::campbell_png(r).map(Some)),
+        ("campbell.svg", |r| {
+            Ok(Some(figure::campbell_svg(r)?.into_bytes()))
+        }),
+        ("root-loci.png", figure::root_loci_png),
+        ("root-loci.svg", |r| {
+            Ok(figure::root_loci_svg(r)?.map(String::into_bytes))
+        }),
+    ];
+    let drawn: Vec<_> = all
+        .into_par_iter()
+        .map(|(name, draw)| (name, draw(report)))
+        .collect();
+    let mut files = Vec::new();
+    for (name, content) in drawn {
+        files.extend(content?.map(|content| (name, content)));
+    }
+    Ok(files)
 }
 
 fn scene(arguments: &Arguments) -> anyhow::Result<Scene> {

@@ -26,7 +26,7 @@ pub struct LowModel<'a> {
 /// span what happens between them.
 const NARROW: f64 = 0.04;
 /// Modes up to this multiple of the height help to span those below it.
-const SPAN_MARGIN: f64 = 3.0;
+const SPAN_MARGIN: f64 = 1.2;
 
 impl<'a> LowModel<'a> {
     pub(super) fn new(
