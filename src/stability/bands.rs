@@ -112,9 +112,10 @@ pub(super) fn bands(
     let mut instabilities = Vec::new();
     // Nothing couples the waves of a free blade, so they cross and never merge.
     if !model.plate.is_axisymmetric() {
-        instabilities.extend(divergence(model, &finder, &stations)?);
+        let events = finder.events(&stations)?;
+        instabilities.extend(divergence(model, &finder, &stations, &events)?);
         instabilities.extend(close_pairs(model, &finder, speeds)?);
-        instabilities.extend(flutter(model, &finder, &stations)?);
+        instabilities.extend(flutter(model, &finder, &stations, events)?);
         instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
     }
     Ok((instabilities, finder.certificate()))
@@ -188,11 +189,13 @@ pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> 
     speeds
 }
 
-/// Stretches of speed with a real λ > 0. They begin and end at critical speeds.
+/// Stretches of speed with a real λ > 0. They begin and end at critical speeds, or where
+/// two real λ meet and go on as flutter.
 fn divergence(
     model: &SpectralModel,
     finder: &Finder<'_>,
     stations: &[Station],
+    events: &[Vec<Event>],
 ) -> Result<Vec<Instability>, SpectrumError> {
     let mut bands = Vec::new();
     let unstable = |s: &Station| s.count(Sign::Real) > 0;
@@ -206,8 +209,8 @@ fn divergence(
             && (last || !unstable(&stations[index + 1]))
             && unstable(station)
         {
-            let (from, begins) = edge(model, stations, first.checked_sub(1), first);
-            let (to, ends) = edge(model, stations, (!last).then_some(index + 1), index);
+            let (from, begins) = edge(model, stations, events, first.checked_sub(1), first);
+            let (to, ends) = edge(model, stations, events, (!last).then_some(index + 1), index);
             let growth =
                 |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
             let (peak, square) = refine::maximise((from, to), begins && ends, growth)?;
@@ -259,10 +262,12 @@ fn close_pairs(
     Ok(bands)
 }
 
-/// The critical speed between a stable and an unstable station, or the end of the range.
+/// Where divergence begins or ends between a stable and an unstable station: at the
+/// critical speed or the meeting of two real λ between them, or at the end of the range.
 fn edge(
     model: &SpectralModel,
     stations: &[Station],
+    events: &[Vec<Event>],
     stable: Option<usize>,
     unstable: usize,
 ) -> (f64, bool) {
@@ -272,14 +277,20 @@ fn edge(
     };
     let outer = stations[stable].speed_rad_per_s;
     let (low, high) = (inner.min(outer), inner.max(outer));
-    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    (
-        critical
-            .into_iter()
-            .find(|c| (low..=high).contains(c))
-            .unwrap_or(inner),
-        true,
-    )
+    let mut critical = model.critical.iter().map(|c| c.speed_rad_per_s);
+    let meetings = events[stable.min(unstable)]
+        .iter()
+        .filter_map(|event| match event {
+            Event::Begin(_, speed) | Event::End(_, speed) => Some(*speed),
+            Event::Band(..) => None,
+        });
+    let meeting = if stable < unstable {
+        meetings.last()
+    } else {
+        { meetings }.next()
+    };
+    let critical = critical.find(|c| (low..=high).contains(c));
+    (critical.or(meeting).unwrap_or(inner), true)
 }
 
 fn standing_waves(model: &SpectralModel, from: f64, to: f64) -> Vec<String> {
@@ -300,6 +311,7 @@ fn flutter(
     model: &SpectralModel,
     finder: &Finder<'_>,
     stations: &[Station],
+    events: Vec<Vec<Event>>,
 ) -> Result<Vec<Instability>, SpectrumError> {
     let Some((first, last)) = stations.first().zip(stations.last()) else {
         return Ok(Vec::new());
@@ -308,7 +320,7 @@ fn flutter(
     let begun = first.speed_rad_per_s;
     let mut open: Vec<(f64, bool)> = first.merged().map(|_| (begun, false)).collect();
     let mut ranges: Vec<(f64, f64, bool)> = Vec::new();
-    for events in finder.events(stations)? {
+    for events in events {
         for event in events {
             match event {
                 Event::Begin(index, speed) => open.insert(index.min(open.len()), (speed, true)),
