@@ -4,12 +4,14 @@
 //! mass matrix is the identity. Order of the unknowns: n = 0: J cosines; then for
 //! each n ≥ 1: J cosines, J sines.
 
+mod edge_load;
 mod harmonic;
 mod pad;
 mod quadrature;
 mod radial;
 mod stress;
 
+pub use edge_load::{EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;

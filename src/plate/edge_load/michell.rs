@@ -1,0 +1,160 @@
+//! One harmonic of the plane stress of an annulus, by Michell's series.
+
+use nalgebra::{Matrix4, Vector4};
+
+use crate::scene::Blade;
+
+/// σ_rr = R(r) cos mθ, σ_θθ = H(r) cos mθ, σ_rθ = T(r) sin mθ: R, H and T at a radius.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ProfileStress {
+    /// R.
+    pub radial_pa: f64,
+    /// H.
+    pub hoop_pa: f64,
+    /// T.
+    pub shear_pa: f64,
+}
+
+/// A term of the series: three stresses, in a fixed ratio, that follow one power of r.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Term {
+    amplitude_pa: f64,
+    ratio: ProfileStress,
+    /// The power is one at this edge and below one in the blade, so that no order
+    /// overflows.
+    edge_m: f64,
+    power: f64,
+}
+
+impl Term {
+    /// A term of unit amplitude.
+    fn new([radial_pa, hoop_pa, shear_pa]: [f64; 3], edge_m: f64, power: f64) -> Self {
+        Term {
+            amplitude_pa: 1.0,
+            ratio: ProfileStress {
+                radial_pa,
+                hoop_pa,
+                shear_pa,
+            },
+            edge_m,
+            power,
+        }
+    }
+
+    fn times(self, amplitude_pa: f64) -> Self {
+        Term {
+            amplitude_pa,
+            ..self
+        }
+    }
+
+    fn at(&self, r: f64) -> ProfileStress {
+        let size = self.amplitude_pa * (r / self.edge_m).powf(self.power);
+        ProfileStress {
+            radial_pa: size * self.ratio.radial_pa,
+            hoop_pa: size * self.ratio.hoop_pa,
+            shear_pa: size * self.ratio.shear_pa,
+        }
+    }
+}
+
+/// R, H and T as functions of the radius.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    terms: Vec<Term>,
+}
+
+impl Profile {
+    /// The harmonic of order m under the rim traction σ_rr = p cos mθ,
+    /// σ_rθ = t sin mθ. For m = 0, where sin mθ is absent, t is a uniform shear
+    /// σ_rθ(b); its torque, and the net force of m = 1, are reacted at the bore.
+    pub fn new(blade: &Blade, order: usize, p: f64, t: f64) -> Self {
+        let terms = match order {
+            0 => ring_and_torsion(blade, p, t),
+            1 => net_force(blade, p, t),
+            _ => self_balanced(blade, order as f64, p, t),
+        };
+        Profile { terms }
+    }
+
+    /// The stresses at a radius.
+    pub fn at(&self, r: f64) -> ProfileStress {
+        let mut sum = ProfileStress::default();
+        for term in &self.terms {
+            let stress = term.at(r);
+            sum.radial_pa += stress.radial_pa;
+            sum.hoop_pa += stress.hoop_pa;
+            sum.shear_pa += stress.shear_pa;
+        }
+        sum
+    }
+}
+
+/// Lamé's ring, σ = p (1 ∓ a²/r²)/(1 − a²/b²), and pure shear t b²/r².
+/// Stress function A r² + B ln r + C θ.
+fn ring_and_torsion(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let uniform = p * b / (b - a) * b / (b + a);
+    vec![
+        Term::new([1.0, 1.0, 0.0], b, 0.0).times(uniform),
+        Term::new([-1.0, 1.0, 0.0], a, -2.0).times(uniform),
+        Term::new([0.0, 0.0, 1.0], b, -2.0).times(t),
+    ]
+}
+
+/// m = 1, stress function A r³ cos θ + B cos θ/r + c [r θ sin θ/2 − (1−ν)/4 r ln r cos θ].
+///
+/// Every circle transmits the same net force F = πhc, c = b(p − t). The share of
+/// r ln r makes the displacement single-valued (Timoshenko & Goodier, section 43,
+/// b₁′ = −a₁(1−ν)/4); only there does Poisson's ratio enter. At the bore the constant
+/// traction −F/(2πah) means σ_rr = c/2a, σ_rθ = −c/2a. On each edge the two
+/// conditions differ by the balance of forces alone, so one from each remains:
+/// A − B k³ = p − (3+ν) c/4b and A k − B = −(1+ν) c/4a, k = a/b.
+fn net_force(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let nu = blade.material.poisson_ratio;
+    let k = a / b;
+    let force_at_rim = p - t;
+    let rim = p - 0.25 * (3.0 + nu) * force_at_rim;
+    let bore = -0.25 * (1.0 + nu) * force_at_rim / k;
+    let cubic = (rim - bore * k.powi(3)) / ((1.0 - k) * (1.0 + k) * (1.0 + k * k));
+    let inverse = cubic * k - bore;
+    let point_force = [0.25 * (3.0 + nu), -0.25 * (1.0 - nu), -0.25 * (1.0 - nu)];
+    vec![
+        Term::new([1.0, 3.0, 1.0], b, 1.0).times(cubic),
+        Term::new([-1.0, 1.0, -1.0], a, -3.0).times(inverse),
+        Term::new(point_force, b, -1.0).times(force_at_rim),
+    ]
+}
+
+/// m ≥ 2: stress function cos mθ times r^m, r^(m+2), r^−m, r^(2−m), which balance by
+/// themselves; four tractions at the two edges fix the four amplitudes.
+///
+/// A stress function f(r) cos mθ has σ_rr = f′/r − m² f/r², σ_θθ = f″,
+/// σ_rθ = m (f′/r − f/r²); of each power a common factor is left out.
+///
+/// On a narrow ring the powers grow alike and digits are lost: K_e keeps its virial
+/// to 1e-14 up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
+fn self_balanced(blade: &Blade, m: f64, p: f64, t: f64) -> Vec<Term> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let terms = [
+        Term::new([-1.0, 1.0, 1.0], b, m - 2.0),
+        Term::new([2.0 - m, m + 2.0, m], b, m),
+        Term::new([-1.0, 1.0, -1.0], a, -m - 2.0),
+        Term::new([-m - 2.0, m - 2.0, -m], a, -m),
+    ];
+    let tractions = terms.map(|term| {
+        let (rim, bore) = (term.at(b), term.at(a));
+        Vector4::new(rim.radial_pa, rim.shear_pa, bore.radial_pa, bore.shear_pa)
+    });
+    // Independent powers: singular only for numbers that are not finite.
+    let amplitudes = Matrix4::from_columns(&tractions)
+        .lu()
+        .solve(&Vector4::new(p, t, 0.0, 0.0))
+        .unwrap_or_else(|| Vector4::repeat(f64::NAN));
+    terms
+        .iter()
+        .zip(amplitudes.iter())
+        .map(|(term, &amplitude)| term.times(amplitude))
+        .collect()
+}

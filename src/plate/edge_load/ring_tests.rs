@@ -1,0 +1,149 @@
+//! Loads that every radius sees alike, against Lamé's ring and pure shear.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, Side};
+
+use super::tests::{LOADS, blade_with};
+use super::*;
+use crate::plate::{Plate, Resolution};
+use crate::scene::Scene;
+
+/// n ≤ 5, without guides.
+fn free_plate(radial_functions: usize) -> Plate {
+    let scene = Scene {
+        blade: blade_with(0.3),
+        guides: Vec::new(),
+        ..Scene::paper()
+    };
+    let resolution = Resolution {
+        max_diameters: 5,
+        radial_functions,
+    };
+    Plate::new(&scene, resolution)
+}
+
+/// More equal forces than harmonics: to the basis a uniform pressure, the tension
+/// positive. N forces P make p = N P / 2πbh.
+fn uniform_tension(blade: &Blade, pressure_pa: f64, forces: usize) -> Vec<RimForce> {
+    let each = pressure_pa * TAU * blade.outer_radius_m * blade.thickness_m / forces as f64;
+    (0..forces)
+        .map(|k| RimForce {
+            angle_rad: TAU * k as f64 / forces as f64 + 0.1,
+            radial_n: each,
+            tangential_n: 0.0,
+        })
+        .collect()
+}
+
+/// Lamé's ring: σ = A ∓ B/r², A = p b²/(b² − a²), B = A a².
+fn lame(blade: &Blade, pressure_pa: f64) -> [f64; 2] {
+    let (aa, bb) = (blade.inner_radius_m.powi(2), blade.outer_radius_m.powi(2));
+    let uniform = pressure_pa * bb / (bb - aa);
+    [uniform, uniform * aa]
+}
+
+/// K of the axisymmetric stress of Lamé's ring for n, as `HarmonicBlock` would build it.
+fn lame_block(plate: &Plate, pressure_pa: f64, n: usize) -> Mat<f64> {
+    let [uniform, inverse] = lame(&plate.blade, pressure_pa);
+    let density = plate.blade.material.density_kg_per_m3;
+    let size = plate.basis.len();
+    let mut block = Mat::zeros(size, size);
+    for (r, w) in plate.basis.rule().iter() {
+        let f = plate.basis.evaluate(n, r);
+        let (radial, hoop) = (uniform - inverse / (r * r), uniform + inverse / (r * r));
+        for j in 0..size {
+            for k in 0..size {
+                let hoop_term = (n * n) as f64 * hoop / (r * r) * f.value[j] * f.value[k];
+                let energy = radial * f.slope[j] * f.slope[k] + hoop_term;
+                block[(j, k)] += w * r / density * energy;
+            }
+        }
+    }
+    block
+}
+
+#[test]
+fn a_uniform_pressure_is_lames_ring() {
+    let plate = free_plate(6);
+    for pressure in [2.0e6, -3.0e6] {
+        let loads = uniform_tension(&plate.blade, pressure, 11);
+        let stress = EdgeStress::new(&plate.blade, &loads, 10);
+        let stiffness = edge_stiffness(&plate, &stress);
+        let [uniform, inverse] = lame(&plate.blade, pressure);
+        for r in [0.12, 0.2, 0.34] {
+            let at = stress.harmonic(0, r);
+            let scale = 1e-13 * pressure.abs();
+            assert!((at.radial_pa[0] - (uniform - inverse / (r * r))).abs() < scale);
+            assert!((at.hoop_pa[0] - (uniform + inverse / (r * r))).abs() < scale);
+            assert!(at.shear_pa[0].abs() < scale);
+        }
+        let mut expected = Mat::zeros(stiffness.nrows(), stiffness.ncols());
+        for n in 0..=5 {
+            let block = lame_block(&plate, pressure, n);
+            for j in 0..6 {
+                for k in 0..6 {
+                    for first in [plate.offset(n), plate.offset(n) + if n > 0 { 6 } else { 0 }] {
+                        expected[(first + j, first + k)] = block[(j, k)];
+                    }
+                }
+            }
+        }
+        let error = (&stiffness - &expected).norm_l2() / expected.norm_l2();
+        assert!(error < 1e-12, "{error}");
+    }
+}
+
+/// Squared frequencies of n diameters at rest: its cosines alone, K_b + K_e.
+fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64> {
+    let (size, first) = (plate.basis.len(), plate.offset(n));
+    let bending = &plate.harmonics[n].bending;
+    Mat::from_fn(size, size, |j, k| {
+        bending[(j, k)] + stiffness[(first + j, first + k)]
+    })
+    .self_adjoint_eigenvalues(Side::Lower)
+    .unwrap()
+}
+
+/// A blade under uniform tension p tilts at ω² = 4 p b²/ρ(b⁴ − a⁴) as long as it
+/// hardly bends; the waves of n = 2 … 5 move by what the ring's own matrix says.
+#[test]
+fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
+    let plate = free_plate(8);
+    let (a, b) = (plate.blade.inner_radius_m, plate.blade.outer_radius_m);
+    let pressure = 10.0;
+    let loads = uniform_tension(&plate.blade, pressure, 11);
+    let stiffness = edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &loads, 10));
+    let density = plate.blade.material.density_kg_per_m3;
+    let exact = 4.0 * pressure * b * b / (density * (b.powi(4) - a.powi(4)));
+    let tilt = squared_frequencies(&plate, &stiffness, 1)[0];
+    assert!((tilt / exact - 1.0).abs() < 1e-5, "{tilt} {exact}");
+
+    let pressure = 5.0e6;
+    let loads = uniform_tension(&plate.blade, pressure, 11);
+    let stiffness = edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &loads, 10));
+    for n in 2..=5 {
+        let loaded = squared_frequencies(&plate, &stiffness, n)[0];
+        let bending = &plate.harmonics[n].bending;
+        let block = lame_block(&plate, pressure, n);
+        let direct = Mat::from_fn(8, 8, |j, k| bending[(j, k)] + block[(j, k)])
+            .self_adjoint_eigenvalues(Side::Lower)
+            .unwrap()[0];
+        assert!(
+            (loaded / direct - 1.0).abs() < 1e-11,
+            "{n}: {loaded} {direct}"
+        );
+    }
+}
+
+#[test]
+fn a_torque_is_pure_shear() {
+    let blade = Scene::paper().blade;
+    let stress = EdgeStress::new(&blade, &LOADS, 12);
+    let torque = blade.outer_radius_m * LOADS.iter().map(|load| load.tangential_n).sum::<f64>();
+    for r in [blade.inner_radius_m, 0.2, blade.outer_radius_m] {
+        let exact = torque / (TAU * r * r * blade.thickness_m);
+        let [shear, _] = stress.harmonic(0, r).shear_pa;
+        assert!((shear / exact - 1.0).abs() < 1e-14, "{shear} {exact}");
+    }
+}
