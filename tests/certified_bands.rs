@@ -114,7 +114,7 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
         };
         let plate = Plate::new(&scene, resolution);
         let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;
-        let range = (0.0, 1.7 * first);
+        let range = (0.0, 1.5 * first);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let coarse = bands_of(&model, range, 25);
         let fine = bands_of(&model, range, 100);

@@ -278,16 +278,16 @@ fn edge(
     let outer = stations[stable].speed_rad_per_s;
     let (low, high) = (inner.min(outer), inner.max(outer));
     let mut critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    let meetings = events[stable.min(unstable)]
+    let mut meetings = events[stable.min(unstable)]
         .iter()
         .filter_map(|event| match event {
-            Event::Begin(_, speed) | Event::End(_, speed) => Some(*speed),
-            Event::Band(..) => None,
+            Event::Begin(edge) | Event::End(edge) if edge.real => Some(edge.speed_rad_per_s),
+            _ => None,
         });
     let meeting = if stable < unstable {
-        meetings.last()
+        meetings.next_back()
     } else {
-        { meetings }.next()
+        meetings.next()
     };
     let critical = critical.find(|c| (low..=high).contains(c));
     (critical.or(meeting).unwrap_or(inner), true)
@@ -323,12 +323,14 @@ fn flutter(
     for events in events {
         for event in events {
             match event {
-                Event::Begin(index, speed) => open.insert(index.min(open.len()), (speed, true)),
-                Event::End(index, speed) if index < open.len() => {
-                    let (from, begins) = open.remove(index);
-                    ranges.push((from, speed, begins));
+                Event::Begin(edge) => {
+                    open.insert(edge.index.min(open.len()), (edge.speed_rad_per_s, true));
                 }
-                Event::End(..) => {}
+                Event::End(edge) if edge.index < open.len() => {
+                    let (from, begins) = open.remove(edge.index);
+                    ranges.push((from, edge.speed_rad_per_s, begins));
+                }
+                Event::End(_) => {}
                 Event::Band(from, to) => ranges.push((from, to, true)),
             }
         }

@@ -27,12 +27,23 @@ const LEAST_WIDTH: f64 = 1e-9;
 /// What happens between two stations, in order of speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
-    /// The merged pair with this index (by frequency) begins.
-    Begin(usize, f64),
-    /// It ends.
-    End(usize, f64),
-    /// A whole band, at this place of the doubled list.
+    /// A merged pair begins.
+    Begin(Edge),
+    /// A merged pair ends.
+    End(Edge),
+    /// A whole band, from one speed to another.
     Band(f64, f64),
+}
+
+/// Begin or end of a merged pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Index of the pair among the merged ones, by frequency.
+    pub index: usize,
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Whether the pair comes from, or goes on as, two real λ.
+    pub real: bool,
 }
 
 /// Where the Krein index was compared, and where it did not match.
@@ -182,11 +193,19 @@ impl<'a> Finder<'a> {
     ) -> Result<(), SpectrumError> {
         let (x, y) = (a.speed_rad_per_s, b.speed_rad_per_s);
         let seen = change(&a.word(), &b.word());
-        let ambiguous = seen == Change::Several || (seen == Change::None && may_touch(a, b));
-        if ambiguous && y - x > LEAST_WIDTH * y {
-            let middle = self.station(0.5 * (x + y))?;
-            self.search(a, &middle, events)?;
-            return self.search(&middle, b, events);
+        if y - x > LEAST_WIDTH * y {
+            if seen == Change::Several || (seen == Change::None && may_touch(a, b)) {
+                let middle = self.station(0.5 * (x + y))?;
+                self.search(a, &middle, events)?;
+                return self.search(&middle, b, events);
+            }
+            if seen == Change::None && a.merged().next().is_some() {
+                let middle = self.station(0.5 * (x + y))?;
+                if merged_pairs_bend(a, &middle, b) {
+                    self.search(a, &middle, events)?;
+                    return self.search(&middle, b, events);
+                }
+            }
         }
         if seen != Change::None {
             events.extend(self.refined(a, b, seen)?);
@@ -203,14 +222,16 @@ impl<'a> Finder<'a> {
         Ok(match seen {
             Change::Exchange(place) => refine::band_between(self, a, b, place)?
                 .map(|Inside { from, to }| Event::Band(from, to)),
-            Change::Merge(place) => {
-                let speed = refine::boundary(self, a, b, place)?;
-                Some(Event::Begin(merged_before(b, place), speed))
-            }
-            Change::Part(place) => {
-                let speed = refine::boundary(self, b, a, place)?;
-                Some(Event::End(merged_before(a, place), speed))
-            }
+            Change::Merge(place) => Some(Event::Begin(Edge {
+                index: merged_before(b, place),
+                speed_rad_per_s: refine::boundary(self, a, b, place)?,
+                real: refine::is_real(a, place),
+            })),
+            Change::Part(place) => Some(Event::End(Edge {
+                index: merged_before(a, place),
+                speed_rad_per_s: refine::boundary(self, b, a, place)?,
+                real: refine::is_real(b, place),
+            })),
             Change::None | Change::Several => None,
         })
     }
@@ -227,10 +248,27 @@ fn merged_before(station: &Station, place: usize) -> usize {
         / 2
 }
 
+/// Whether a merged pair may have parted and merged again, or met the real axis and left
+/// it, between two stations of the same word. σ² and ω² are smooth there and pass through
+/// zero; where the middle is off the straight line by a quarter of the smallest value,
+/// zero may lie between.
+fn merged_pairs_bend(a: &Station, middle: &Station, b: &Station) -> bool {
+    if middle.word() != a.word() {
+        return true;
+    }
+    let bends = |values: [f64; 3]| {
+        let [left, between, right] = values.map(|v| v * v);
+        (between - 0.5 * (left + right)).abs() > 0.25 * left.min(between).min(right)
+    };
+    let pairs = a.merged().zip(middle.merged()).zip(b.merged());
+    pairs.into_iter().any(|((x, m), y)| {
+        bends([x.growth, m.growth, y.growth]) || bends([x.frequency, m.frequency, y.frequency])
+    })
+}
+
 /// Whether a + and a − mode next to each other may meet and part again between two
 /// stations of the same word: their gap closes at one end, opens at the other, and
-/// its tangents meet below a quarter of the smaller gap. Likewise a merged pair may part
-/// and merge again.
+/// its tangents meet below a quarter of the smaller gap.
 fn may_touch(a: &Station, b: &Station) -> bool {
     let width = b.speed_rad_per_s - a.speed_rad_per_s;
     let (left, right) = (a.doubled(), b.doubled());

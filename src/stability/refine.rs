@@ -68,7 +68,8 @@ pub fn boundary(
     false_position(&near, &before, &after, place)
 }
 
-fn is_real(station: &Station, place: usize) -> bool {
+/// Whether the token at a place of the doubled list is a real λ.
+pub fn is_real(station: &Station, place: usize) -> bool {
     station
         .doubled()
         .get(place)

@@ -47,7 +47,7 @@ fn lame(blade: &Blade, pressure_pa: f64) -> [f64; 2] {
 fn lame_block(plate: &Plate, pressure_pa: f64, n: usize) -> Mat<f64> {
     let [uniform, inverse] = lame(&plate.blade, pressure_pa);
     let density = plate.blade.material.density_kg_per_m3;
-    let size = plate.basis.len();
+    let size = plate.basis.count();
     let mut block = Mat::zeros(size, size);
     for (r, w) in plate.basis.rule().iter() {
         let f = plate.basis.evaluate(n, r);
@@ -96,7 +96,7 @@ fn a_uniform_pressure_is_lames_ring() {
 
 /// Squared frequencies of n diameters at rest: its cosines alone, K_b + K_e.
 fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64> {
-    let (size, first) = (plate.basis.len(), plate.offset(n));
+    let (size, first) = (plate.basis.count(), plate.offset(n));
     let bending = &plate.harmonics[n].bending;
     Mat::from_fn(size, size, |j, k| {
         bending[(j, k)] + stiffness[(first + j, first + k)]

@@ -18,7 +18,7 @@ const PHASES: [Phase; 2] = [Phase::Cosine, Phase::Sine];
 /// With a tension K_e is positive, with a thrust negative. On the rigid tilts it is
 /// the moment that dead forces exert on a tilted blade; on heave it vanishes.
 pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
-    let size = plate.basis.len();
+    let size = plate.basis.count();
     let max_order = stress.max_order().min(2 * plate.max_diameters());
     let samples = Sample::on_blade(plate, sufficient_points(size, max_order));
     let integrals = RadialIntegrals::of_orders(&samples, stress, max_order);
@@ -53,7 +53,7 @@ fn offset(plate: &Plate, wave: Wave) -> usize {
     let cosine = plate.offset(wave.order);
     match wave.phase {
         Phase::Cosine => cosine,
-        Phase::Sine => cosine + plate.basis.len(),
+        Phase::Sine => cosine + plate.basis.count(),
     }
 }
 
