@@ -9,7 +9,8 @@ use crate::plate::Plate;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
 
 use super::mode::{DynamicStiffness, ModeKind, classify, split};
-use super::model::{NamedCriticalSpeed, WorkCounters, frequency_scale, lift};
+use super::model::WorkCounters;
+use super::part::{NamedCriticalSpeed, frequency_scale, lift};
 use super::{companion_eigenpairs, lowest_eigenpairs};
 
 /// A part projected on few orthonormal vectors.

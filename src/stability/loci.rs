@@ -2,7 +2,8 @@
 
 use faer::c64;
 
-use super::bands::{Instability, meeting_modes};
+use super::bands::Instability;
+use super::flutter::meeting_modes;
 use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
 
 /// Two eigenvalues over speed.

@@ -3,7 +3,9 @@
 mod analysis;
 mod bands;
 mod damped;
+mod divergence;
 mod finder;
+mod flutter;
 mod loci;
 mod refine;
 mod sensitivity;

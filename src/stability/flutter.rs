@@ -1,0 +1,114 @@
+//! Flutter: a + and a − mode that have merged.
+
+use rayon::prelude::*;
+
+use super::bands::{Instability, InstabilityKind};
+use super::finder::{Event, Finder};
+use super::refine;
+use super::station::Station;
+use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
+
+/// Bands in which a + and a − mode have merged.
+pub(super) fn flutter(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    stations: &[Station],
+    events: Vec<Vec<Event>>,
+) -> Result<Vec<Instability>, SpectrumError> {
+    let Some((first, last)) = stations.first().zip(stations.last()) else {
+        return Ok(Vec::new());
+    };
+    // Pairs merged at the current speed, by frequency, with where they began.
+    let begun = first.speed_rad_per_s;
+    let mut open: Vec<(f64, bool)> = first.merged().map(|_| (begun, false)).collect();
+    let mut ranges: Vec<(f64, f64, bool)> = Vec::new();
+    for events in events {
+        for event in events {
+            match event {
+                Event::Begin(edge) => {
+                    open.insert(edge.index.min(open.len()), (edge.speed_rad_per_s, true));
+                }
+                Event::End(edge) if edge.index < open.len() => {
+                    let (from, begins) = open.remove(edge.index);
+                    ranges.push((from, edge.speed_rad_per_s, begins));
+                }
+                Event::End(_) => {}
+                Event::Band(from, to) => ranges.push((from, to, true)),
+            }
+        }
+    }
+    ranges.extend(
+        open.iter()
+            .map(|(from, _)| (*from, last.speed_rad_per_s, false)),
+    );
+    ranges
+        .into_par_iter()
+        .map(|(from, to, closed)| band(model, finder, from, to, closed))
+        .collect()
+}
+
+fn band(
+    model: &SpectralModel,
+    finder: &Finder<'_>,
+    from: f64,
+    to: f64,
+    closed: bool,
+) -> Result<Instability, SpectrumError> {
+    let finder = finder.narrowed(from, to)?;
+    let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
+    let mut frequencies = [0.0; 2];
+    for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
+        let station = finder.station(speed)?;
+        // Of several merged pairs the one that has only just merged is the one at its edge.
+        let slowest = station
+            .merged()
+            .min_by(|x, y| x.growth.total_cmp(&y.growth));
+        *frequency = slowest.map_or(0.0, |t| t.frequency);
+    }
+    let expected = |speed: f64| {
+        let share = (speed - from) / (to - from);
+        frequencies[0] + share * (frequencies[1] - frequencies[0])
+    };
+    let pair = |speed: f64| -> Result<(f64, f64), SpectrumError> {
+        let near = |f: f64| (f - expected(speed)).abs();
+        let station = finder.station(speed)?;
+        let nearest = station
+            .merged()
+            .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
+        Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
+    };
+    let (peak, _) = refine::maximise((from, to), closed, |speed| Ok(pair(speed)?.0.powi(2)))?;
+    let (peak_growth_per_s, frequency) = pair(peak)?;
+    Ok(Instability {
+        kind: InstabilityKind::Flutter,
+        from,
+        to,
+        closed,
+        peak,
+        peak_growth_per_s,
+        frequency,
+        modes: meeting_modes(model, from, frequencies[0])?,
+    })
+}
+
+/// Names of the + and the − mode next to a frequency just below an onset.
+pub(super) fn meeting_modes(
+    model: &SpectralModel,
+    onset: f64,
+    frequency: f64,
+) -> Result<Vec<String>, SpectrumError> {
+    let before = onset * (1.0 - 1e-5);
+    let mut modes = model.modes(before)?;
+    modes.retain(|m| m.krein_sign() != 0);
+    let distance = |m: &Mode| (m.frequency_rad_per_s() - frequency).abs();
+    modes.sort_by(|x, y| distance(x).total_cmp(&distance(y)));
+    let mut pair = Vec::new();
+    for sign in [1, -1] {
+        pair.extend(modes.iter().find(|m| m.krein_sign() == sign).cloned());
+    }
+    let described = model.describe(before, pair);
+    Ok(described
+        .iter()
+        .map(|m| in_words(m.name.diameters, m.name.circles, m.name.direction))
+        .collect())
+}
