@@ -1,6 +1,6 @@
 //! Figures, drawn from a [`Report`](crate::report::Report) alone.
 //!
-//! A figure is first laid out on a [`Sheet`](canvas::Sheet), a list of marks in
+//! A figure is first laid out on a `Sheet`, a list of marks in
 //! figure units, and then rendered to PNG bytes or an SVG string. Nothing here
 //! writes files.
 

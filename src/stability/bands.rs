@@ -130,13 +130,15 @@ pub(super) fn with_critical_speeds(
     if model.plate.is_axisymmetric() {
         // A wave of the free blade runs through zero without diverging; a speed so
         // close to that zero that its sign is rounding says nothing.
-        let clear = |s: &f64| {
-            model
-                .critical
-                .iter()
-                .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > 1e-5)
-        };
+        let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+        let clear = |s: &f64| critical.iter().all(|c| (s / c - 1.0).abs() > 1e-5);
         speeds.retain(clear);
+        let beside = critical
+            .iter()
+            .flat_map(|c| [c * (1.0 - 1e-4), c * (1.0 + 1e-4)]);
+        speeds.extend(beside.filter(|s| (range.0..range.1).contains(s)));
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
         return speeds;
     }
     let mut sides: Vec<f64> = Vec::new();
