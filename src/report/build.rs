@@ -350,15 +350,10 @@ fn warnings(analysis: &Analysis) -> Vec<String> {
             rpm(*first)
         ));
     }
-    let unresolved = analysis
-        .model
-        .critical
-        .iter()
-        .any(|c| c.diameters == plate.max_diameters() && c.speed_rad_per_s < analysis.range.1);
-    if unresolved {
+    if analysis.chart.certificate.gave_up {
         warnings.push(format!(
-            "waves of more than {} diameters become critical within the sweep, and are not in the basis",
-            plate.max_diameters()
+            "the search for bands stopped after {} speeds: bands may be missing; narrow the sweep",
+            certificate.speeds_checked
         ));
     }
     if matches!(blade.bore, Bore::Free)

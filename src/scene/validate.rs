@@ -220,6 +220,12 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         };
         return Err(refuse(key, inner, allowed, remedy));
     }
+    let width = 0.5 * (outer - inner);
+    if thickness_m > width {
+        let allowed = format!("at most the width of the moving ring ({width} m)");
+        let remedy = "a body thicker than wide is no plate; is the thickness in metres?";
+        return Err(refuse("blade.thickness_m", thickness_m, allowed, remedy));
+    }
     Ok(Blade {
         inner_radius_m: 0.5 * inner,
         outer_radius_m: 0.5 * outer,

@@ -51,4 +51,16 @@ pub enum SpectrumError {
         /// Rotation speed.
         rpm: f64,
     },
+    /// Waves that the basis does not hold become critical within the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that this accuracy holds, are critical there; end the sweep earlier or ask for a finer accuracy"
+    )]
+    Unresolved {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Lowest critical speed of the most diameters.
+        limit_rpm: f64,
+        /// Largest number of nodal diameters in the basis.
+        diameters: usize,
+    },
 }

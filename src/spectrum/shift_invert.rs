@@ -91,7 +91,7 @@ pub fn lowest_eigenpairs(
     });
     let start = Scale(1.0 / start.norm_l2()) * start;
     let params = PartialEigenParams {
-        max_restarts: 60,
+        max_restarts: 20,
         ..Default::default()
     };
     let scratch = partial_eigen_scratch(&operator, wanted, Par::Seq, params);

@@ -48,7 +48,9 @@ impl Analysis {
             Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
             None => (0.0, default_top(&coarse)),
         };
-        let model = SpectralModel::new(Plate::new(scene, resolution), range, Strategy::Reduced)?;
+        let plate = Plate::new(scene, resolution);
+        refuse_unresolved(&plate, range.1)?;
+        let model = SpectralModel::new(plate, range, Strategy::Reduced)?;
         let chart = chart(&model, range, CHART_SPEEDS, progress)?;
         let mut flutter = chart
             .instabilities
@@ -84,6 +86,26 @@ impl Analysis {
         bands
             .iter()
             .position(|b| (b.from..=b.to).contains(&speed_rad_per_s))
+    }
+}
+
+/// Past the critical speed of the waves of most diameters those of more, which the basis
+/// lacks, would be reflected too: the chart would be wrong without a sign of it.
+fn refuse_unresolved(plate: &Plate, to_rad_per_s: f64) -> Result<(), SpectrumError> {
+    let critical = SpectralModel::critical_speeds(plate)?;
+    let last = plate.max_diameters();
+    // Stiff guides mix the waves beyond recognition; but there are two of each n ≥ 2.
+    let all_pairs = critical.get(2 * (last - 1));
+    let most_diameters = critical.iter().find(|c| c.diameters == last);
+    let highest = [all_pairs, most_diameters].into_iter().flatten();
+    let highest = highest.min_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    match highest {
+        Some(c) if c.speed_rad_per_s < to_rad_per_s => Err(SpectrumError::Unresolved {
+            to_rpm: rpm(to_rad_per_s),
+            limit_rpm: rpm(c.speed_rad_per_s),
+            diameters: plate.max_diameters(),
+        }),
+        _ => Ok(()),
     }
 }
 

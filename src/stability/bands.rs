@@ -47,6 +47,8 @@ pub struct Certificate {
     pub speeds_checked: usize,
     /// Speeds at which it did not match, not even on the whole basis, in rad/s.
     pub violations: Vec<f64>,
+    /// Whether the search ran out of its allowance of speeds.
+    pub gave_up: bool,
 }
 
 /// Everything about the stability of a saw over a range of speeds.

@@ -24,6 +24,10 @@ pub const CRITICAL_GROUP: f64 = 2e-5;
 /// Intervals below this relative width are not halved any more.
 const LEAST_WIDTH: f64 = 1e-9;
 
+/// Speeds that a search may look at: twenty times what a saw needs. It bounds the time
+/// where modes cannot be told apart.
+const MOST_SPEEDS: usize = 20_000;
+
 /// What happens between two stations, in order of speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
@@ -79,7 +83,12 @@ impl<'a> Finder<'a> {
         Certificate {
             speeds_checked: self.tally.checked.load(Ordering::Relaxed),
             violations,
+            gave_up: self.is_exhausted(),
         }
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
     }
 
     /// A cheaper finder for the speeds between `from` and `to`.
@@ -193,7 +202,7 @@ impl<'a> Finder<'a> {
     ) -> Result<(), SpectrumError> {
         let (x, y) = (a.speed_rad_per_s, b.speed_rad_per_s);
         let seen = change(&a.word(), &b.word());
-        if y - x > LEAST_WIDTH * y {
+        if y - x > LEAST_WIDTH * y && !self.is_exhausted() {
             if seen == Change::Several || (seen == Change::None && may_touch(a, b)) {
                 let middle = self.station(0.5 * (x + y))?;
                 self.search(a, &middle, events)?;
