@@ -310,6 +310,18 @@ fn refined(system: &GyroscopicSystem, speed: f64, lambda: c64, q: &Col<c64>) -> 
     (lambda, correction)
 }
 
+/// A speed at which one of the five lowest modes flutters.
+fn fluttering_rpm(system: &GyroscopicSystem) -> f64 {
+    let flutters = |rpm: &f64| {
+        let lambdas = by_faer(system, rad_per_s(*rpm));
+        lambdas.iter().take(5).any(|l| l.re > 0.1 && l.im > 1.0)
+    };
+    let mut speeds = (150..400).map(|k| 10.0 * f64::from(k));
+    speeds
+        .find(flutters)
+        .expect("every guided saw flutters somewhere")
+}
+
 /// The matrices are taken as they are, in double precision; the mode is exact for them.
 #[test]
 fn both_solvers_against_a_hundred_digits() {
@@ -319,9 +331,10 @@ fn both_solvers_against_a_hundred_digits() {
     };
     let (mut first, mut second) = (Worst::default(), Worst::default());
     let mut growing = 0;
+    let flutters = fluttering_rpm(&systems(&common::scene("paper"), resolution)[0]);
     for (name, rpm) in [
         ("paper", 1200.0),
-        ("paper", 2400.0),
+        ("paper", flutters),
         ("collar-400mm", 3000.0),
     ] {
         let speed = rad_per_s(rpm);
@@ -341,7 +354,7 @@ fn both_solvers_against_a_hundred_digits() {
             second.add(nearest.fold(f64::INFINITY, f64::min), place);
         }
     }
-    println!("{growing} of them grow");
+    assert!(growing > 0, "no growing mode was looked at");
     first.assert_at_most("faer, relative to each λ", 1e-11);
     second.assert_at_most("nalgebra, relative to each λ", 1e-11);
 }
