@@ -7,17 +7,15 @@
 
 mod common;
 
-use std::f64::consts::TAU;
-
 use common::relative_error;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
-use sawflutter::plate::{HarmonicBlock, Plate, RadialBasis, Resolution};
+use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
-    Accuracy, Blade, GuideFile, InPlane, Material, Mount, Scene, SceneFile, rad_per_s,
+    Accuracy, GuideFile, InPlane, Material, Mount, Scene, SceneFile, SweepFile, rad_per_s, rpm,
 };
 use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
-use sawflutter::stability::undamped_bands;
+use sawflutter::stability::{Analysis, undamped_bands};
 use serde::Deserialize;
 
 /// One line of the table.
@@ -51,9 +49,14 @@ impl Row {
 
     /// Pairs of numbers, by their relative difference.
     fn compare(&mut self, actual: &[f64], expected: &[f64], place: &str) {
-        assert!(!expected.is_empty() && actual.len() >= expected.len(), "{place}");
+        assert!(
+            !expected.is_empty() && actual.len() >= expected.len(),
+            "{place}"
+        );
         for (k, (a, e)) in actual.iter().zip(expected).enumerate() {
-            self.add(relative_error(*a, *e), || format!("{place}, no. {k}: {a} for {e}"));
+            self.add(relative_error(*a, *e), || {
+                format!("{place}, no. {k}: {a} for {e}")
+            });
         }
     }
 }
@@ -99,7 +102,9 @@ fn signature(file: &SceneFile) -> Vec<f64> {
     let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
     assert_eq!(certificate.violations, Vec::<f64>::new());
     assert!(bands.len() >= 3, "{bands:?}");
-    let edges = bands.iter().flat_map(|b| [b.from, b.to, b.peak_growth_per_s]);
+    let edges = bands
+        .iter()
+        .flat_map(|b| [b.from, b.to, b.peak_growth_per_s]);
     let critical = model.critical.iter().take(6).map(|c| c.speed_rad_per_s);
     edges.chain(critical).collect()
 }
@@ -159,7 +164,7 @@ struct Root {
     lambda2: f64,
 }
 
-fn annulus(root: &Root) -> Blade {
+fn annulus(root: &Root) -> Scene {
     let mut file = unguided();
     let blade = &mut file.blade;
     blade.outer_diameter_m = 0.8;
@@ -176,17 +181,22 @@ fn annulus(root: &Root) -> Blade {
             in_plane: InPlane::Free,
         };
     }
-    scene(&file).blade
+    scene(&file)
 }
 
-/// Lowest elastic λ² = ωb²√(ρh/D) of n diameters.
-fn lowest_root(blade: &Blade, n: usize, functions: usize) -> f64 {
-    let block = HarmonicBlock::new(blade, &RadialBasis::new(blade, functions), n);
-    let mut squares: Vec<f64> = SymmetricEigen::new(block.bending).eigenvalues.as_slice().to_vec();
-    squares.sort_by(f64::total_cmp);
-    let rigid = usize::from(blade.bore == sawflutter::scene::Bore::Free && n <= 1);
+/// Lowest elastic λ² = ωb²√(ρh/D) of n diameters, as the program finds it at rest.
+fn lowest_root(scene: &Scene, n: usize, radial_functions: usize) -> f64 {
+    let resolution = Resolution {
+        max_diameters: n,
+        radial_functions,
+    };
+    let plate = Plate::new(scene, resolution);
+    let model = SpectralModel::new(plate, (0.0, rad_per_s(100.0)), Strategy::Reduced).unwrap();
+    let modes = model.all_modes(0.0).unwrap();
+    let lowest = common::of_diameters(&modes, n).find(|mode| mode.kind != ModeKind::Rigid);
+    let blade = &scene.blade;
     let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
-    squares[rigid].sqrt() / specific.sqrt() * blade.outer_radius_m.powi(2)
+    lowest.unwrap().frequency_rad_per_s() / specific.sqrt() * blade.outer_radius_m.powi(2)
 }
 
 fn bessel(mut row: Row, functions: usize, chosen: impl Fn(&Root) -> bool) -> Row {
@@ -195,12 +205,14 @@ fn bessel(mut row: Row, functions: usize, chosen: impl Fn(&Root) -> bool) -> Row
     for root in roots.iter().filter(|root| chosen(root)) {
         assert_eq!(root.s, 0);
         let found = lowest_root(&annulus(root), root.n, functions);
-        let Root { bc, nu, ratio, n, .. } = root;
+        let Root {
+            bc, nu, ratio, n, ..
+        } = root;
         let place = format!("{bc}, nu = {nu}, a/b = {ratio}, n = {n}");
         row.compare(&[found], &[root.lambda2], &place);
         count += 1;
     }
-    assert!(count >= 3, "{}: {count}", row.what);
+    assert!(count > 0, "{}", row.what);
     row
 }
 
@@ -212,13 +224,23 @@ fn needle_bore() -> Row {
 }
 
 fn narrow_ring() -> Row {
-    let row = Row::new("bore ratio, free", "0.995, n = 0 to 4", BESSEL, 1e-5);
+    // The fourth radial mode of such a ring is a million times faster than the first: an
+    // unsymmetric eigen-solver leaves ε(ω₄/ω₁)² = 2e-4, and the report warns of it.
+    let range = "0.995, n = 0 to 4 (the report warns of rounding)";
+    let row = Row::new("bore ratio, free", range, BESSEL, 2e-4);
     bessel(row, 12, |r| r.ratio == 0.995 && r.bc == "FF")
 }
 
 fn needle_collar() -> Row {
-    let row = Row::new("bore ratio, clamped", "0.001, n = 2 to 4", BESSEL, 1e-3);
+    let row = Row::new("bore ratio, clamped", "0.001, n = 2 to 4", BESSEL, 1e-4);
     bessel(row, 12, |r| r.ratio == 0.001 && r.bc == "CF" && r.n >= 2)
+}
+
+fn needle_collar_umbrella() -> Row {
+    let what = "bore ratio, clamped (logarithmic at the bore)";
+    bessel(Row::new(what, "0.001, n = 0", BESSEL, 1e-2), 12, |r| {
+        r.ratio == 0.001 && r.bc == "CF" && r.n == 0
+    })
 }
 
 fn narrow_clamped_ring() -> Row {
@@ -232,12 +254,24 @@ fn poisson_ratios() -> Row {
 }
 
 fn diameters_of_the_reference_basis() -> Row {
-    let row = Row::new("nodal diameters, 12 radial functions", "8 to 24", BESSEL, 1e-5);
-    bessel(row, 12, |r| r.ratio == 0.3 && r.nu == 0.3 && (8..=24).contains(&r.n))
+    let row = Row::new(
+        "nodal diameters, 12 radial functions",
+        "8 to 24",
+        BESSEL,
+        1e-5,
+    );
+    bessel(row, 12, |r| {
+        r.ratio == 0.3 && r.nu == 0.3 && (8..=24).contains(&r.n)
+    })
 }
 
 fn many_diameters() -> Row {
-    let row = Row::new("nodal diameters, 24 radial functions", "8 to 64", BESSEL, 1e-6);
+    let row = Row::new(
+        "nodal diameters, 24 radial functions",
+        "8 to 64",
+        BESSEL,
+        1e-6,
+    );
     bessel(row, 24, |r| r.ratio == 0.3 && r.nu == 0.3 && r.n >= 8)
 }
 
@@ -300,12 +334,22 @@ fn membrane_disk() -> Row {
         let (nu, m) = (0.29, f64::from(n));
         let square = ((3.0 + nu) * m * (m + 2.0) - m * m * (1.0 + 3.0 * nu)) / 8.0;
         // The wave found both ways; below nΩ it is the reflected one.
-        let plate = Plate::new(&scene(&membrane(0.001)), Resolution::of(Accuracy::Reference));
+        let plate = Plate::new(
+            &scene(&membrane(0.001)),
+            Resolution::of(Accuracy::Reference),
+        );
         let block = &plate.harmonics[n as usize];
         let stiffness = &block.spin + DMatrix::identity(12, 12) * (m * m);
-        let mut squares: Vec<f64> = SymmetricEigen::new(stiffness).eigenvalues.as_slice().to_vec();
+        let mut squares: Vec<f64> = SymmetricEigen::new(stiffness)
+            .eigenvalues
+            .as_slice()
+            .to_vec();
         squares.sort_by(f64::total_cmp);
-        row.compare(&[squares[0].sqrt()], &[square.sqrt()], &format!("n = {n}, matrix"));
+        row.compare(
+            &[squares[0].sqrt()],
+            &[square.sqrt()],
+            &format!("n = {n}, matrix"),
+        );
         let model = SpectralModel::new(plate, (0.0, speed), Strategy::Reduced).unwrap();
         let modes = model.all_modes(speed).unwrap();
         let expected = speed * (m + square.sqrt());
@@ -314,18 +358,17 @@ fn membrane_disk() -> Row {
             .filter(|mode| mode.part == n as usize)
             .map(|mode| mode.frequency_rad_per_s())
             .min_by(|x, y| (x - expected).abs().total_cmp(&(y - expected).abs()));
-        row.compare(&[nearest.unwrap()], &[expected], &format!("n = {n}, forward"));
+        row.compare(
+            &[nearest.unwrap()],
+            &[expected],
+            &format!("n = {n}, forward"),
+        );
     }
     row
 }
 
 fn hardly_turning() -> Row {
-    let mut row = Row::new(
-        "speed",
-        "0 and 1e-6 rpm",
-        "frequencies at rest, ± nΩ",
-        1e-8,
-    );
+    let mut row = Row::new("speed", "0 and 1e-6 rpm", "frequencies at rest, ± nΩ", 1e-8);
     let plate = Plate::new(&scene(&unguided()), Resolution::of(Accuracy::Design));
     let harmonics = plate.harmonics.clone();
     let model = SpectralModel::new(plate, (0.0, rad_per_s(3000.0)), Strategy::Reduced).unwrap();
@@ -334,8 +377,10 @@ fn hardly_turning() -> Row {
         let modes = model.all_modes(speed).unwrap();
         for block in &harmonics[..6] {
             let n = block.diameters;
-            let mut squares: Vec<f64> =
-                SymmetricEigen::new(block.bending.clone()).eigenvalues.as_slice().to_vec();
+            let mut squares: Vec<f64> = SymmetricEigen::new(block.bending.clone())
+                .eigenvalues
+                .as_slice()
+                .to_vec();
             squares.sort_by(f64::total_cmp);
             let lowest = squares[usize::from(n <= 1)].sqrt();
             let found: Vec<f64> = modes
@@ -415,7 +460,11 @@ fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64>
             if middle <= low || middle >= high {
                 break;
             }
-            if sum(middle) < 0.0 { low = middle } else { high = middle }
+            if sum(middle) < 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         critical.push((0.5 * (low + high)).sqrt());
     }
@@ -446,7 +495,7 @@ fn soft_to_stiff_spring() -> Row {
 }
 
 fn rigid_spring() -> Row {
-    springs("1e12 to 1e15 N/m (pinned)", &[1e12, 1e15], 1e-4)
+    springs("1e12 to 1e15 N/m (pinned)", &[1e12, 1e15], 1e-5)
 }
 
 /// A pad under the whole blade, N/m in all.
@@ -465,8 +514,8 @@ fn pad_under_the_whole_blade() -> Row {
     let mut row = Row::new(
         "pad larger than the blade",
         "1e-3 to 1e15 N/m",
-        "on the blade ω² = ω²(free) + k″/ρh, error relative to the lowest elastic frequency",
-        1e-6,
+        "on the blade ω² = ω²(free) + k″/ρh",
+        1e-7,
     );
     let speed = rad_per_s(1200.0);
     for stiffness in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e12, 1e15] {
@@ -495,10 +544,17 @@ fn pad_under_the_whole_blade() -> Row {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, (0.0, speed), Strategy::Dense).unwrap();
         let modes = model.all_modes(speed).unwrap();
-        expected.sort_by(f64::total_cmp);
-        for (mode, omega) in modes.iter().zip(&expected).take(12) {
-            let error = (mode.lambda - faer::c64::new(0.0, *omega)).norm() / unit;
-            row.add(error, || format!("{stiffness:e} N/m: {} for {omega}", mode.lambda));
+        // Motions slower than 1e-6 of an elastic one are all but rigid: √ε of it is rounding.
+        let rigid = |omega: f64| omega < 1e-6 * unit;
+        let off = |x: f64, y: f64| (x - y).abs() / unit;
+        let found: Vec<f64> = modes.iter().map(|m| m.frequency_rad_per_s()).collect();
+        for omega in expected.iter().filter(|omega| !rigid(**omega)) {
+            let nearest = found.iter().map(|f| off(*f, *omega));
+            let error = nearest.fold(f64::INFINITY, f64::min) * unit / unit.max(*omega);
+            row.add(error, || format!("{stiffness:e} N/m: {omega}"));
+        }
+        for mode in &modes {
+            assert_eq!(mode.kind, ModeKind::Positive, "{}", mode.lambda);
         }
     }
     row
@@ -625,17 +681,22 @@ fn units() -> Row {
     ] {
         let file = in_other_units(length, mass, time);
         let expected = scaled(&reference, 1.0 / time);
-        row.compare(&signature(&file), &expected, &format!("L {length:e}, M {mass:e}, T {time:e}"));
+        row.compare(
+            &signature(&file),
+            &expected,
+            &format!("L {length:e}, M {mass:e}, T {time:e}"),
+        );
     }
     row
 }
 
-const ALL: [fn() -> Row; 20] = [
+const ALL: [fn() -> Row; 21] = [
     thickness_of_a_free_blade,
     thickness_of_a_guided_blade,
     needle_bore,
     narrow_ring,
     needle_collar,
+    needle_collar_umbrella,
     narrow_clamped_ring,
     poisson_ratios,
     diameters_of_the_reference_basis,
@@ -653,23 +714,104 @@ const ALL: [fn() -> Row; 20] = [
     units,
 ];
 
+const FILE: &str = "docs/extremes.md";
+
+const HEAD: &str = "\
+# Extremes
+
+Where users may push the numbers, and the largest relative error found there against an
+independent answer. Made by `WRITE_EXTREMES=1 cargo test --release --test extremes`; the same
+test without the variable fails where an error exceeds what is asked, or this page does not
+tell what was found.
+
+| what | range | independent answer | asked | reached |
+|---|---|---|---|---|
+";
+
+/// The line of the table without the error reached.
+fn line_start(row: &Row) -> String {
+    let Row {
+        what,
+        range,
+        answer,
+        asked,
+        ..
+    } = row;
+    format!("| {what} | {range} | {answer} | {asked:.0e} | ")
+}
+
+/// What the page says was reached, by the start of each line. Rounding differs from one
+/// processor to the next, so a page is current while no error is three times what it says.
+fn assert_current(rows: &[Row]) {
+    let page = std::fs::read_to_string(common::path(FILE)).unwrap();
+    let lines = page.lines().filter(|line| line.starts_with("| ")).count();
+    assert_eq!(
+        lines,
+        rows.len() + 1,
+        "{FILE} has other lines than the test"
+    );
+    for row in rows {
+        let start = line_start(row);
+        let line = page.lines().find_map(|line| line.strip_prefix(&start));
+        let stated: f64 = line
+            .and_then(|rest| rest.trim_end_matches([' ', '|']).parse().ok())
+            .unwrap_or_else(|| panic!("{FILE} does not have {start}"));
+        let rounding = 1e-14;
+        assert!(
+            row.reached <= 3.0 * stated + rounding,
+            "{FILE} is not current: {start}{:.1e}",
+            row.reached
+        );
+    }
+}
+
 #[test]
 fn every_extreme_keeps_its_promise() {
     let rows: Vec<Row> = ALL.par_iter().map(|row| row()).collect();
-    let mut bad = 0;
+    let mut missed = Vec::new();
     for row in &rows {
-        let kept = row.reached <= row.asked;
-        bad += usize::from(!kept);
-        println!(
-            "{} {} [{}]: {:.1e} of {:.0e} at {}",
-            if kept { "ok  " } else { "MISS" },
-            row.what,
-            row.range,
-            row.reached,
-            row.asked,
-            row.place
-        );
+        let line = format!("{}{:.1e} at {}", line_start(row), row.reached, row.place);
+        println!("{line}");
+        // A NaN misses.
+        if !(row.reached <= row.asked) {
+            missed.push(line);
+        }
     }
-    let _ = TAU;
-    assert_eq!(bad, 0);
+    assert!(missed.is_empty(), "{missed:#?}");
+    if std::env::var_os("WRITE_EXTREMES").is_some() {
+        let lines = rows
+            .iter()
+            .map(|row| format!("{}{:.1e} |\n", line_start(row), row.reached));
+        let page = HEAD.to_owned() + &lines.collect::<String>();
+        std::fs::write(common::path(FILE), page).unwrap();
+    }
+    assert_current(&rows);
+}
+
+/// A stiff pad bends the blade at its edges, which no basis follows for ever: the error that
+/// a report estimates must not be smaller than the distance to a finer basis.
+#[test]
+fn where_the_basis_is_too_coarse_the_estimate_says_so() {
+    let estimate = |file: &SceneFile| {
+        let mut file = file.clone();
+        file.accuracy = Accuracy::Draft;
+        let first = critical(&file, Resolution::of(Accuracy::Draft))[0];
+        file.sweep = Some(SweepFile {
+            from_rpm: 0.0,
+            to_rpm: 1.01 * rpm(first),
+        });
+        let analysis = Analysis::new(&scene(&file), &|_, _| ()).unwrap();
+        analysis.estimated_relative_error.unwrap()
+    };
+    for stiffness in [1e3, 1e6, 1e9, 1e12, 1e15] {
+        let mut file = paper();
+        file.guides[0].stiffness_n_per_m = stiffness;
+        let draft = critical(&file, Resolution::of(Accuracy::Draft));
+        let design = critical(&file, Resolution::of(Accuracy::Design));
+        let errors = draft.iter().zip(&design).take(6);
+        let error = errors.fold(0.0_f64, |top, (x, y)| top.max(relative_error(*x, *y)));
+        let estimated = estimate(&file);
+        println!("{stiffness:e} N/m: draft is off by {error:.1e}, says {estimated:.1e}");
+        assert!(error <= estimated, "{stiffness:e}: {error:e} {estimated:e}");
+    }
 }
