@@ -123,6 +123,8 @@ const SPAN: (f64, f64) = (1e-12, 1e15);
 /// A pad stiffer than this is, to all digits of a double, a rigid one.
 const MAX_GUIDE: f64 = 1e18;
 const MAX_RPM: f64 = 1e9;
+/// Each pad costs an integral over the whole basis; no saw has a hundredth of these.
+const MAX_GUIDES: usize = 256;
 
 fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static str) -> SceneError {
     SceneError::Value {
@@ -156,6 +158,11 @@ impl TryFrom<SceneFile> for Scene {
 
     fn try_from(file: SceneFile) -> Result<Self, SceneError> {
         let blade = blade(&file)?;
+        if file.guides.len() > MAX_GUIDES {
+            let remedy = "join pads that lie side by side";
+            let (count, allowed) = (file.guides.len(), format!("at most {MAX_GUIDES} pads"));
+            return Err(refuse("guides", count as f64, allowed, remedy));
+        }
         let guides = file
             .guides
             .iter()

@@ -8,6 +8,7 @@ use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::SpectrumError;
+use super::deflation::Deflation;
 
 /// λ, in 1/s, and q with (λ² + λD + K) q = 0.
 pub type Eigenpair = (c64, Col<c64>);
@@ -25,7 +26,8 @@ pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     }
 }
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
+/// each rigid motion that nothing holds there is one, with λ = 0 exactly.
 ///
 /// # Errors
 /// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
@@ -54,12 +56,24 @@ pub fn companion_eigenpairs(
         .rb_mut()
         .subcols_mut(size, size)
         .copy_from(Scale(-1.0 / scale) * &velocity);
+    let deflation = Deflation::new(system, &velocity, scale);
+    if let Some(Deflation { kept, .. }) = &deflation {
+        state = kept.transpose() * state * kept;
+    }
     let eigen = Eigen::new_from_real(state.as_ref())
         .map_err(|_| failed(|order, rpm| SpectrumError::NoConvergence { order, rpm }))?;
-    let pairs = (0..2 * size)
-        .map(|i| (eigen.S()[i] * scale, eigen.U().col(i).subrows(0, size)))
-        .filter(|(lambda, _)| lambda.im >= 0.0)
-        .map(|(lambda, q)| (lambda, unit(q)))
+    let displacement = |i: usize| match &deflation {
+        Some(deflation) => deflation.displacement(eigen.S()[i], &eigen.U().col(i).to_owned()),
+        None => eigen.U().col(i).subrows(0, size).to_owned(),
+    };
+    let free = system.free_rigid.iter().map(|z| {
+        let z = Col::from_fn(size, |i| c64::new(z[i], 0.0));
+        (c64::new(0.0, 0.0), z)
+    });
+    let pairs = (0..state.nrows())
+        .filter(|&i| eigen.S()[i].im >= 0.0)
+        .map(|i| (eigen.S()[i] * scale, unit(displacement(i).as_ref())))
+        .chain(free)
         .collect();
     Ok(by_magnitude(pairs))
 }

@@ -4,13 +4,13 @@
 use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 
-use faer::Col;
+use faer::{Col, Scale};
 
 use crate::system::GyroscopicSystem;
 
 use super::mode::{Mode, classify, split};
 use super::model::WorkCounters;
-use super::reduction::orthonormal;
+use super::reduction::{KEPT_WHOLE, orthonormal};
 use super::{SpectrumError, companion_eigenpairs};
 
 /// A projected system with the frequency up to which its modes are complete.
@@ -18,7 +18,6 @@ use super::{SpectrumError, companion_eigenpairs};
 pub struct LowModel<'a> {
     system: Cow<'a, GyroscopicSystem>,
     height_rad_per_s: f64,
-    has_free_rigid_motions: bool,
     counters: &'a WorkCounters,
 }
 
@@ -32,13 +31,11 @@ impl<'a> LowModel<'a> {
     pub(super) fn new(
         system: &'a GyroscopicSystem,
         height_rad_per_s: f64,
-        has_free_rigid_motions: bool,
         counters: &'a WorkCounters,
     ) -> Self {
         LowModel {
             system: Cow::Borrowed(system),
             height_rad_per_s,
-            has_free_rigid_motions,
             counters,
         }
     }
@@ -51,13 +48,7 @@ impl<'a> LowModel<'a> {
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         let pairs = companion_eigenpairs(&self.system, speed_rad_per_s)?;
-        Ok(classify(
-            &self.system,
-            speed_rad_per_s,
-            0,
-            self.has_free_rigid_motions,
-            pairs,
-        ))
+        Ok(classify(&self.system, speed_rad_per_s, 0, pairs))
     }
 
     /// The same for a narrow interval of speeds, on the modes at both ends: a few
@@ -70,7 +61,8 @@ impl<'a> LowModel<'a> {
         if to - from > NARROW * to {
             return Ok(self.clone());
         }
-        let mut vectors: Vec<Col<f64>> = Vec::new();
+        let free = self.system.free_rigid.iter();
+        let mut vectors: Vec<Col<f64>> = free.map(|z| Scale(KEPT_WHOLE) * z).collect();
         for speed in [from, to] {
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
             for (lambda, q) in companion_eigenpairs(&self.system, speed)? {
@@ -86,7 +78,6 @@ impl<'a> LowModel<'a> {
             system: Cow::Owned(self.system.project(basis.as_ref())),
             counters,
             height_rad_per_s: self.height_rad_per_s,
-            has_free_rigid_motions: self.has_free_rigid_motions,
         })
     }
 }

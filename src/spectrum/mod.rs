@@ -1,5 +1,6 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
+mod deflation;
 mod dense;
 pub mod derivative;
 mod low;
@@ -50,6 +51,20 @@ pub enum SpectrumError {
         order: usize,
         /// Rotation speed.
         rpm: f64,
+    },
+    /// The modes of all speeds of a chart would not fit into the memory allowed.
+    #[error(
+        "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; end the sweep earlier or ask for a coarser accuracy"
+    )]
+    TooLarge {
+        /// Memory needed.
+        needed_mb: usize,
+        /// Memory allowed.
+        allowed_mb: usize,
+        /// Modes at the last speed.
+        modes: usize,
+        /// Speeds.
+        speeds: usize,
     },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(

@@ -12,9 +12,9 @@ use crate::plate::Plate;
 
 use super::derivative;
 use super::low::LowModel;
-use super::mode::{DynamicStiffness, Mode, ModeKind, classify};
+use super::mode::{DynamicStiffness, Mode, ModeKind, classify, real_times};
 use super::name::ModeName;
-use super::part::{NamedCriticalSpeed, Part, frequency_scale, lift, named_critical_speeds};
+use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::reduction::{self, Projection};
 use super::{SpectrumError, companion_eigenpairs};
 
@@ -152,14 +152,7 @@ impl SpectralModel {
         for (index, part) in self.parts.iter().enumerate() {
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
             let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
-            let free_rigid = !part.free_rigid.is_empty();
-            modes.extend(classify(
-                &part.full,
-                speed_rad_per_s,
-                index,
-                free_rigid,
-                pairs,
-            ));
+            modes.extend(classify(&part.full, speed_rad_per_s, index, pairs));
         }
         Ok(modes)
     }
@@ -175,6 +168,14 @@ impl SpectralModel {
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
+    /// What rounding may change a frequency at rest by, relative to it: a backward stable
+    /// solver changes ω² by ε times the largest one.
+    pub fn relative_rounding(&self, mode: &Mode) -> f64 {
+        let system = &self.parts[mode.part].at(0.0).reduced;
+        let square = mode.frequency_rad_per_s().powi(2);
+        0.5 * f64::EPSILON * system.stiffness.norm_l2() / square
+    }
+
     fn solve(
         &self,
         speed_rad_per_s: f64,
@@ -188,8 +189,7 @@ impl SpectralModel {
             let system = &part.at(speed_rad_per_s).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
-            let free_rigid = !part.free_rigid.is_empty();
-            modes.extend(classify(system, speed, index, free_rigid, pairs));
+            modes.extend(classify(system, speed, index, pairs));
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
@@ -205,13 +205,7 @@ impl SpectralModel {
             Some((projection, height)) => (&projection.reduced, *height),
             None => (&part.full, self.complete_to_rad_per_s),
         };
-        let free_rigid = !part.free_rigid.is_empty();
-        Some(LowModel::new(
-            system,
-            height_rad_per_s,
-            free_rigid,
-            &self.counters,
-        ))
+        Some(LowModel::new(system, height_rad_per_s, &self.counters))
     }
 
     /// Names and residuals of modes of one speed.
@@ -226,7 +220,7 @@ impl SpectralModel {
             .map(|mode| {
                 let part = &self.parts[mode.part];
                 let basis = &part.at(speed_rad_per_s).basis;
-                let lifted = lift(basis.as_ref(), &mode.coordinates);
+                let lifted = real_times(basis, &mode.coordinates);
                 let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
                 let shape = self.embed(part.first, &lifted);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);

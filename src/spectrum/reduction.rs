@@ -8,9 +8,9 @@ use rayon::prelude::*;
 use crate::plate::Plate;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
 
-use super::mode::{DynamicStiffness, ModeKind, classify, split};
+use super::mode::{DynamicStiffness, ModeKind, classify, real_times, split};
 use super::model::WorkCounters;
-use super::part::{NamedCriticalSpeed, frequency_scale, lift};
+use super::part::{NamedCriticalSpeed, frequency_scale};
 use super::{companion_eigenpairs, lowest_eigenpairs};
 
 /// A part projected on few orthonormal vectors.
@@ -50,7 +50,7 @@ const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
 const SNAPSHOT_MARGIN: f64 = 1.5;
 /// Length given to vectors of which no part may be left out.
-const KEPT_WHOLE: f64 = 1e6;
+pub const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
@@ -203,7 +203,7 @@ impl Builder<'_> {
         let mut count = CHART_MODES + index;
         loop {
             let pairs = self.lowest(speed, count);
-            let modes = classify(self.system, speed, 0, false, pairs);
+            let modes = classify(self.system, speed, 0, pairs);
             let negative = |kind| match kind {
                 ModeKind::Negative | ModeKind::Flutter => 2,
                 ModeKind::Divergent => 1,
@@ -253,7 +253,8 @@ impl Builder<'_> {
         };
         let inside = |c: &&NamedCriticalSpeed| (from..=to).contains(&c.speed_rad_per_s);
         let standing = self.critical.iter().filter(inside);
-        let mut vectors: Vec<Col<f64>> = standing.map(|c| Scale(KEPT_WHOLE) * &c.shape).collect();
+        let kept = standing.map(|c| &c.shape).chain(&self.system.free_rigid);
+        let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
         for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
             if lambda.norm() <= SNAPSHOT_MARGIN * height {
                 let (re, im) = split(q);
@@ -341,7 +342,7 @@ impl Builder<'_> {
             .iter()
             .filter(|(lambda, _)| lambda.im <= height && lambda.re >= -1e-6 * height)
             .map(|(lambda, q)| {
-                let lifted = lift(projection.basis.as_ref(), q);
+                let lifted = real_times(&projection.basis, q);
                 let residual: Col<c64> = dynamic.residual(*lambda, &lifted);
                 let stiffness = &self.system.stiffness;
                 let shift: f64 = (0..residual.nrows())

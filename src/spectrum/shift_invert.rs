@@ -17,6 +17,7 @@ use faer::{Col, Mat, MatMut, MatRef, Par, Scale, c64};
 use crate::system::GyroscopicSystem;
 
 use super::dense::{Eigenpair, by_magnitude, unit};
+use super::mode::rigid_noise;
 
 /// (A − σ)⁻¹ in units of s: eigenvalues s/(λ − σ).
 #[derive(Debug)]
@@ -107,12 +108,15 @@ pub fn lowest_eigenpairs(
         MemStack::new(&mut MemBuffer::new(scratch)),
         params,
     );
+    // Free rigid motions are known exactly; these are their rounded doubles.
+    let free = rigid_noise(system);
     let pairs = (0..info.n_converged_eigen)
         .map(|i| {
             let lambda = (values[i].inv() + 1.0) * shift_per_s;
             (lambda, unit(vectors.col(i).subrows(0, size)))
         })
         .filter(|(lambda, _)| lambda.im >= 0.0 && lambda.is_finite())
+        .filter(|(lambda, _)| lambda.norm() >= free)
         .collect();
     by_magnitude(pairs)
 }
