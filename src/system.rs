@@ -137,7 +137,9 @@ impl GyroscopicSystem {
                 self.free_rigid.push(z);
             }
         }
-        self.drift = self.drift_of_free_motions();
+        if !self.free_rigid.is_empty() {
+            self.drift = self.drift_of_free_motions();
+        }
     }
 
     /// 4 GᵀZ₀Z₀ᵀG, Z₀ the free rigid motions that G does not couple with each other.

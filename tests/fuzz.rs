@@ -9,7 +9,7 @@ mod draw;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use draw::Bytes;
-use proptest::prelude::RngCore;
+use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use rayon::prelude::*;
 use sawflutter::scene::{Scene, SceneFile};

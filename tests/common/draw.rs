@@ -54,7 +54,7 @@ impl Bytes<'_> {
 
 fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
     let point = bytes.one_in(5);
-    let mut side = |bytes: &mut Bytes<'_>| {
+    let side = |bytes: &mut Bytes<'_>| {
         if point {
             0.0
         } else {
