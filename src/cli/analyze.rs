@@ -71,15 +71,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
-    if !files.iter().any(|(name, _)| name.starts_with("root-loci")) {
-        folder.remove("root-loci.png")?;
-        folder.remove("root-loci.svg")?;
-    }
+    // An earlier run may have left the loci of another saw.
+    let fluttered = files.iter().any(|(name, _)| name.starts_with("root-loci"));
+    let stale: &[&str] = if fluttered { &[] } else { &ROOT_LOCI };
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
-    for (name, content) in &files {
-        folder.write(name, content)?;
-    }
+    folder.write_together(&files, stale)?;
     let mut stdout = std::io::stdout().lock();
     if arguments.json {
         writeln!(stdout, "{json}")?;
@@ -92,6 +89,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Figures that only a saw which flutters has.
+const ROOT_LOCI: [&str; 2] = ["root-loci.png", "root-loci.svg"];
+
 /// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.
 fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::FigureError> {
     type Draw = fn(&Report) -> Result<Option<Vec<u8>>, figure::FigureError>;
@@ -100,8 +100,8 @@ fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::Figu
         ("campbell.svg", |r| {
             Ok(Some(figure::campbell_svg(r)?.into_bytes()))
         }),
-        ("root-loci.png", figure::root_loci_png),
-        ("root-loci.svg", |r| {
+        (ROOT_LOCI[0], figure::root_loci_png),
+        (ROOT_LOCI[1], |r| {
             Ok(figure::root_loci_svg(r)?.map(String::into_bytes))
         }),
     ];
