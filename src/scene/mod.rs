@@ -3,6 +3,7 @@
 
 mod file;
 mod read;
+mod spline;
 mod validate;
 
 pub use file::{
@@ -10,6 +11,7 @@ pub use file::{
     SceneFile, SweepFile,
 };
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use spline::{Spline, SplineFile};
 pub use validate::{Blade, Bore, Damping, Guide, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.

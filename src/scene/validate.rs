@@ -2,8 +2,8 @@
 //! and radians, ready to compute with.
 
 use super::{
-    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, SweepFile,
-    rad_per_s,
+    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, Spline,
+    SweepFile, rad_per_s,
 };
 
 /// A validated saw.
@@ -17,6 +17,8 @@ pub struct Scene {
     pub guides: Vec<Guide>,
     /// Damping, if any number of it is not zero.
     pub damping: Option<Damping>,
+    /// Contact between bore and arbor, if its motion is asked for.
+    pub spline: Option<Spline>,
     /// Speeds asked for; `None` leaves the choice to the program.
     pub sweep: Option<SpeedRange>,
     /// Speed at which the saw is run.
@@ -124,7 +126,12 @@ const SPAN: (f64, f64) = (1e-12, 1e15);
 const MAX_GUIDE: f64 = 1e18;
 const MAX_RPM: f64 = 1e9;
 
-fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static str) -> SceneError {
+pub(super) fn refuse(
+    key: &str,
+    value: f64,
+    allowed: impl Into<String>,
+    remedy: &'static str,
+) -> SceneError {
     SceneError::Value {
         key: key.to_owned(),
         value: value.to_string(),
@@ -133,7 +140,7 @@ fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static st
     }
 }
 
-fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
+pub(super) fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
     if (SPAN.0..=SPAN.1).contains(&value) {
         return Ok(value);
     }
@@ -142,7 +149,7 @@ fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
     Err(refuse(key, value, allowed, remedy))
 }
 
-fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, SceneError> {
+pub(super) fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, SceneError> {
     if (low..=high).contains(&value) {
         return Ok(value);
     }
@@ -170,6 +177,11 @@ impl TryFrom<SceneFile> for Scene {
                 .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
                 .collect(),
             damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
+            spline: file
+                .spline
+                .as_ref()
+                .map(|typed| Spline::new(typed, file.mount, &blade))
+                .transpose()?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
             operating_rad_per_s: file
                 .operating_rpm
