@@ -23,5 +23,6 @@ pub mod plate;
 pub mod report;
 pub mod scene;
 pub mod spectrum;
+pub mod spline;
 pub mod stability;
 pub mod system;

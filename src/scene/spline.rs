@@ -65,7 +65,7 @@ pub struct Spline {
 }
 
 /// Teeth are simulated one by one; no spline has more.
-const MAX_TEETH: u32 = 1000;
+const MAX_TEETH: u32 = 200;
 /// Beyond it a flank is rather a stop in the radius than a tooth that drives.
 const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
 /// A contact stiffer or more viscous than this is rigid to all digits of a double.
