@@ -2,7 +2,8 @@
 //!
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
-//! [`spectrum`] → [`campbell`] → [`stability`] → [`report`] → [`figure`].
+//! [`spectrum`] → [`campbell`] → [`stability`] → [`report`] → [`figure`]. [`spline`]
+//! stands beside [`system`]: it imports [`scene`] and [`plate`] alone.
 //!
 //! ```
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};

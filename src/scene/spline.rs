@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::validate::{positive, refuse, within};
-use super::{Blade, Mount, SceneError};
+use super::validate::{positive, within};
+use super::{Blade, Mount, SceneError, SceneFile};
 
 /// Contact between the splined bore and the arbor; with it the motion of the blade in
 /// its own plane is simulated.
@@ -72,21 +72,34 @@ const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
 const MAX_CONTACT: f64 = 1e18;
 
 impl Spline {
-    pub(super) fn new(typed: &SplineFile, mount: Mount, blade: &Blade) -> Result<Self, SceneError> {
-        if let Mount::Collar { .. } = mount {
-            return Err(SceneError::Value {
-                key: "mount.kind".into(),
-                value: "collar".into(),
-                allowed: "spline when the scene has a spline block".into(),
-                remedy: "a collar holds the blade in its plane; leave one of the two out",
-            });
+    pub(super) fn of(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
+        let Some(typed) = &file.spline else {
+            return Ok(None);
+        };
+        let refuse = |key: &str, value: String, allowed: String, remedy| {
+            let key = key.to_owned();
+            Err(SceneError::Value {
+                key,
+                value,
+                allowed,
+                remedy,
+            })
+        };
+        if let Mount::Collar { .. } = file.mount {
+            let allowed = "spline when the scene has a spline block".to_owned();
+            let remedy = "a collar holds the blade in its plane; leave one of the two out";
+            return refuse("mount.kind", "collar".to_owned(), allowed, remedy);
         }
-        let bore = blade.inner_radius_m;
         if !(1..=MAX_TEETH).contains(&typed.teeth) {
             let allowed = format!("between 1 and {MAX_TEETH}");
             let remedy = "count the teeth of the spline, not those that cut";
-            return Err(refuse("spline.teeth", typed.teeth.into(), allowed, remedy));
+            return refuse("spline.teeth", typed.teeth.to_string(), allowed, remedy);
         }
+        Self::measured(typed, blade).map(Some)
+    }
+
+    fn measured(typed: &SplineFile, blade: &Blade) -> Result<Self, SceneError> {
+        let bore = blade.inner_radius_m;
         let typed_radius = typed.pitch_radius_m.unwrap_or(bore);
         Ok(Spline {
             teeth: typed.teeth as usize,
@@ -124,7 +137,7 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{InPlane, Scene, SceneFile};
+    use crate::scene::{InPlane, Scene};
 
     fn with(change: impl FnOnce(&mut SceneFile, &mut SplineFile)) -> Result<Scene, SceneError> {
         let mut file = Scene::paper().file;
@@ -183,7 +196,7 @@ mod tests {
             "contact_stiffness_n_per_m_3_2": 7e9, "contact_damping_n_s_3_2_per_m_3_2": 0 }"#;
         let typed: SplineFile = serde_json::from_str(typed).unwrap();
         let blade = Scene::paper().blade;
-        let spline = Spline::new(&typed, Mount::Spline {}, &blade).unwrap();
+        let spline = Spline::measured(&typed, &blade).unwrap();
         assert_eq!(spline.clearance_m, 0.25e-3);
         assert_eq!(spline.pitch_radius_m, blade.inner_radius_m);
         assert_eq!(spline.weight_angle_rad, None);

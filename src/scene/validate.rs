@@ -126,12 +126,7 @@ const SPAN: (f64, f64) = (1e-12, 1e15);
 const MAX_GUIDE: f64 = 1e18;
 const MAX_RPM: f64 = 1e9;
 
-pub(super) fn refuse(
-    key: &str,
-    value: f64,
-    allowed: impl Into<String>,
-    remedy: &'static str,
-) -> SceneError {
+fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static str) -> SceneError {
     SceneError::Value {
         key: key.to_owned(),
         value: value.to_string(),
@@ -177,11 +172,7 @@ impl TryFrom<SceneFile> for Scene {
                 .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
                 .collect(),
             damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
-            spline: file
-                .spline
-                .as_ref()
-                .map(|typed| Spline::new(typed, file.mount, &blade))
-                .transpose()?,
+            spline: Spline::of(&file, &blade)?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
             operating_rad_per_s: file
                 .operating_rpm

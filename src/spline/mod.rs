@@ -21,12 +21,14 @@
 //! Not run unless asked for: see [`crate::scene::SplineFile`].
 
 mod contact;
+mod load;
 mod motion;
 mod reaction;
 mod stiffness;
 
-pub use contact::Contact;
-pub use motion::{InPlaneMotion, OrbitPoint, PlaneLoad};
+pub use contact::{Contact, Touch};
+pub use load::PlaneLoad;
+pub use motion::{InPlaneMotion, OrbitPoint};
 pub use reaction::{MeanReaction, ToothForces};
 pub use stiffness::{ReactionEffect, reaction_effect};
 
@@ -147,5 +149,7 @@ pub fn simulate(
     motion.run(run)
 }
 
+#[cfg(test)]
+mod contact_tests;
 #[cfg(test)]
 mod tests;

@@ -1,53 +1,19 @@
 //! Equations of motion and their integration.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use differential_equations::prelude::{Error, ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Vector2, Vector3};
 
-use crate::plate::RimForce;
 use crate::scene::{Blade, Spline};
 
 use super::contact::{Contact, Touch};
+use super::load::{PlaneLoad, mass_kg};
 use super::reaction::{Accumulator, MeanReaction};
 use super::{Run, SplineError, SplineRun, Start};
 
-/// Standard acceleration of free fall (CGPM 1901).
-const GRAVITY_M_PER_S2: f64 = 9.80665;
 /// At least so many samples a revolution: enough for the mean of harmonics beyond any basis.
 const SAMPLES_PER_REVOLUTION: usize = 720;
-
-/// Resultant of the loads at the centre of the blade, fixed in space.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PlaneLoad {
-    /// F_x, F_y; x points to the cut, θ = 0.
-    pub force_n: [f64; 2],
-    /// About the axis, positive in the direction of rotation.
-    pub torque_n_m: f64,
-}
-
-impl PlaneLoad {
-    /// Forces at the rim, and the weight of the blade towards `weight_angle_rad`.
-    pub fn new(blade: &Blade, loads: &[RimForce], weight_angle_rad: Option<f64>) -> Self {
-        let mut sum = PlaneLoad::default();
-        if let Some(angle) = weight_angle_rad {
-            let weight = mass_kg(blade) * GRAVITY_M_PER_S2;
-            sum.force_n = [weight * angle.cos(), weight * angle.sin()];
-        }
-        for load in loads {
-            let (sin, cos) = load.angle_rad.sin_cos();
-            sum.force_n[0] += load.radial_n * cos - load.tangential_n * sin;
-            sum.force_n[1] += load.radial_n * sin + load.tangential_n * cos;
-            sum.torque_n_m += blade.outer_radius_m * load.tangential_n;
-        }
-        sum
-    }
-}
-
-fn mass_kg(blade: &Blade) -> f64 {
-    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    blade.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a)
-}
 
 /// The blade at one time, in the space-fixed frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
