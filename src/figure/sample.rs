@@ -29,6 +29,7 @@ pub fn empty_report(name: &str) -> Report {
         mount: Mount::Spline {},
         guides: Vec::new(),
         damping: None,
+        spline: None,
         operating_rpm: None,
         sweep: None,
         accuracy: Accuracy::Draft,

@@ -11,7 +11,7 @@ mod quadrature;
 mod radial;
 mod stress;
 
-pub use edge_load::{EdgeStress, HarmonicStress, RimForce, edge_stiffness};
+pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;
