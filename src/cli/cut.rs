@@ -53,6 +53,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = CutReport::new(&scene, &cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
+    match figure::spline_orbit_png(&report)?.zip(figure::spline_orbit_svg(&report)?) {
+        Some((png, svg)) => files.extend([
+            ("spline-orbit.png", png),
+            ("spline-orbit.svg", svg.into_bytes()),
+        ]),
+        None => {
+            folder.remove("spline-orbit.png")?;
+            folder.remove("spline-orbit.svg")?;
+        }
+    }
     files.push(("cut.json", json.clone().into_bytes()));
     arguments
         .common
@@ -127,10 +137,19 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
     )?;
     writeln!(
         text,
-        "  without the forces {:>4.3} 1/s: {}",
+        "  without them  {:>9.3} 1/s             {}",
         run.idle_growth_per_s,
         word(run.idle_verdict)
     )?;
+    if let Some(spline) = &run.spline {
+        writeln!(
+            text,
+            "  spline's own reaction {:.3} 1/s: {}; it changes K_e by {:.0} %",
+            spline.growth_per_s,
+            word(spline.verdict),
+            1e2 * spline.stiffness_change
+        )?;
+    }
     writeln!(
         text,
         "  largest deflection at the probe: {:.2} mm in the cut, {:.2} mm after it",

@@ -20,6 +20,7 @@ mod root_loci;
 mod runup;
 #[cfg(test)]
 mod sample;
+mod spline_orbit;
 mod style;
 #[cfg(test)]
 mod tidy;
@@ -30,6 +31,7 @@ pub use cut_map::{cut_map_png, cut_map_svg};
 pub use response_map::{response_map_png, response_map_svg};
 pub use root_loci::{root_loci_png, root_loci_svg};
 pub use runup::{runup_png, runup_svg};
+pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
 
 /// Whether any term of the equation of motion takes energy out of the saw.
 fn is_damped(report: &crate::report::Report) -> bool {

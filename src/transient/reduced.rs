@@ -4,7 +4,7 @@
 //! blade where no low mode bends is then carried by the right stiffness all the same.
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, Scale};
+use faer::{Col, Mat, MatRef, Scale};
 
 use crate::plate::Plate;
 use crate::spectrum::{frequency_scale, lowest_eigenpairs, orthonormal, split};
@@ -94,6 +94,11 @@ impl ReducedBlade {
             }
         }
         ReducedBlade { basis }
+    }
+
+    /// V, orthonormal.
+    pub fn basis(&self) -> MatRef<'_, f64> {
+        self.basis.as_ref()
     }
 
     /// Number of motions.

@@ -7,8 +7,9 @@ use crate::spectrum::Mode;
 use crate::stability::Analysis;
 
 use super::{
-    BandGrowth, CutHistory, ResponseMap, RunUpHistory, ToothPassing, TransientError, VerdictMap,
-    band_growths, cut_history, response_map, run_up, tooth_passing, verdict_map,
+    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, ToothPassing, TransientError,
+    VerdictMap, band_growths, cut_history, on_spline, response_map, run_up, tooth_passing,
+    verdict_map,
 };
 
 /// A cut at some speeds.
@@ -31,6 +32,8 @@ pub struct CuttingRun {
     pub passing: ToothPassing,
     /// Growth over guide angle and load.
     pub map: VerdictMap,
+    /// The reaction of the spline teeth, when the scene asks for it.
+    pub spline: Option<OnSpline>,
 }
 
 /// Positions of the teeth within a pitch: from 8 to 16 the growth rate changes by 0.03 %.
@@ -64,6 +67,7 @@ impl Cutting {
                 Ok(CuttingRun {
                     history: cut_history(&plate, cut, run, &scene.probe)?,
                     passing: tooth_passing(&plate, cut, run, &scene.probe, STAGES)?,
+                    spline: on_spline(scene, &plate, cut, run)?,
                     map: verdict_map(&plate, cut, run, (&turns, &levels), &of)?,
                 })
             })
