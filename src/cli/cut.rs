@@ -26,7 +26,7 @@ pub struct Arguments {
     #[command(flatten)]
     common: Common,
     /// Speed to cut at, in place of the scene's; may be given more than once
-    #[arg(long, value_name = "RPM")]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     rpm: Vec<f64>,
 }
 

@@ -10,6 +10,8 @@ mod canvas;
 mod clip;
 mod cut;
 mod cut_map;
+#[cfg(test)]
+mod cutting_tests;
 mod declutter;
 mod heading;
 mod heat;

@@ -3,8 +3,8 @@
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{
-    AXIS_SIZE, CURVE, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, Weight,
-    tint,
+    AXIS_SIZE, CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING,
+    SUBTITLE_SIZE, Weight, tint,
 };
 use super::{FigureError, heading, render};
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
@@ -26,7 +26,7 @@ pub fn spline_orbit_svg(report: &CutReport) -> Result<Option<String>, FigureErro
     sheet(report).map(|sheet| render::svg(&sheet)).transpose()
 }
 
-fn sheet(report: &CutReport) -> Option<Sheet> {
+pub(super) fn sheet(report: &CutReport) -> Option<Sheet> {
     let runs: Vec<(&CutRunEntry, &SplineEntry)> = report
         .runs
         .iter()
@@ -61,7 +61,8 @@ fn draw_orbit(
 ) {
     let all = spline.x_m.iter().chain(&spline.y_m);
     let largest_mm = 1e3 * all.fold(0.0_f64, |max, value| max.max(value.abs()));
-    let reach = 1.15 * largest_mm.max(1e-6);
+    let clearance_mm = 1e3 * spline.clearance_m;
+    let reach = 1.2 * largest_mm.max(clearance_mm).max(1e-6);
     let x = Axis::new([-reach, reach], [panel.left, panel.right], Spread::Linear);
     let y = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
     let name = "a quarter turn further\u{2003}[mm]";
@@ -77,6 +78,7 @@ fn draw_orbit(
     ] {
         sheet.line([from, to], Stroke::solid(tint(STANDING, 0.6), HAIRLINE));
     }
+    draw_clearance(sheet, (&x, &y), clearance_mm);
     let places: Vec<[f64; 2]> = spline
         .x_m
         .iter()
@@ -91,7 +93,7 @@ fn draw_orbit(
         Stroke::solid(FORWARD, CURVE),
     );
     if let Some(last) = places.last() {
-        sheet.disc(*last, 3.0, FORWARD);
+        sheet.disc(*last, 3.5, FORWARD);
     }
     let title = Lettering {
         weight: Weight::SemiBold,
@@ -108,4 +110,24 @@ fn draw_orbit(
         run.growth_per_s, spline.growth_per_s
     );
     sheet.text([panel.left, panel.top - 12.0], letters, &text);
+}
+
+/// What the play of the flanks would let a blade without torque do.
+fn draw_clearance(sheet: &mut Sheet, (x, y): (&Axis, &Axis), clearance_mm: f64) {
+    if clearance_mm <= 0.0 {
+        return;
+    }
+    let circle = (0..=120).map(|k| {
+        let (sin, cos) = (f64::from(k) / 120.0 * std::f64::consts::TAU).sin_cos();
+        [x.at(clearance_mm * cos), y.at(clearance_mm * sin)]
+    });
+    let dashed = Stroke {
+        dash: Some(FINE_DASH),
+        ..Stroke::solid(QUIET, HAIRLINE)
+    };
+    sheet.line(circle, dashed);
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
+    let at = [x.at(0.5 * clearance_mm), y.at(-1.05 * clearance_mm)];
+    let text = format!("clearance {} mm", super::axis::tick_label(clearance_mm));
+    sheet.text(at, letters, &text);
 }

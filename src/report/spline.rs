@@ -23,6 +23,8 @@ pub struct SplineEntry {
     pub force_n: [f64; 2],
     /// Mean torque of the arbor on the blade.
     pub torque_n_m: f64,
+    /// Gap between a flank and its mate when the blade is centred.
+    pub clearance_m: f64,
     /// Mean number of spline teeth in contact.
     pub teeth_in_contact: f64,
     /// Largest normal force on a spline tooth.
@@ -60,6 +62,7 @@ impl SplineEntry {
             stiffness_change: found.stiffness_change,
             force_n: reaction.force_n,
             torque_n_m: reaction.torque_n_m,
+            clearance_m: scene.spline.map_or(0.0, |spline| spline.clearance_m),
             teeth_in_contact: teeth.in_contact,
             peak_tooth_n: teeth.peak_n,
             deepest_m: teeth.deepest_m,
