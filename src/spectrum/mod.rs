@@ -6,20 +6,24 @@ mod low;
 mod mode;
 mod model;
 mod name;
+mod pair;
 mod part;
 mod pencil;
 mod reduction;
 mod shift_invert;
+mod state;
 
 pub use dense::companion_eigenpairs;
-pub use low::LowModel;
+pub use low::{LowModel, LowModes};
 pub use mode::{Mode, ModeKind};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
+pub use pair::ModePair;
 pub use part::{NamedCriticalSpeed, Part};
 pub use pencil::{CriticalSpeed, critical_speeds};
 pub use reduction::Projection;
 pub use shift_invert::lowest_eigenpairs;
+pub use state::{State, StateModel};
 
 /// Why a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]

@@ -33,6 +33,10 @@ pub enum Strategy {
 pub struct WorkCounters {
     /// Eigenproblems solved on the projected matrices.
     pub reduced_solves: AtomicUsize,
+    /// Eigenproblems of the few states between two speeds.
+    pub local_solves: AtomicUsize,
+    /// Pairs of modes refined by inverse iteration on the projected matrices.
+    pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
 }
@@ -201,13 +205,23 @@ impl SpectralModel {
         let [part] = self.parts.as_slice() else {
             return None;
         };
-        let (system, height_rad_per_s) = match &part.low {
-            Some((projection, height)) => (&projection.reduced, *height),
-            None => (&part.full, self.complete_to_rad_per_s),
+        let last = part.chart.last().map_or(0.0, |p| p.to_rad_per_s);
+        let within = self.critical.iter().filter(|c| c.speed_rad_per_s <= last);
+        let standing = within.map(|c| (c.speed_rad_per_s, &c.shape));
+        let (system, standing, height_rad_per_s) = match &part.low {
+            Some((projection, height)) => {
+                let inward = |(speed, x)| (speed, projection.basis.transpose() * x);
+                (&projection.reduced, standing.map(inward).collect(), *height)
+            }
+            None => {
+                let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
+                (&part.full, own.collect(), self.complete_to_rad_per_s)
+            }
         };
         let free_rigid = !part.free_rigid.is_empty();
         Some(LowModel::new(
             system,
+            standing,
             height_rad_per_s,
             free_rigid,
             &self.counters,

@@ -108,7 +108,7 @@ pub(super) fn bands(
     model: &SpectralModel,
     speeds: &[f64],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let finder = Finder::new(model);
+    let finder = Finder::new(model, speeds)?;
     let stations = finder.stations(speeds)?;
     let mut instabilities = Vec::new();
     // Nothing couples the waves of a free blade, so they cross and never merge.
