@@ -9,6 +9,7 @@ mod name;
 mod pair;
 mod part;
 mod pencil;
+mod projection;
 mod reduction;
 mod shift_invert;
 mod state;
@@ -21,7 +22,7 @@ pub use name::{Direction, HarmonicShare, ModeName, in_words};
 pub use pair::ModePair;
 pub use part::{NamedCriticalSpeed, Part};
 pub use pencil::{CriticalSpeed, critical_speeds};
-pub use reduction::Projection;
+pub use projection::Projection;
 pub use shift_invert::lowest_eigenpairs;
 pub use state::{State, StateModel};
 

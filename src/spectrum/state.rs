@@ -16,7 +16,7 @@ use crate::system::GyroscopicSystem;
 use super::SpectrumError;
 use super::dense::{Eigenpair, by_magnitude, unit};
 use super::mode::split;
-use super::reduction::orthonormal;
+use super::projection::orthonormal;
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
 #[derive(Debug, Clone, PartialEq)]

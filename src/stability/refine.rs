@@ -23,7 +23,9 @@ const NEWTON_DIFFERENCE: f64 = 1e-6;
 const VERTEX_DIFFERENCE: f64 = 1e-5;
 /// A last step of this relative length leaves its square, times how many widths of the
 /// band the speed is: below the accuracy asked.
-const NEWTON_TOLERANCE: f64 = 1e-7;
+const NEWTON_TOLERANCE: f64 = 1e-8;
+/// The same for the vertex of a crossing, whose onsets are refined by themselves.
+const VERTEX_TOLERANCE: f64 = 3e-5;
 const MAX_NEWTON: usize = 8;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
@@ -284,7 +286,7 @@ fn sharpened_passage(
             return Ok(None);
         }
         frequency = pair.mean_frequency(vertex);
-        if (vertex - speed).abs() > NEWTON_TOLERANCE.sqrt() * 0.1 * speed {
+        if (vertex - speed).abs() > VERTEX_TOLERANCE * speed {
             speed = vertex;
             continue;
         }
