@@ -2,7 +2,8 @@
 //!
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
-//! [`spectrum`] → [`campbell`] → [`stability`] → [`report`] → [`figure`].
+//! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
+//! [`report`] → [`figure`].
 //!
 //! ```
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
@@ -25,3 +26,4 @@ pub mod scene;
 pub mod spectrum;
 pub mod stability;
 pub mod system;
+pub mod transient;

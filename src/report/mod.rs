@@ -3,9 +3,15 @@
 
 mod build;
 mod csv;
+mod cut;
+mod runup;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::cut::{
+    ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
+};
+pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::InstabilityKind;

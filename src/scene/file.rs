@@ -6,6 +6,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::cut::CutFile;
+use super::runup::{ProbeFile, RunUpFile};
+
 /// A saw and what to find out about it, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -37,6 +40,15 @@ pub struct SceneFile {
     /// Growth rate from which an oscillatory band counts as flutter of the saw.
     #[serde(default = "default_flutter_threshold_per_s")]
     pub flutter_threshold_per_s: f64,
+    /// Forces of the wood on the teeth, for `sawflutter cut`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cut: Option<CutFile>,
+    /// Run-up under a lateral force, for `sawflutter runup`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub runup: Option<RunUpFile>,
+    /// Where the deflection is read; by default at the rim, 90° past the cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub probe: Option<ProbeFile>,
     /// Measured or published frequencies to show beside the computed ones.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,

@@ -1,6 +1,9 @@
 //! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
 //! and radians, ready to compute with.
 
+use super::check::{MAX_GUIDE, MAX_RPM, SPAN, positive, refuse, within};
+use super::cut::Cut;
+use super::runup::{Probe, RunUp};
 use super::{
     Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, SweepFile,
     rad_per_s,
@@ -25,6 +28,12 @@ pub struct Scene {
     pub accuracy: Accuracy,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
+    /// Forces of the wood on the teeth.
+    pub cut: Option<Cut>,
+    /// Run-up under a lateral force.
+    pub runup: Option<RunUp>,
+    /// Where the deflection is read.
+    pub probe: Probe,
 }
 
 /// The moving annulus a < r < b.
@@ -117,40 +126,6 @@ impl Guide {
     }
 }
 
-/// Widest range of a positive quantity: far beyond any saw, and narrow enough
-/// that no product of them overflows.
-const SPAN: (f64, f64) = (1e-12, 1e15);
-/// A pad stiffer than this is, to all digits of a double, a rigid one.
-const MAX_GUIDE: f64 = 1e18;
-const MAX_RPM: f64 = 1e9;
-
-fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static str) -> SceneError {
-    SceneError::Value {
-        key: key.to_owned(),
-        value: value.to_string(),
-        allowed: allowed.into(),
-        remedy,
-    }
-}
-
-fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
-    if (SPAN.0..=SPAN.1).contains(&value) {
-        return Ok(value);
-    }
-    let allowed = format!("between {:e} and {:e}", SPAN.0, SPAN.1);
-    let remedy = "give it in the SI unit that ends the key's name";
-    Err(refuse(key, value, allowed, remedy))
-}
-
-fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, SceneError> {
-    if (low..=high).contains(&value) {
-        return Ok(value);
-    }
-    let allowed = format!("between {low} and {high:e}");
-    let remedy = "give it in the unit that ends the key's name";
-    Err(refuse(key, value, allowed, remedy))
-}
-
 impl TryFrom<SceneFile> for Scene {
     type Error = SceneError;
 
@@ -164,6 +139,13 @@ impl TryFrom<SceneFile> for Scene {
             .collect::<Result<Vec<_>, _>>()?;
         check_measured(&file)?;
         Ok(Scene {
+            cut: file
+                .cut
+                .as_ref()
+                .map(|cut| Cut::new(cut, &file, &blade))
+                .transpose()?,
+            runup: file.runup.as_ref().map(RunUp::new).transpose()?,
+            probe: Probe::new(file.probe.as_ref(), &blade)?,
             blade,
             guides: guides
                 .into_iter()

@@ -25,20 +25,22 @@ pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     }
 }
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
+/// The companion matrix of x = (q, q̇/s), in units of s, and s.
 ///
 /// # Errors
-/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
-pub fn companion_eigenpairs(
+/// [`SpectrumError::NotFinite`].
+pub(super) fn companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
-) -> Result<Vec<Eigenpair>, SpectrumError> {
+) -> Result<(Mat<f64>, f64), SpectrumError> {
     let stiffness = system.stiffness_at(speed_rad_per_s);
     let velocity = system.velocity_at(speed_rad_per_s);
     let size = system.order();
-    let failed = |variant: fn(usize, f64) -> SpectrumError| variant(2 * size, rpm(speed_rad_per_s));
     if !(stiffness.is_all_finite() && velocity.is_all_finite()) {
-        return Err(failed(|order, rpm| SpectrumError::NotFinite { order, rpm }));
+        return Err(SpectrumError::NotFinite {
+            order: 2 * size,
+            rpm: rpm(speed_rad_per_s),
+        });
     }
     let scale = time_scale(&stiffness);
     let mut state = Mat::zeros(2 * size, 2 * size);
@@ -54,10 +56,25 @@ pub fn companion_eigenpairs(
         .rb_mut()
         .subcols_mut(size, size)
         .copy_from(Scale(-1.0 / scale) * &velocity);
-    let eigen = Eigen::new_from_real(state.as_ref())
-        .map_err(|_| failed(|order, rpm| SpectrumError::NoConvergence { order, rpm }))?;
-    let pairs = (0..2 * size)
-        .map(|i| (eigen.S()[i] * scale, eigen.U().col(i).subrows(0, size)))
+    Ok((state, scale))
+}
+
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
+///
+/// # Errors
+/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
+pub fn companion_eigenpairs(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    let (state, scale) = companion(system, speed_rad_per_s)?;
+    let order = state.nrows();
+    let eigen = Eigen::new_from_real(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
+        order,
+        rpm: rpm(speed_rad_per_s),
+    })?;
+    let pairs = (0..order)
+        .map(|i| (eigen.S()[i] * scale, eigen.U().col(i).subrows(0, order / 2)))
         .filter(|(lambda, _)| lambda.im >= 0.0)
         .map(|(lambda, q)| (lambda, unit(q)))
         .collect();

@@ -48,10 +48,10 @@ pub struct Mode {
 
 /// A growth rate below this share of |λ| + Ω is rounding: at a merging of two modes
 /// eigenvalues are known to √ε only.
-const GROWTH_NOISE: f64 = 1e-7;
+pub(super) const GROWTH_NOISE: f64 = 1e-7;
 /// Eigenvalues below this share of the root mean square frequency are zero, where rigid
 /// motions are free: a double zero is known to √ε of it only.
-const RIGID_NOISE: f64 = 2e-7;
+pub(super) const RIGID_NOISE: f64 = 2e-7;
 
 impl Mode {
     /// ω = |Im λ|, in rad/s.

@@ -88,7 +88,7 @@ impl Part {
 }
 
 /// √(D/ρh)/b² times five: near the lowest frequency of most blades.
-pub(super) fn frequency_scale(plate: &Plate) -> f64 {
+pub(crate) fn frequency_scale(plate: &Plate) -> f64 {
     let blade = &plate.blade;
     let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
     5.0 * specific.sqrt() / blade.outer_radius_m.powi(2)
@@ -118,9 +118,9 @@ fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) ->
     let stiffest = eigen
         .eigenvalues
         .iter()
-        .fold(0.0_f64, |top, value| top.max(*value));
+        .fold(0.0_f64, |top, value| top.max(value.abs()));
     (0..rigid.len())
-        .filter(|&k| eigen.eigenvalues[k] <= 1e-12 * stiffest)
+        .filter(|&k| eigen.eigenvalues[k].abs() <= 1e-12 * stiffest)
         .map(|k| {
             let mut direction = Col::zeros(order);
             for (i, &index) in rigid.iter().enumerate() {

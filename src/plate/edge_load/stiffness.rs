@@ -46,6 +46,12 @@ pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
             }
         }
     }
+    if plate.basis.has_rigid_motions() {
+        // Heave turns no surface against a dead force; rounding must not say otherwise,
+        // for a stiffness of any other sign would be an instability.
+        stiffness.row_mut(0).fill(0.0);
+        stiffness.col_mut(0).fill(0.0);
+    }
     stiffness
 }
 
