@@ -129,7 +129,24 @@ impl GyroscopicSystem {
     /// Galerkin projection on the orthonormal columns of V: symmetric stays
     /// symmetric and skew stays skew, so Krein's theory holds for the small system too.
     pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
-        let onto = |matrix: &Mat<f64>| basis.transpose() * matrix * basis;
+        self.times(basis).onto(basis)
+    }
+
+    /// The matrices times the columns of V, N × r.
+    pub fn times(&self, basis: MatRef<'_, f64>) -> Self {
+        let times = |matrix: &Mat<f64>| matrix * basis;
+        GyroscopicSystem {
+            stiffness: times(&self.stiffness),
+            spin: times(&self.spin),
+            gyroscopic: times(&self.gyroscopic),
+            damping: self.damping.as_ref().map(times),
+            circulatory: self.circulatory.as_ref().map(times),
+        }
+    }
+
+    /// Vᵀ times [`GyroscopicSystem::times`].
+    pub fn onto(&self, basis: MatRef<'_, f64>) -> Self {
+        let onto = |product: &Mat<f64>| basis.transpose() * product;
         GyroscopicSystem {
             stiffness: symmetric(onto(&self.stiffness)),
             spin: symmetric(onto(&self.spin)),

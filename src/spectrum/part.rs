@@ -1,13 +1,13 @@
 //! Independent parts of the blade, their critical speeds and what holds them.
 
-use faer::{Col, Mat, MatRef, c64};
+use faer::{Col, MatRef, c64};
 
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
 use super::mode::{Mode, ModeKind, split};
 use super::name::ModeName;
-use super::reduction::Projection;
+use super::projection::Projection;
 use super::{SpectrumError, critical_speeds};
 
 /// An independent part of the blade: one harmonic, or all of them coupled by guides.
@@ -59,14 +59,9 @@ impl Part {
     }
 
     fn new(plate: &Plate, full: GyroscopicSystem, first: usize) -> Self {
-        let order = full.order();
         Part {
             first,
-            chart: vec![Projection {
-                to_rad_per_s: f64::INFINITY,
-                basis: Mat::identity(order, order),
-                reduced: full.clone(),
-            }],
+            chart: vec![Projection::whole(&full)],
             low: None,
             free_rigid: free_rigid_motions(plate, &full, first),
             full,

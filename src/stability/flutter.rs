@@ -54,7 +54,6 @@ fn band(
     to: f64,
     closed: bool,
 ) -> Result<Instability, SpectrumError> {
-    let finder = finder.narrowed(from, to)?;
     let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
     let mut frequencies = [0.0; 2];
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
@@ -78,7 +77,10 @@ fn band(
         Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
     };
     let (peak, _) = refine::maximise((from, to), closed, |speed| Ok(pair(speed)?.0.powi(2)))?;
-    let (peak_growth_per_s, frequency) = pair(peak)?;
+    let (mut peak_growth_per_s, frequency) = pair(peak)?;
+    if let Some(sharp) = finder.pair(peak, frequency)? {
+        peak_growth_per_s = (-sharp.discriminant(peak)).max(0.0).sqrt();
+    }
     Ok(Instability {
         kind: InstabilityKind::Flutter,
         from,
