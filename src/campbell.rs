@@ -87,7 +87,7 @@ pub fn sample(
     let samples: Vec<Result<SpeedSample, SpectrumError>> = speeds
         .par_iter()
         .map(|&speed_rad_per_s| {
-            let modes = model.modes(speed_rad_per_s)?;
+            let modes = model.drawn_modes(speed_rad_per_s)?;
             let modes = model.describe(speed_rad_per_s, modes);
             let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
             progress(so_far, speeds.len());

@@ -1,7 +1,7 @@
 //! The equation of motion at a rotation speed.
 //!
 //! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ] q = 0, mass matrix one,
-//! K₀ = K_b + K_g. Terms that the scene does not name are absent.
+//! K₀ = K_b + K_g + K_e. Terms that the scene does not name are absent.
 
 use faer::{Col, Mat, MatRef, Scale};
 
@@ -11,7 +11,7 @@ use crate::plate::{HarmonicBlock, Plate};
 /// gives a system of the same kind.
 #[derive(Debug, Clone)]
 pub struct GyroscopicSystem {
-    /// K₀ = K_b + K_g, in 1/s², symmetric.
+    /// K₀ = K_b + K_g + K_e, in 1/s², symmetric.
     pub stiffness: Mat<f64>,
     /// K_σ − N, dimensionless, symmetric.
     pub spin: Mat<f64>,
@@ -32,8 +32,9 @@ impl GyroscopicSystem {
     /// The whole plate.
     pub fn of_plate(plate: &Plate) -> Self {
         let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
-        if let Some(guides) = &plate.guide_stiffness {
-            system.stiffness += guides;
+        let fixed_in_space = [&plate.guide_stiffness, &plate.edge_stiffness];
+        for term in fixed_in_space.into_iter().flatten() {
+            system.stiffness += term;
         }
         if let Some(guides) = &plate.guide_damping {
             system.damping = Some(match system.damping.take() {
@@ -88,7 +89,7 @@ impl GyroscopicSystem {
         system
     }
 
-    /// Called before the guides join the stiffness, so K₀ is K_b here.
+    /// Called before guides and edge loads join the stiffness, so K₀ is K_b here.
     fn add_blade_damping(&mut self, plate: &Plate) {
         let Some(damping) = plate.damping else {
             return;
@@ -216,7 +217,26 @@ impl GyroscopicSystem {
     /// symmetric and skew stays skew, so Krein's theory holds for the small system too.
     /// V must span the free rigid motions.
     pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
-        let onto = |matrix: &Mat<f64>| basis.transpose() * matrix * basis;
+        self.times(basis).onto(basis)
+    }
+
+    /// The matrices times the columns of V, N × r.
+    pub fn times(&self, basis: MatRef<'_, f64>) -> Self {
+        let times = |matrix: &Mat<f64>| matrix * basis;
+        GyroscopicSystem {
+            stiffness: times(&self.stiffness),
+            spin: times(&self.spin),
+            gyroscopic: times(&self.gyroscopic),
+            damping: self.damping.as_ref().map(times),
+            circulatory: self.circulatory.as_ref().map(times),
+            free_rigid: self.free_rigid.clone(),
+            drift: self.drift.as_ref().map(times),
+        }
+    }
+
+    /// Vᵀ times [`GyroscopicSystem::times`].
+    pub fn onto(&self, basis: MatRef<'_, f64>) -> Self {
+        let onto = |product: &Mat<f64>| basis.transpose() * product;
         GyroscopicSystem {
             stiffness: symmetric(onto(&self.stiffness)),
             spin: symmetric(onto(&self.spin)),

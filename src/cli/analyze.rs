@@ -1,18 +1,12 @@
 //! `sawflutter analyze`.
 
-use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
-
-use anyhow::Context;
-use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
+use clap::Args;
 use rayon::prelude::*;
 use sawflutter::figure;
 use sawflutter::report::{Report, SensitivityEntry};
-use sawflutter::scene::{Accuracy, Scene};
 use sawflutter::stability::{Analysis, sensitivities};
 
-use super::output::OutputFolder;
+use super::common::{Common, progress_bar, show};
 use super::summary::summary;
 
 pub const EXAMPLES: &str = "\
@@ -24,44 +18,20 @@ Examples:
 
 #[derive(Args, Default)]
 pub struct Arguments {
-    /// Scene to chart; without it, the built-in guided spline saw
-    scene: Option<PathBuf>,
-    /// Folder for report.json, campbell.csv and the figures
-    /// [default: sawflutter-out]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Speed for accuracy; overrides the scene's
-    #[arg(long, value_name = "NAME")]
-    accuracy: Option<AccuracyName>,
+    #[command(flatten)]
+    common: Common,
     /// Also say how critical speeds and onsets move with thickness, density, modulus and
     /// the guides
     #[arg(long)]
     sensitivity: bool,
-    /// Print the report as JSON instead of the summary
-    #[arg(long)]
-    json: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum AccuracyName {
-    Draft,
-    Design,
-    Reference,
 }
 
 /// Charts a saw, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = scene(arguments)?;
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| "sawflutter-out".into());
-    let folder = OutputFolder::open(&out)?;
-    let bar = progress_bar();
-    let analysis = Analysis::new(&scene, &|done, of| {
-        bar.set_length(of as u64);
-        bar.set_position(done as u64);
-    })?;
+    let scene = arguments.common.scene()?;
+    let folder = arguments.common.folder()?;
+    let bar = progress_bar("speeds");
+    let analysis = Analysis::new(&scene, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let mut report = Report::new(&scene, &analysis)?;
     if arguments.sensitivity {
@@ -73,24 +43,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut files = figures(&report)?;
     // An earlier run may have left the loci of another saw.
     let fluttered = files.iter().any(|(name, _)| name.starts_with("root-loci"));
-    let stale: &[&str] = if fluttered { &[] } else { &ROOT_LOCI };
+    let stale: &[&str] = if fluttered {
+        &[]
+    } else {
+        &["root-loci.png", "root-loci.svg"]
+    };
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
-    folder.write_together(&files, stale)?;
-    let mut stdout = std::io::stdout().lock();
-    if arguments.json {
-        writeln!(stdout, "{json}")?;
-    } else {
-        write!(stdout, "{}", summary(&report))?;
-        let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-        let names = names.join(", ");
-        writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
-    }
-    Ok(())
+    arguments
+        .common
+        .print(&folder, &files, stale, &json, || summary(&report))
 }
-
-/// Figures that only a saw which flutters has.
-const ROOT_LOCI: [&str; 2] = ["root-loci.png", "root-loci.svg"];
 
 /// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.
 fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::FigureError> {
@@ -100,8 +63,8 @@ fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::Figu
         ("campbell.svg", |r| {
             Ok(Some(figure::campbell_svg(r)?.into_bytes()))
         }),
-        (ROOT_LOCI[0], figure::root_loci_png),
-        (ROOT_LOCI[1], |r| {
+        ("root-loci.png", figure::root_loci_png),
+        ("root-loci.svg", |r| {
             Ok(figure::root_loci_svg(r)?.map(String::into_bytes))
         }),
     ];
@@ -114,32 +77,4 @@ fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::Figu
         files.extend(content?.map(|content| (name, content)));
     }
     Ok(files)
-}
-
-fn scene(arguments: &Arguments) -> anyhow::Result<Scene> {
-    let mut scene = match &arguments.scene {
-        Some(path) => {
-            Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))?
-        }
-        None => Scene::paper(),
-    };
-    if let Some(name) = arguments.accuracy {
-        let accuracy = match name {
-            AccuracyName::Draft => Accuracy::Draft,
-            AccuracyName::Design => Accuracy::Design,
-            AccuracyName::Reference => Accuracy::Reference,
-        };
-        scene.accuracy = accuracy;
-        scene.file.accuracy = accuracy;
-    }
-    Ok(scene)
-}
-
-/// A bar on the terminal's error stream, and nothing where that is not a terminal.
-fn progress_bar() -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} speeds, {elapsed}");
-    ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -1,7 +1,10 @@
 //! The command line: arguments → library calls → output, and no physics.
 
 mod analyze;
+mod common;
+mod cut;
 mod output;
+mod runup;
 mod schema;
 mod summary;
 
@@ -21,6 +24,12 @@ enum Command {
     /// Chart a saw: report.json, campbell.csv, and figures as PNG and SVG
     #[command(after_help = analyze::EXAMPLES)]
     Analyze(analyze::Arguments),
+    /// Cut wood: is the saw stable before, during and after? cut.json and figures
+    #[command(after_help = cut::EXAMPLES)]
+    Cut(cut::Arguments),
+    /// Run up under a lateral force: deflection and response; runup.json and figures
+    #[command(after_help = runup::EXAMPLES)]
+    Runup(runup::Arguments),
     /// Print the JSON schema of a scene
     Schema,
 }
@@ -29,6 +38,8 @@ const EXAMPLES: &str = "\
 Examples:
   sawflutter                              chart the built-in guided spline saw
   sawflutter analyze my-saw.json          chart your own saw
+  sawflutter cut                          is it stable in the wood?
+  sawflutter runup                        what does it do on the way up?
   sawflutter schema > scene.schema.json   let your editor complete scene keys
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
@@ -38,6 +49,8 @@ pub fn run() -> anyhow::Result<()> {
     match Arguments::parse().command {
         None => analyze::run(&analyze::Arguments::default()),
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
+        Some(Command::Cut(arguments)) => cut::run(&arguments),
+        Some(Command::Runup(arguments)) => runup::run(&arguments),
         Some(Command::Schema) => schema::run(),
     }
 }

@@ -210,7 +210,7 @@ fn shortened(line: &str, width: usize) -> String {
 }
 
 /// Breaks a sentence into lines at spaces.
-fn wrapped(sentence: &str) -> String {
+pub fn wrapped(sentence: &str) -> String {
     let mut lines = vec![String::new()];
     for word in sentence.split(' ') {
         let last = lines.last_mut().expect("there is always a line");

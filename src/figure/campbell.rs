@@ -6,6 +6,8 @@ mod growth;
 mod speeds;
 mod waves;
 
+pub(super) use waves::draw_measured_mark;
+
 use band_labels::BandLabels;
 
 use super::FigureError;

@@ -1,4 +1,4 @@
-//! Figures, drawn from a [`Report`](crate::report::Report) alone.
+//! Figures, drawn from a [`report`](crate::report) alone.
 //!
 //! A figure is first laid out on a `Sheet`, a list of marks in
 //! figure units, and then rendered to PNG bytes or an SVG string. Nothing here
@@ -8,19 +8,32 @@ mod axis;
 mod campbell;
 mod canvas;
 mod clip;
+mod cut;
+mod cut_map;
+#[cfg(test)]
+mod cutting_tests;
 mod declutter;
 mod heading;
+mod heat;
 mod meeting;
 mod render;
+mod response_map;
 mod root_loci;
+mod runup;
 #[cfg(test)]
 mod sample;
+mod spline_orbit;
 mod style;
 #[cfg(test)]
 mod tidy;
 
 pub use campbell::{campbell_png, campbell_svg};
+pub use cut::{cut_png, cut_svg};
+pub use cut_map::{cut_map_png, cut_map_svg};
+pub use response_map::{response_map_png, response_map_svg};
 pub use root_loci::{root_loci_png, root_loci_svg};
+pub use runup::{runup_png, runup_svg};
+pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
 
 /// Whether any term of the equation of motion takes energy out of the saw.
 fn is_damped(report: &crate::report::Report) -> bool {

@@ -74,9 +74,14 @@ fn average(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
     let mut pixels = Vec::with_capacity(width * height * 3);
     for rows in fine.chunks_exact(width * block * 3 * block) {
         sums.fill(0);
-        for (i, &value) in rows.iter().enumerate() {
-            let column = (i / 3) % (width * block) / block;
-            sums[column * 3 + i % 3] += u32::from(value);
+        for row in rows.chunks_exact(width * block * 3) {
+            for (sum, cells) in sums.chunks_exact_mut(3).zip(row.chunks_exact(3 * block)) {
+                for cell in cells.chunks_exact(3) {
+                    sum[0] += u32::from(cell[0]);
+                    sum[1] += u32::from(cell[1]);
+                    sum[2] += u32::from(cell[2]);
+                }
+            }
         }
         let count = FINE * FINE;
         pixels.extend(sums.iter().map(|sum| ((sum + count / 2) / count) as u8));

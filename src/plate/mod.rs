@@ -11,7 +11,7 @@ mod quadrature;
 mod radial;
 mod stress;
 
-pub use edge_load::{EdgeStress, HarmonicStress, RimForce, edge_stiffness};
+pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;
@@ -64,6 +64,8 @@ pub struct Plate {
     pub guide_stiffness: Option<Mat<f64>>,
     /// Damping of the guides, in 1/s, when a guide has one.
     pub guide_damping: Option<Mat<f64>>,
+    /// K_e, in 1/s², once [`Plate::with_edge_loads`] has put forces on the rim.
+    pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
     pub damping: Option<Damping>,
     /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
@@ -97,6 +99,7 @@ impl Plate {
             harmonics,
             guide_stiffness: None,
             guide_damping: None,
+            edge_stiffness: None,
             damping: scene.damping,
             samples,
         };
@@ -119,6 +122,20 @@ impl Plate {
         };
         add(&mut self.guide_stiffness, guide.stiffness_n_per_m);
         add(&mut self.guide_damping, guide.damping_n_s_per_m);
+    }
+
+    /// The same plate under dead forces at its rim.
+    pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
+        let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
+        self.with_edge_stiffness(edge_stiffness(self, &stress))
+    }
+
+    /// The same plate with a given K_e, in 1/s².
+    pub fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
+        Plate {
+            edge_stiffness: Some(edge_stiffness),
+            ..self.clone()
+        }
     }
 
     /// The same plate without any damping.
@@ -154,7 +171,9 @@ impl Plate {
 
     /// Whether anything fixed in space couples the harmonics.
     pub fn is_axisymmetric(&self) -> bool {
-        self.guide_stiffness.is_none() && self.guide_damping.is_none()
+        self.guide_stiffness.is_none()
+            && self.guide_damping.is_none()
+            && self.edge_stiffness.is_none()
     }
 
     /// The radial functions of n nodal diameters at radii evenly spread from edge to edge.

@@ -6,6 +6,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::SplineFile;
+use super::cut::CutFile;
+use super::runup::{ProbeFile, RunUpFile};
+
 /// A saw and what to find out about it, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -25,6 +29,9 @@ pub struct SceneFile {
     /// Damping. None by default, as in the classical analysis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingFile>,
+    /// Contact between bore and splined arbor. Not simulated by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spline: Option<SplineFile>,
     /// Speed at which the saw is run, held against the 85 % rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
@@ -37,6 +44,15 @@ pub struct SceneFile {
     /// Growth rate from which an oscillatory band counts as flutter of the saw.
     #[serde(default = "default_flutter_threshold_per_s")]
     pub flutter_threshold_per_s: f64,
+    /// Forces of the wood on the teeth, for `sawflutter cut`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cut: Option<CutFile>,
+    /// Run-up under a lateral force, for `sawflutter runup`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub runup: Option<RunUpFile>,
+    /// Where the deflection is read; by default at the rim, 90° past the cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub probe: Option<ProbeFile>,
     /// Measured or published frequencies to show beside the computed ones.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,

@@ -1,15 +1,22 @@
 //! What the user says about the saw, in two stages: [`SceneFile`] as typed,
 //! then [`Scene`], validated and in SI units and radians.
 
+mod check;
+mod cut;
 mod file;
 mod read;
+mod runup;
+mod spline;
 mod validate;
 
+pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
+pub use spline::{Spline, SplineFile};
 pub use validate::{Blade, Bore, Damping, Guide, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.

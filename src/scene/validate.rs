@@ -1,9 +1,12 @@
 //! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
 //! and radians, ready to compute with.
 
+use super::check::{MAX_GUIDE, MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
+use super::cut::Cut;
+use super::runup::{Probe, RunUp};
 use super::{
-    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, SweepFile,
-    rad_per_s,
+    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, Spline,
+    SweepFile, rad_per_s,
 };
 
 /// A validated saw.
@@ -17,6 +20,8 @@ pub struct Scene {
     pub guides: Vec<Guide>,
     /// Damping, if any number of it is not zero.
     pub damping: Option<Damping>,
+    /// Contact between bore and arbor, if its motion is asked for.
+    pub spline: Option<Spline>,
     /// Speeds asked for; `None` leaves the choice to the program.
     pub sweep: Option<SpeedRange>,
     /// Speed at which the saw is run.
@@ -25,6 +30,12 @@ pub struct Scene {
     pub accuracy: Accuracy,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
+    /// Forces of the wood on the teeth.
+    pub cut: Option<Cut>,
+    /// Run-up under a lateral force.
+    pub runup: Option<RunUp>,
+    /// Where the deflection is read.
+    pub probe: Probe,
 }
 
 /// The moving annulus a < r < b.
@@ -117,42 +128,6 @@ impl Guide {
     }
 }
 
-/// Widest range of a positive quantity: far beyond any saw, and narrow enough
-/// that no product of them overflows.
-const SPAN: (f64, f64) = (1e-12, 1e15);
-/// A pad stiffer than this is, to all digits of a double, a rigid one.
-const MAX_GUIDE: f64 = 1e18;
-const MAX_RPM: f64 = 1e9;
-/// Each pad costs an integral over the whole basis; no saw has a hundredth of these.
-const MAX_GUIDES: usize = 256;
-
-fn refuse(key: &str, value: f64, allowed: impl Into<String>, remedy: &'static str) -> SceneError {
-    SceneError::Value {
-        key: key.to_owned(),
-        value: value.to_string(),
-        allowed: allowed.into(),
-        remedy,
-    }
-}
-
-fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
-    if (SPAN.0..=SPAN.1).contains(&value) {
-        return Ok(value);
-    }
-    let allowed = format!("between {:e} and {:e}", SPAN.0, SPAN.1);
-    let remedy = "give it in the SI unit that ends the key's name";
-    Err(refuse(key, value, allowed, remedy))
-}
-
-fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, SceneError> {
-    if (low..=high).contains(&value) {
-        return Ok(value);
-    }
-    let allowed = format!("between {low} and {high:e}");
-    let remedy = "give it in the unit that ends the key's name";
-    Err(refuse(key, value, allowed, remedy))
-}
-
 impl TryFrom<SceneFile> for Scene {
     type Error = SceneError;
 
@@ -171,12 +146,20 @@ impl TryFrom<SceneFile> for Scene {
             .collect::<Result<Vec<_>, _>>()?;
         check_measured(&file)?;
         Ok(Scene {
+            cut: file
+                .cut
+                .as_ref()
+                .map(|cut| Cut::new(cut, &file, &blade))
+                .transpose()?,
+            runup: file.runup.as_ref().map(RunUp::new).transpose()?,
+            probe: Probe::new(file.probe.as_ref(), &blade)?,
             blade,
             guides: guides
                 .into_iter()
                 .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
                 .collect(),
             damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
+            spline: Spline::of(&file, &blade)?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
             operating_rad_per_s: file
                 .operating_rpm

@@ -25,13 +25,19 @@ pub struct Deflation {
 }
 
 impl Deflation {
-    /// For the companion matrix in units of time 1/s; `velocity` is D. `None` when every
-    /// rigid motion is held.
-    pub fn new(system: &GyroscopicSystem, velocity: &Mat<f64>, scale: f64) -> Option<Self> {
+    /// For the companion matrix in units of time 1/s = 1/`scale`. `None` when every rigid
+    /// motion is held, be it by a stiffness that was added later.
+    pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, scale: f64) -> Option<Self> {
         let (size, free) = (system.order(), &system.free_rigid);
         if free.is_empty() {
             return None;
         }
+        let stiffness = system.stiffness_at(speed_rad_per_s);
+        let noise = ROUNDING * stiffness.norm_max();
+        if free.iter().any(|z| (&stiffness * z).norm_max() > noise) {
+            return None;
+        }
+        let velocity = system.velocity_at(speed_rad_per_s);
         let momentum: Vec<Col<f64>> = free
             .iter()
             .map(|z| Scale(1.0 / scale) * velocity.transpose() * z)

@@ -26,21 +26,22 @@ pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     }
 }
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
-/// each rigid motion that nothing holds there is one, with λ = 0 exactly.
+/// The companion matrix of x = (q, q̇/s), in units of s, and s.
 ///
 /// # Errors
-/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
-pub fn companion_eigenpairs(
+/// [`SpectrumError::NotFinite`].
+pub(super) fn companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
-) -> Result<Vec<Eigenpair>, SpectrumError> {
+) -> Result<(Mat<f64>, f64), SpectrumError> {
     let stiffness = system.stiffness_at(speed_rad_per_s);
     let velocity = system.velocity_at(speed_rad_per_s);
     let size = system.order();
-    let failed = |variant: fn(usize, f64) -> SpectrumError| variant(2 * size, rpm(speed_rad_per_s));
     if !(stiffness.is_all_finite() && velocity.is_all_finite()) {
-        return Err(failed(|order, rpm| SpectrumError::NotFinite { order, rpm }));
+        return Err(SpectrumError::NotFinite {
+            order: 2 * size,
+            rpm: rpm(speed_rad_per_s),
+        });
     }
     let scale = time_scale(&stiffness);
     let mut state = Mat::zeros(2 * size, 2 * size);
@@ -56,17 +57,33 @@ pub fn companion_eigenpairs(
         .rb_mut()
         .subcols_mut(size, size)
         .copy_from(Scale(-1.0 / scale) * &velocity);
-    let deflation = Deflation::new(system, &velocity, scale);
+    Ok((state, scale))
+}
+
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
+/// each rigid motion that nothing holds there is one, with λ = 0 exactly.
+///
+/// # Errors
+/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
+pub fn companion_eigenpairs(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    let (mut state, scale) = companion(system, speed_rad_per_s)?;
+    let size = system.order();
+    let deflation = Deflation::new(system, speed_rad_per_s, scale);
     if let Some(Deflation { kept, .. }) = &deflation {
         state = kept.transpose() * state * kept;
     }
-    let eigen = Eigen::new_from_real(state.as_ref())
-        .map_err(|_| failed(|order, rpm| SpectrumError::NoConvergence { order, rpm }))?;
+    let eigen = Eigen::new_from_real(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
+        order: state.nrows(),
+        rpm: rpm(speed_rad_per_s),
+    })?;
     let displacement = |i: usize| match &deflation {
         Some(deflation) => deflation.displacement(eigen.S()[i], &eigen.U().col(i).to_owned()),
         None => eigen.U().col(i).subrows(0, size).to_owned(),
     };
-    let free = system.free_rigid.iter().map(|z| {
+    let free = deflation.iter().flat_map(|_| &system.free_rigid).map(|z| {
         let z = Col::from_fn(size, |i| c64::new(z[i], 0.0));
         (c64::new(0.0, 0.0), z)
     });

@@ -1,83 +1,150 @@
 //! Reflected waves and what they can meet: the smallest system that has every
 //! instability of an undamped guided blade.
 
-use std::borrow::Cow;
 use std::sync::atomic::Ordering;
 
-use faer::{Col, Scale};
+use faer::Col;
 
 use crate::system::GyroscopicSystem;
 
-use super::mode::{Mode, classify, split};
+use super::dense::Eigenpair;
+use super::mode::{Mode, classify};
 use super::model::WorkCounters;
-use super::reduction::{KEPT_WHOLE, orthonormal};
+use super::pair::{ModePair, standing_states};
+use super::state::{State, StateModel};
 use super::{SpectrumError, companion_eigenpairs};
 
 /// A projected system with the frequency up to which its modes are complete.
 #[derive(Debug, Clone)]
 pub struct LowModel<'a> {
-    system: Cow<'a, GyroscopicSystem>,
+    system: &'a GyroscopicSystem,
+    /// The same between two speeds, on the states of the modes at both.
+    local: Option<StateModel>,
+    /// Critical speeds and their standing waves.
+    standing: Vec<(f64, Col<f64>)>,
     height_rad_per_s: f64,
     counters: &'a WorkCounters,
 }
 
-/// Intervals wider than this share of their end are not narrowed: two ends do not
-/// span what happens between them.
-const NARROW: f64 = 0.04;
+/// The low modes of one speed.
+#[derive(Debug, Clone)]
+pub struct LowModes {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Those above the height are there to tell what comes next, and not to be trusted to
+    /// many digits.
+    pub modes: Vec<Mode>,
+    /// The states of the lowest, also those that are no modes of their own: the mirror
+    /// images of growing ones.
+    pub states: Vec<State>,
+}
+
 /// Modes up to this multiple of the height help to span those below it.
 const SPAN_MARGIN: f64 = 1.2;
 
 impl<'a> LowModel<'a> {
     pub(super) fn new(
         system: &'a GyroscopicSystem,
+        standing: Vec<(f64, Col<f64>)>,
         height_rad_per_s: f64,
         counters: &'a WorkCounters,
     ) -> Self {
         LowModel {
-            system: Cow::Borrowed(system),
+            system,
+            local: None,
+            standing,
             height_rad_per_s,
             counters,
         }
     }
 
-    /// Its modes. Those above the height are there to tell what comes next, and not to
-    /// be trusted to many digits.
+    /// Its modes at a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        let pairs = companion_eigenpairs(&self.system, speed_rad_per_s)?;
-        Ok(classify(&self.system, speed_rad_per_s, 0, pairs))
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<LowModes, SpectrumError> {
+        let pairs = match &self.local {
+            Some(local) => {
+                self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
+                local.eigenpairs(speed_rad_per_s)?
+            }
+            None => {
+                self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+                companion_eigenpairs(self.system, speed_rad_per_s)?
+            }
+        };
+        let low = |pair: &&Eigenpair| pair.0.im <= SPAN_MARGIN * self.height_rad_per_s;
+        let states = pairs
+            .iter()
+            .filter(low)
+            .map(|pair| State::new(self.system, speed_rad_per_s, pair.clone()))
+            .collect();
+        let modes = classify(self.system, speed_rad_per_s, 0, pairs);
+        Ok(LowModes {
+            speed_rad_per_s,
+            modes,
+            states,
+        })
     }
 
-    /// The same for a narrow interval of speeds, on the modes at both ends: a few
-    /// vectors, whose error falls with the fourth power of the width. Wide intervals
-    /// come back as they are.
+    /// The same between two speeds, on the states of the modes at both and on the standing
+    /// waves between them: few states, whose error falls with the fourth power of the
+    /// distance and vanishes at both ends and where a wave stands.
+    pub fn between(&self, ends: [&LowModes; 2]) -> Self {
+        // Without the momentum of free rigid motions, which depends on the speed, two ends
+        // do not span what is between.
+        if !self.system.free_rigid.is_empty() {
+            return self.whole();
+        }
+        let [from, to] = ends.map(|end| end.speed_rad_per_s);
+        let mut states: Vec<State> = Vec::new();
+        let inside = |(speed, _): &&(f64, Col<f64>)| (from..=to).contains(speed);
+        for (speed, shape) in self.standing.iter().filter(inside) {
+            states.extend(standing_states(
+                self.system,
+                *speed,
+                shape,
+                self.height_rad_per_s,
+            ));
+        }
+        for end in ends {
+            states.extend(end.states.iter().cloned());
+        }
+        LowModel {
+            local: StateModel::new(self.system, self.height_rad_per_s, &states),
+            ..self.clone()
+        }
+    }
+
+    /// The projected system itself, where no speeds are near enough to be between.
+    pub fn whole(&self) -> Self {
+        LowModel {
+            local: None,
+            ..self.clone()
+        }
+    }
+
+    /// The two modes of one speed next to a frequency, refined on the projected system.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn narrowed(&self, from: f64, to: f64) -> Result<Self, SpectrumError> {
-        if to - from > NARROW * to {
-            return Ok(self.clone());
-        }
-        let free = self.system.free_rigid.iter();
-        let mut vectors: Vec<Col<f64>> = free.map(|z| Scale(KEPT_WHOLE) * z).collect();
-        for speed in [from, to] {
-            self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            for (lambda, q) in companion_eigenpairs(&self.system, speed)? {
-                if lambda.im <= SPAN_MARGIN * self.height_rad_per_s {
-                    let (re, im) = split(&q);
-                    vectors.extend([re, im]);
-                }
-            }
-        }
-        let basis = orthonormal(self.system.order(), &vectors, 1e-9);
-        let counters = self.counters;
-        Ok(LowModel {
-            system: Cow::Owned(self.system.project(basis.as_ref())),
-            counters,
-            height_rad_per_s: self.height_rad_per_s,
-        })
+    pub fn pair(
+        &self,
+        speed_rad_per_s: f64,
+        frequency_rad_per_s: f64,
+    ) -> Result<Option<ModePair>, SpectrumError> {
+        let mut states = self.modes(speed_rad_per_s)?.states;
+        let distance = |state: &State| (state.lambda.im - frequency_rad_per_s).abs();
+        states.sort_by(|x, y| distance(x).total_cmp(&distance(y)));
+        let [first, second, ..] = states.as_slice() else {
+            return Ok(None);
+        };
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        Ok(ModePair::new(
+            self.system,
+            speed_rad_per_s,
+            self.height_rad_per_s,
+            [first, second],
+        ))
     }
 }

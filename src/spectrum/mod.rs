@@ -3,24 +3,32 @@
 mod deflation;
 mod dense;
 pub mod derivative;
+mod growth;
 mod low;
 mod mode;
 mod model;
 mod name;
+mod pair;
 mod part;
 mod pencil;
+mod projection;
 mod reduction;
 mod shift_invert;
+mod state;
 
-pub use dense::companion_eigenpairs;
-pub use low::LowModel;
-pub use mode::{Mode, ModeKind};
+pub use dense::{companion_eigenpairs, time_scale};
+pub use growth::{fastest_growing, fastest_growing_of, has_free_rigid_motions};
+pub use low::{LowModel, LowModes};
+pub use mode::{Mode, ModeKind, split};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
+pub use pair::ModePair;
+pub(crate) use part::frequency_scale;
 pub use part::{NamedCriticalSpeed, Part};
 pub use pencil::{CriticalSpeed, critical_speeds};
-pub use reduction::Projection;
+pub use projection::{Projection, orthonormal};
 pub use shift_invert::lowest_eigenpairs;
+pub use state::{State, StateModel};
 
 /// Why a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]

@@ -1,10 +1,11 @@
 //! What kind of mode an eigenpair is, and which sign its energy has.
 
-use faer::{Col, Mat, Scale, c64};
+use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
 use super::dense::{Eigenpair, time_scale};
+use super::projection::Lifted;
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,10 +48,10 @@ pub struct Mode {
 
 /// A growth rate below this share of |λ| + Ω is rounding: at a merging of two modes
 /// eigenvalues are known to √ε only.
-const GROWTH_NOISE: f64 = 1e-7;
+pub(super) const GROWTH_NOISE: f64 = 1e-7;
 /// Eigenvalues below this share of the root mean square frequency are zero, where rigid
 /// motions are free: a double zero is known to √ε of it only.
-const RIGID_NOISE: f64 = 2e-7;
+pub(super) const RIGID_NOISE: f64 = 2e-7;
 
 impl Mode {
     /// ω = |Im λ|, in rad/s.
@@ -183,42 +184,29 @@ pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
     )
 }
 
-/// L(λ) = λ² + λD + K at one speed, for residuals.
+/// ‖D‖ and ‖K‖ at one speed, for residuals.
 #[derive(Debug)]
-pub struct DynamicStiffness {
-    stiffness: Mat<f64>,
-    velocity: Mat<f64>,
-    stiffness_norm: f64,
-    velocity_norm: f64,
+pub struct MatrixNorms {
+    stiffness: f64,
+    velocity: f64,
 }
 
-impl DynamicStiffness {
-    /// Evaluates the matrices once for all modes of a speed.
+impl MatrixNorms {
+    /// Evaluates both once for all modes of a speed.
     pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Self {
-        let stiffness = system.stiffness_at(speed_rad_per_s);
-        let velocity = system.velocity_at(speed_rad_per_s);
-        DynamicStiffness {
-            stiffness_norm: stiffness.norm_l2(),
-            velocity_norm: velocity.norm_l2(),
-            stiffness,
-            velocity,
+        MatrixNorms {
+            stiffness: system.stiffness_at(speed_rad_per_s).norm_l2(),
+            velocity: system.velocity_at(speed_rad_per_s).norm_l2(),
         }
-    }
-
-    /// L(λ)q.
-    pub fn residual(&self, lambda: c64, q: &Col<c64>) -> Col<c64> {
-        Scale(lambda * lambda) * q
-            + Scale(lambda) * real_times(&self.velocity, q)
-            + real_times(&self.stiffness, q)
     }
 
     /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖) ‖q‖): the relative change of the matrices
     /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
-    pub fn backward_error(&self, lambda: c64, q: &Col<c64>) -> f64 {
-        let size = lambda.norm_sqr() + lambda.norm() * self.velocity_norm + self.stiffness_norm;
-        let denominator = size * q.norm_l2();
+    pub fn backward_error(&self, lambda: c64, lifted: &Lifted) -> f64 {
+        let size = lambda.norm_sqr() + lambda.norm() * self.velocity + self.stiffness;
+        let denominator = size * lifted.shape.norm_l2();
         if denominator > 0.0 {
-            self.residual(lambda, q).norm_l2() / denominator
+            lifted.residual.norm_l2() / denominator
         } else {
             0.0
         }

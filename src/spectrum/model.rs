@@ -12,10 +12,11 @@ use crate::plate::Plate;
 
 use super::derivative;
 use super::low::LowModel;
-use super::mode::{DynamicStiffness, Mode, ModeKind, classify, real_times};
+use super::mode::{MatrixNorms, Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
-use super::reduction::{self, Projection};
+use super::projection::{Projection, pairs_of};
+use super::reduction;
 use super::{SpectrumError, companion_eigenpairs};
 
 /// How the modes of a speed are found.
@@ -33,6 +34,10 @@ pub enum Strategy {
 pub struct WorkCounters {
     /// Eigenproblems solved on the projected matrices.
     pub reduced_solves: AtomicUsize,
+    /// Eigenproblems of the few states between two speeds.
+    pub local_solves: AtomicUsize,
+    /// Pairs of modes refined by inverse iteration on the projected matrices.
+    pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
 }
@@ -143,6 +148,29 @@ impl SpectralModel {
         Ok(modes)
     }
 
+    /// The same for drawing: of an undamped guided blade from few states, right to 1e-5 of
+    /// the chart's height.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn drawn_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
+        let ([part], true) = (self.parts.as_slice(), speed_rad_per_s > 0.0) else {
+            return self.modes(speed_rad_per_s);
+        };
+        let projection = part.at(speed_rad_per_s);
+        let Some(few) = projection.drawn_at(speed_rad_per_s) else {
+            return self.modes(speed_rad_per_s);
+        };
+        self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
+        let mut pairs = few.eigenpairs(speed)?;
+        pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
+        let mut modes = classify(&projection.reduced, speed, 0, pairs);
+        modes.retain(|m| m.kind != ModeKind::Rigid);
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+        Ok(modes)
+    }
+
     /// Every mode of the whole basis, by brute force.
     ///
     /// # Errors
@@ -201,37 +229,55 @@ impl SpectralModel {
         let [part] = self.parts.as_slice() else {
             return None;
         };
-        let (system, height_rad_per_s) = match &part.low {
-            Some((projection, height)) => (&projection.reduced, *height),
-            None => (&part.full, self.complete_to_rad_per_s),
+        let last = part.chart.last().map_or(0.0, |p| p.to_rad_per_s);
+        let within = self.critical.iter().filter(|c| c.speed_rad_per_s <= last);
+        let standing = within.map(|c| (c.speed_rad_per_s, &c.shape));
+        let (system, standing, height_rad_per_s) = match &part.low {
+            Some((projection, height)) => {
+                let inward = |(speed, x)| (speed, projection.basis.transpose() * x);
+                (&projection.reduced, standing.map(inward).collect(), *height)
+            }
+            None => {
+                let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
+                (&part.full, own.collect(), self.complete_to_rad_per_s)
+            }
         };
-        Some(LowModel::new(system, height_rad_per_s, &self.counters))
+        Some(LowModel::new(
+            system,
+            standing,
+            height_rad_per_s,
+            &self.counters,
+        ))
     }
 
     /// Names and residuals of modes of one speed.
     pub fn describe(&self, speed_rad_per_s: f64, modes: Vec<Mode>) -> Vec<DescribedMode> {
-        let dynamic: Vec<DynamicStiffness> = self
-            .parts
-            .iter()
-            .map(|part| DynamicStiffness::new(&part.full, speed_rad_per_s))
-            .collect();
-        modes
-            .into_iter()
-            .map(|mode| {
-                let part = &self.parts[mode.part];
-                let basis = &part.at(speed_rad_per_s).basis;
-                let lifted = real_times(basis, &mode.coordinates);
-                let backward_error = dynamic[mode.part].backward_error(mode.lambda, &lifted);
-                let shape = self.embed(part.first, &lifted);
+        let mut described: Vec<Option<DescribedMode>> = modes.iter().map(|_| None).collect();
+        for (index, part) in self.parts.iter().enumerate() {
+            let places: Vec<usize> = (0..modes.len())
+                .filter(|&k| modes[k].part == index)
+                .collect();
+            if places.is_empty() {
+                continue;
+            }
+            let own: Vec<Mode> = places.iter().map(|&k| modes[k].clone()).collect();
+            let norms = MatrixNorms::new(&part.full, speed_rad_per_s);
+            let lifted = part
+                .at(speed_rad_per_s)
+                .lifted(speed_rad_per_s, &pairs_of(&own));
+            for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
+                let backward_error = norms.backward_error(mode.lambda, &lifted);
+                let shape = self.embed(part.first, &lifted.shape);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
-                DescribedMode {
+                described[place] = Some(DescribedMode {
                     mode,
                     shape,
                     name,
                     backward_error,
-                }
-            })
-            .collect()
+                });
+            }
+        }
+        described.into_iter().flatten().collect()
     }
 
     fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {

@@ -1,13 +1,13 @@
 //! Independent parts of the blade, their critical speeds and what holds them.
 
-use faer::{Col, Mat, c64};
+use faer::{Col, c64};
 
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
 use super::mode::{Mode, ModeKind, real_times};
 use super::name::ModeName;
-use super::reduction::Projection;
+use super::projection::Projection;
 use super::{SpectrumError, critical_speeds};
 
 /// An independent part of the blade: one harmonic, or all of them coupled by guides.
@@ -51,14 +51,9 @@ impl Part {
     }
 
     fn new(full: GyroscopicSystem, first: usize) -> Self {
-        let order = full.order();
         Part {
             first,
-            chart: vec![Projection {
-                to_rad_per_s: f64::INFINITY,
-                basis: Mat::identity(order, order),
-                reduced: full.clone(),
-            }],
+            chart: vec![Projection::whole(&full)],
             low: None,
             full,
         }
@@ -84,7 +79,7 @@ impl Part {
 }
 
 /// √(D/ρh)/b² times five: near the lowest frequency of most blades.
-pub(super) fn frequency_scale(plate: &Plate) -> f64 {
+pub(crate) fn frequency_scale(plate: &Plate) -> f64 {
     let blade = &plate.blade;
     let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
     5.0 * specific.sqrt() / blade.outer_radius_m.powi(2)

@@ -5,36 +5,17 @@ use std::sync::atomic::Ordering;
 use faer::{Col, Mat, Scale, Side, c64};
 use rayon::prelude::*;
 
+use super::projection::{Lifted, Projection, orthonormal};
 use crate::plate::Plate;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
 
-use super::mode::{DynamicStiffness, ModeKind, classify, real_times, split};
+use super::dense::Eigenpair;
+use super::mode::{ModeKind, classify, split};
 use super::model::WorkCounters;
+use super::pair::standing_states;
 use super::part::{NamedCriticalSpeed, frequency_scale};
+use super::state::{State, StateModel};
 use super::{companion_eigenpairs, lowest_eigenpairs};
-
-/// A part projected on few orthonormal vectors.
-#[derive(Debug)]
-pub struct Projection {
-    /// Last speed that it is good for.
-    pub to_rad_per_s: f64,
-    /// N × r.
-    pub basis: Mat<f64>,
-    /// The projected matrices.
-    pub reduced: GyroscopicSystem,
-}
-
-impl Projection {
-    /// Projects a part, for speeds up to `to_rad_per_s`.
-    pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
-        let reduced = system.project(basis.as_ref());
-        Projection {
-            to_rad_per_s,
-            basis,
-            reduced,
-        }
-    }
-}
 
 /// Modes a chart shows at the lowest speed.
 const CHART_MODES: usize = 12;
@@ -45,12 +26,18 @@ const RADIAL_MODES: usize = 4;
 const SPAN_TOLERANCE: f64 = 1e-6;
 /// Largest estimated error of a projected frequency, relative to the chart's height.
 const FREQUENCY_TOLERANCE: f64 = 1e-8;
+/// The same for modes that are only drawn: a chart has three digits, its numbers six.
+const DRAWN_TOLERANCE: f64 = 1e-7;
+/// The same for the few states that curves are drawn from.
+const LOCAL_TOLERANCE: f64 = 1e-5;
+/// Modes up to this multiple of the window are among these states.
+const DRAWN_MARGIN: f64 = 1.05;
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
 const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
 const SNAPSHOT_MARGIN: f64 = 1.5;
 /// Length given to vectors of which no part may be left out.
-pub const KEPT_WHOLE: f64 = 1e6;
+const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
@@ -150,9 +137,19 @@ pub fn of_guided(
         window: 0.0,
         snapshots: Vec::new(),
     };
-    let low_rad_per_s = builder.reflected_height(range.1);
-    builder.window = builder.chart_height(range.0).max(low_rad_per_s);
-    builder.add_snapshots(&first_speeds(range));
+    let ((low_rad_per_s, last), (chart_rad_per_s, first)) = rayon::join(
+        || builder.reflected_height(range.1),
+        || builder.chart_height(range.0),
+    );
+    builder.window = chart_rad_per_s.max(low_rad_per_s);
+    let mut speeds = first_speeds(range).to_vec();
+    for known in [Some(first), last].into_iter().flatten() {
+        if builder.covers(&known) {
+            speeds.retain(|speed| *speed != known.speed);
+            builder.snapshots.push(known);
+        }
+    }
+    builder.add_snapshots(&speeds);
     let low = (low_rad_per_s > 0.0).then(|| builder.whole_range(low_rad_per_s));
     GuidedReductions {
         chart: builder.pieces(),
@@ -165,7 +162,7 @@ pub fn of_guided(
 /// Low modes of the whole system at one speed.
 struct Snapshot {
     speed: f64,
-    pairs: Vec<super::dense::Eigenpair>,
+    pairs: Vec<Eigenpair>,
 }
 
 struct Builder<'a> {
@@ -179,31 +176,35 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn lowest(&self, speed: f64, count: usize) -> Vec<super::dense::Eigenpair> {
+    fn lowest(&self, speed: f64, count: usize) -> Vec<Eigenpair> {
         self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
         lowest_eigenpairs(self.system, speed, count, 0.5 * self.scale)
     }
 
-    fn chart_height(&self, speed: f64) -> f64 {
+    fn chart_height(&self, speed: f64) -> (f64, Snapshot) {
         let pairs = self.lowest(speed, CHART_MODES + 2);
         let frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im).collect();
-        1.02 * frequencies
-            .get(CHART_MODES - 1)
-            .or(frequencies.last())
-            .copied()
-            .unwrap_or(self.scale)
+        let height = frequencies.get(CHART_MODES - 1).or(frequencies.last());
+        let height = 1.02 * height.copied().unwrap_or(self.scale);
+        (height, Snapshot { speed, pairs })
+    }
+
+    /// Whether a snapshot has every mode of the window.
+    fn covers(&self, snapshot: &Snapshot) -> bool {
+        let highest = snapshot.pairs.last();
+        highest.is_some_and(|(lambda, _)| lambda.norm() > self.window)
     }
 
     /// Highest reflected wave at the top speed, with a margin for what it may meet.
-    fn reflected_height(&self, speed: f64) -> f64 {
+    fn reflected_height(&self, speed: f64) -> (f64, Option<Snapshot>) {
         let index = self.critical.partition_point(|c| c.speed_rad_per_s < speed);
         if index == 0 || !self.system.is_conservative() {
-            return 0.0;
+            return (0.0, None);
         }
         let mut count = CHART_MODES + index;
         loop {
             let pairs = self.lowest(speed, count);
-            let modes = classify(self.system, speed, 0, pairs);
+            let modes = classify(self.system, speed, 0, pairs.clone());
             let negative = |kind| match kind {
                 ModeKind::Negative | ModeKind::Flutter => 2,
                 ModeKind::Divergent => 1,
@@ -213,7 +214,8 @@ impl Builder<'_> {
             if found >= index || 2 * count >= self.system.order() {
                 let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
                 let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
-                return REFLECTED_MARGIN * height.max(0.1 * self.scale);
+                let height = REFLECTED_MARGIN * height.max(0.1 * self.scale);
+                return (height, Some(Snapshot { speed, pairs }));
             }
             count *= 2;
         }
@@ -233,11 +235,9 @@ impl Builder<'_> {
         let mut count = CHART_MODES + 2;
         loop {
             let pairs = self.lowest(speed, count);
-            let covered = pairs
-                .last()
-                .is_some_and(|(lambda, _)| lambda.norm() > self.window);
-            if covered || 2 * count >= self.system.order() {
-                return Snapshot { speed, pairs };
+            let snapshot = Snapshot { speed, pairs };
+            if self.covers(&snapshot) || 2 * count >= self.system.order() {
+                return snapshot;
             }
             count += count / 2;
         }
@@ -266,85 +266,159 @@ impl Builder<'_> {
     }
 
     /// One projection for all speeds, from the modes up to a height at every snapshot;
-    /// snapshots are added until it is right halfway between them.
+    /// snapshots are added until it is right halfway between them. What was right once stays
+    /// so, for the space only grows.
     fn whole_range(&mut self, height: f64) -> Projection {
+        let mut settled: Vec<f64> = Vec::new();
         loop {
-            let projection = Projection::new(
-                self.system,
-                self.basis(&self.snapshots, height),
-                self.range.1,
-            );
-            let halfway = self
-                .snapshots
-                .windows(2)
-                .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
-            let halfway: Vec<f64> = halfway.collect();
-            let coarse = self.unresolved(&halfway, height, |_| &projection);
+            let basis = self.basis(&self.snapshots, height);
+            let projection = Projection::new(self.system, basis, self.range.1);
+            let mut halfway = self.halfway();
+            halfway.retain(|speed| !settled.contains(speed));
+            let wrong: Vec<bool> = halfway
+                .par_iter()
+                .map(|&speed| {
+                    let pairs = self.pairs(&projection, speed);
+                    self.frequency_error(&projection, speed, height, &pairs)
+                        > FREQUENCY_TOLERANCE * self.window
+                })
+                .collect();
+            let (coarse, fine): (Vec<_>, Vec<_>) = halfway
+                .into_iter()
+                .zip(wrong)
+                .partition(|(_, wrong)| *wrong);
+            settled.extend(fine.into_iter().map(|(speed, _)| speed));
             if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
                 return projection;
             }
-            self.add_snapshots(&coarse);
+            let speeds: Vec<f64> = coarse.into_iter().map(|(speed, _)| speed).collect();
+            self.add_snapshots(&speeds);
         }
     }
 
     /// Projections between neighbouring snapshots, halved until right in their middle.
     fn pieces(&mut self) -> Vec<Projection> {
+        let mut finished: Vec<Projection> = Vec::new();
         loop {
-            let pieces: Vec<Projection> = self
-                .snapshots
-                .par_windows(2)
+            let is_open = |pair: &&[Snapshot]| {
+                let to = pair[1].speed;
+                finished.iter().all(|piece| piece.to_rad_per_s != to)
+            };
+            let open: Vec<&[Snapshot]> = self.snapshots.windows(2).filter(is_open).collect();
+            let last_round = self.snapshots.len() >= MAX_SNAPSHOTS;
+            let tried: Vec<(Projection, Option<f64>)> = open
+                .into_par_iter()
                 .map(|pair| {
-                    Projection::new(self.system, self.basis(pair, self.window), pair[1].speed)
+                    let basis = self.basis(pair, self.window);
+                    let mut piece = Projection::new(self.system, basis, pair[1].speed);
+                    let middle = 0.5 * (pair[0].speed + pair[1].speed);
+                    let pairs = self.pairs(&piece, middle);
+                    let wrong = !last_round
+                        && self.frequency_error(&piece, middle, self.window, &pairs)
+                            > DRAWN_TOLERANCE * self.window;
+                    if !wrong && self.system.is_conservative() && self.system.free_rigid.is_empty()
+                    {
+                        piece.drawn = self.drawn(&piece, pair, (middle, pairs));
+                    }
+                    (piece, wrong.then_some(middle))
                 })
                 .collect();
-            let halfway = self
-                .snapshots
-                .windows(2)
-                .map(|pair| 0.5 * (pair[0].speed + pair[1].speed));
-            let halfway: Vec<f64> = halfway.collect();
-            let coarse = self.unresolved(&halfway, self.window, |index| &pieces[index]);
-            if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
-                return pieces;
+            let mut coarse = Vec::new();
+            for (piece, wrong_at) in tried {
+                match wrong_at {
+                    Some(middle) => coarse.push(middle),
+                    None => finished.push(piece),
+                }
+            }
+            if coarse.is_empty() {
+                finished.sort_by(|x, y| x.to_rad_per_s.total_cmp(&y.to_rad_per_s));
+                return finished;
             }
             self.add_snapshots(&coarse);
         }
     }
 
-    /// The speeds at which some mode up to a height is not right yet; each has its projection.
-    fn unresolved<'p>(
+    fn halfway(&self) -> Vec<f64> {
+        let middle = |pair: &[Snapshot]| 0.5 * (pair[0].speed + pair[1].speed);
+        self.snapshots.windows(2).map(middle).collect()
+    }
+
+    /// The eigenpairs of a projection; none where the iteration fails.
+    fn pairs(&self, projection: &Projection, speed: f64) -> Vec<Eigenpair> {
+        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        companion_eigenpairs(&projection.reduced, speed).unwrap_or_default()
+    }
+
+    /// Both halves of a piece on the states at its ends, in its middle, and where a wave
+    /// stands; nothing for a half that is not good enough to draw.
+    fn drawn(
         &self,
-        speeds: &[f64],
-        height: f64,
-        projection: impl Fn(usize) -> &'p Projection + Sync,
-    ) -> Vec<f64> {
-        let wrong: Vec<bool> = speeds
-            .par_iter()
-            .enumerate()
-            .map(|(index, &speed)| {
-                self.frequency_error(projection(index), speed, height)
-                    > FREQUENCY_TOLERANCE * self.window
-            })
-            .collect();
-        let chosen = speeds.iter().zip(wrong).filter(|(_, wrong)| *wrong);
-        chosen.map(|(speed, _)| *speed).collect()
+        piece: &Projection,
+        ends: &[Snapshot],
+        (middle, pairs): (f64, Vec<Eigenpair>),
+    ) -> Vec<(f64, Option<StateModel>)> {
+        let low = |pairs: Vec<Eigenpair>| -> Vec<Eigenpair> {
+            let height = DRAWN_MARGIN * self.window;
+            let low = |pair: &Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
+            pairs.into_iter().filter(low).collect()
+        };
+        let end = |snapshot: &Snapshot| {
+            let inward = snapshot.pairs.iter().map(|pair| piece.inward(pair));
+            piece.states(snapshot.speed, low(inward.collect()))
+        };
+        let inner = piece.states(middle, low(pairs));
+        let (left, right) = (end(&ends[0]), end(&ends[1]));
+        let mut drawn = Vec::new();
+        for (from, to, outer) in [
+            (ends[0].speed, middle, left),
+            (middle, ends[1].speed, right),
+        ] {
+            let mut states: Vec<State> = Vec::new();
+            for critical in self.critical {
+                if (from..=to).contains(&critical.speed_rad_per_s) {
+                    let shape = piece.basis.transpose() * &critical.shape;
+                    let speed = critical.speed_rad_per_s;
+                    states.extend(standing_states(&piece.reduced, speed, &shape, self.window));
+                }
+            }
+            states.extend(inner.iter().cloned().chain(outer));
+            let model = StateModel::new(&piece.reduced, self.window, &states);
+            let good = model.filter(|model| self.draws_well(piece, model, 0.5 * (from + to)));
+            drawn.push((to, good));
+        }
+        drawn
+    }
+
+    fn draws_well(&self, piece: &Projection, model: &StateModel, speed: f64) -> bool {
+        self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
+        let pairs = model.eigenpairs(speed).unwrap_or_default();
+        let error = self.frequency_error(piece, speed, self.window, &pairs);
+        error <= LOCAL_TOLERANCE * self.window
     }
 
     /// Largest |rᴴ P⁻¹ r| / |qᴴ(2ω − 2iΩG)q| over the modes below the window, r the
     /// residual on the whole basis: the second-order shift of a simple frequency. P, the
     /// diagonal of K₀, stands for L, for r lives in the high functions, which stiffness rules.
-    fn frequency_error(&self, projection: &Projection, speed: f64, height: f64) -> f64 {
-        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        let Ok(pairs) = companion_eigenpairs(&projection.reduced, speed) else {
+    fn frequency_error(
+        &self,
+        projection: &Projection,
+        speed: f64,
+        height: f64,
+        pairs: &[Eigenpair],
+    ) -> f64 {
+        if pairs.is_empty() {
             return f64::INFINITY;
-        };
-        let dynamic = DynamicStiffness::new(self.system, speed);
-        pairs
+        }
+        let low: Vec<(c64, &Col<c64>)> = pairs
             .iter()
             .filter(|(lambda, _)| lambda.im <= height && lambda.re >= -1e-6 * height)
-            .map(|(lambda, q)| {
-                let lifted = real_times(&projection.basis, q);
-                let residual: Col<c64> = dynamic.residual(*lambda, &lifted);
-                let stiffness = &self.system.stiffness;
+            .map(|(lambda, q)| (*lambda, q))
+            .collect();
+        let stiffness = &self.system.stiffness;
+        projection
+            .lifted(speed, &low)
+            .iter()
+            .map(|Lifted { residual, .. }| {
                 let shift: f64 = (0..residual.nrows())
                     .map(|i| residual[i].norm_sqr() / (stiffness[(i, i)] + height.powi(2)))
                     .sum();
@@ -357,15 +431,4 @@ impl Builder<'_> {
 /// Speeds of the first snapshots.
 fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
     [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
-}
-
-/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
-/// closer than `tolerance` to the span of the others are left out.
-pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
-    let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
-    let qr = matrix.col_piv_qr();
-    let rank = (0..rows.min(vectors.len()))
-        .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
-        .count();
-    qr.compute_thin_Q().subcols(0, rank).to_owned()
 }

@@ -2,68 +2,72 @@
 //!
 //! With z = (q, q̇/s) the companion problem is A z = λ z. Its inverse shifted by a
 //! real σ needs one factorization of L(σ) = σ² + σD + K, of half the order:
-//! (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu. A Krylov–Schur iteration
-//! on it finds the λ nearest to σ. A real shift keeps the arithmetic real, and σ > 0
+//! (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu. Arnoldi's iteration on it
+//! finds the λ nearest to σ. A real shift keeps the arithmetic real, and σ > 0
 //! is away from the spectrum of a stable saw, where σ = 0 is singular at every
-//! critical speed.
+//! critical speed. The iteration is not restarted: the few dozen vectors fit, and the
+//! Schur forms that restarts need cost more than the steps they save.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::matrix_free::LinOp;
-use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::reborrow::ReborrowMut;
-use faer::{Col, Mat, MatMut, MatRef, Par, Scale, c64};
+use faer::linalg::solvers::{DenseSolveCore, Eigen};
+use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
 
 use super::dense::{Eigenpair, by_magnitude, unit};
-use super::mode::rigid_noise;
+use super::mode::{rigid_noise, split};
 
-/// (A − σ)⁻¹ in units of s: eigenvalues s/(λ − σ).
-#[derive(Debug)]
+/// (A − σ)⁻¹ in units of σ: eigenvalues σ/(λ − σ).
 struct ShiftedInverse {
-    factors: PartialPivLu<f64>,
-    /// (D + σ) / s.
-    coupling: Mat<f64>,
-    /// σ / s.
-    shift: f64,
+    /// (L(σ)/σ²)⁻¹: applying it takes half the time of two triangular solves, and the few
+    /// dozen applications repay it.
+    inverse: Mat<f64>,
+    /// D/σ + 1 where it is not zero: (row, column, value). Without dampers there are
+    /// no more than three a row.
+    coupling: Vec<(usize, usize, f64)>,
 }
 
-impl LinOp<f64> for ShiftedInverse {
-    fn apply_scratch(&self, _columns: usize, _par: Par) -> StackReq {
-        StackReq::EMPTY
+impl ShiftedInverse {
+    fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, shift_per_s: f64) -> Self {
+        let size = system.order();
+        let velocity = system.velocity_at(speed_rad_per_s);
+        let identity = Mat::<f64>::identity(size, size);
+        let coupling = Scale(1.0 / shift_per_s) * velocity + &identity;
+        let stiffness = system.stiffness_at(speed_rad_per_s);
+        let dynamic = Scale(shift_per_s.powi(-2)) * stiffness + &coupling;
+        let entries = (0..size).flat_map(|k| (0..size).map(move |i| (i, k)));
+        ShiftedInverse {
+            inverse: dynamic.partial_piv_lu().inverse(),
+            coupling: entries
+                .map(|(i, k)| (i, k, coupling[(i, k)]))
+                .filter(|(_, _, value)| *value != 0.0)
+                .collect(),
+        }
     }
 
-    fn nrows(&self) -> usize {
-        2 * self.coupling.nrows()
+    fn order(&self) -> usize {
+        2 * self.inverse.nrows()
     }
 
-    fn ncols(&self) -> usize {
-        self.nrows()
-    }
-
-    fn apply(&self, mut out: MatMut<'_, f64>, rhs: MatRef<'_, f64>, _par: Par, _: &mut MemStack) {
-        let (x, y) = rhs.split_at_row(self.coupling.nrows());
-        let mut u = &self.coupling * x + y;
-        self.factors.solve_in_place(&mut u);
-        let (mut top, mut bottom) = out.rb_mut().split_at_row_mut(self.coupling.nrows());
-        top.copy_from(Scale(-1.0) * &u);
-        bottom.copy_from(x - Scale(self.shift) * &u);
-    }
-
-    fn conj_apply(
-        &self,
-        out: MatMut<'_, f64>,
-        rhs: MatRef<'_, f64>,
-        par: Par,
-        stack: &mut MemStack,
-    ) {
-        self.apply(out, rhs, par, stack);
+    fn apply(&self, z: &Col<f64>) -> Col<f64> {
+        let size = self.inverse.nrows();
+        let mut load = z.subrows(size, size).to_owned();
+        for &(i, k, value) in &self.coupling {
+            load[i] += value * z[k];
+        }
+        let u = &self.inverse * load;
+        Col::from_fn(2 * size, |i| match i.checked_sub(size) {
+            Some(i) => z[i] - u[i],
+            None => -u[i],
+        })
     }
 }
 
 /// Relative residual at which a Krylov vector is good enough to span a mode.
-const TOLERANCE: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-10;
+/// Steps beyond the number of eigenvalues wanted before the first look, and from one look
+/// to the next.
+const STEPS_BEYOND: usize = 32;
+const MORE_STEPS: usize = 16;
 
 /// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,
 /// ordered by |λ|. Fewer come back when the iteration stalls.
@@ -73,52 +77,116 @@ pub fn lowest_eigenpairs(
     count: usize,
     shift_per_s: f64,
 ) -> Vec<Eigenpair> {
-    let size = system.order();
-    let wanted = (2 * count).min(2 * size);
-    let velocity = system.velocity_at(speed_rad_per_s);
-    let identity = Mat::<f64>::identity(size, size);
-    let dynamic = system.stiffness_at(speed_rad_per_s)
-        + Scale(shift_per_s) * &velocity
-        + Scale(shift_per_s.powi(2)) * &identity;
-    // Unit of time 1/σ: then shift and identity are both one.
-    let unit_square = shift_per_s.powi(2);
-    let operator = ShiftedInverse {
-        factors: (Scale(1.0 / unit_square) * dynamic).partial_piv_lu(),
-        coupling: Scale(1.0 / shift_per_s) * velocity + identity,
-        shift: 1.0,
-    };
-    let start = Col::from_fn(2 * size, |i| {
-        (0.7 * i as f64 + 0.3).sin() / (1.0 + i as f64).sqrt()
-    });
-    let start = Scale(1.0 / start.norm_l2()) * start;
-    let params = PartialEigenParams {
-        max_restarts: 20,
-        ..Default::default()
-    };
-    let scratch = partial_eigen_scratch(&operator, wanted, Par::Seq, params);
-    let mut vectors = Mat::zeros(2 * size, wanted);
-    let mut values = vec![c64::new(0.0, 0.0); wanted];
-    let info = partial_eigen(
-        vectors.as_mut(),
-        &mut values,
-        &operator,
-        start.as_ref(),
-        TOLERANCE,
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        params,
-    );
-    // Free rigid motions are known exactly; these are their rounded doubles.
-    let free = rigid_noise(system);
-    let pairs = (0..info.n_converged_eigen)
-        .map(|i| {
-            let lambda = (values[i].inv() + 1.0) * shift_per_s;
-            (lambda, unit(vectors.col(i).subrows(0, size)))
-        })
-        .filter(|(lambda, _)| lambda.im >= 0.0 && lambda.is_finite())
-        .filter(|(lambda, _)| lambda.norm() >= free)
-        .collect();
-    by_magnitude(pairs)
+    let operator = ShiftedInverse::new(system, speed_rad_per_s, shift_per_s);
+    let order = operator.order();
+    let wanted = (2 * count).min(order);
+    let most = (4 * wanted + 2 * STEPS_BEYOND).min(order);
+    let mut krylov = Krylov::new(order, most);
+    let mut steps = (wanted + STEPS_BEYOND).min(most);
+    loop {
+        let finished = krylov.extend(&operator, steps) < steps || steps == most;
+        let found = krylov.eigenpairs(wanted, shift_per_s, finished);
+        if let Some(mut pairs) = found {
+            // Free rigid motions are known exactly; these are their rounded doubles.
+            pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
+            return pairs;
+        }
+        steps = (steps + MORE_STEPS).min(most);
+    }
+}
+
+/// Orthonormal vectors V with (A − σ)⁻¹V = VH + h vᵀ.
+struct Krylov {
+    vectors: Mat<f64>,
+    hessenberg: Mat<f64>,
+    steps: usize,
+}
+
+impl Krylov {
+    fn new(order: usize, most: usize) -> Self {
+        let start = Col::from_fn(order, |i| {
+            (0.7 * i as f64 + 0.3).sin() / (1.0 + i as f64).sqrt()
+        });
+        let mut vectors = Mat::zeros(order, most + 1);
+        vectors
+            .col_mut(0)
+            .copy_from(Scale(1.0 / start.norm_l2()) * start);
+        Krylov {
+            vectors,
+            hessenberg: Mat::zeros(most + 1, most),
+            steps: 0,
+        }
+    }
+
+    /// Goes on to a number of steps; fewer where the space is exhausted.
+    fn extend(&mut self, operator: &ShiftedInverse, steps: usize) -> usize {
+        while self.steps < steps {
+            let k = self.steps;
+            let mut next = operator.apply(&self.vectors.col(k).to_owned());
+            let size = next.norm_l2();
+            // Once is not enough where most of the vector lies in the span.
+            for _ in 0..2 {
+                let span = self.vectors.subcols(0, k + 1);
+                let shares = span.transpose() * &next;
+                next -= span * &shares;
+                for i in 0..=k {
+                    self.hessenberg[(i, k)] += shares[i];
+                }
+            }
+            let rest = next.norm_l2();
+            if rest <= 1e-14 * size || !rest.is_finite() {
+                break;
+            }
+            self.hessenberg[(k + 1, k)] = rest;
+            self.vectors
+                .col_mut(k + 1)
+                .copy_from(Scale(1.0 / rest) * next);
+            self.steps += 1;
+        }
+        self.steps
+    }
+
+    /// The eigenvalues nearest to the shift, if all of the wanted ones, or as many as
+    /// there are in the end, have converged.
+    fn eigenpairs(&self, wanted: usize, shift: f64, finished: bool) -> Option<Vec<Eigenpair>> {
+        let m = self.steps;
+        let half = self.vectors.nrows() / 2;
+        let square = self.hessenberg.get(..m, ..m).to_owned();
+        let Ok(eigen) = Eigen::new_from_real(square.as_ref()) else {
+            return finished.then(Vec::new);
+        };
+        let mut order: Vec<usize> = (0..m).collect();
+        order.sort_by(|&i, &k| eigen.S()[k].norm().total_cmp(&eigen.S()[i].norm()));
+        order.truncate(wanted);
+        let last = if m == 0 {
+            0.0
+        } else {
+            self.hessenberg[(m, m - 1)]
+        };
+        let converged = |i: &usize| {
+            let y = eigen.U().col(*i);
+            let residual = last * y[m - 1].norm() / y.norm_l2();
+            residual <= TOLERANCE * eigen.S()[*i].norm()
+        };
+        let all = order.len();
+        order.retain(converged);
+        if order.len() < all && !finished {
+            return None;
+        }
+        let deflections = self.vectors.get(..half, ..m);
+        let pairs = order
+            .into_iter()
+            .map(|i| {
+                let lambda = (eigen.S()[i].inv() + 1.0) * shift;
+                let (re, im) = split(&eigen.U().col(i).to_owned());
+                let (re, im) = (deflections * re, deflections * im);
+                let q = Col::from_fn(half, |i| c64::new(re[i], im[i]));
+                (lambda, unit(q.as_ref()))
+            })
+            .filter(|(lambda, _)| lambda.im >= 0.0 && lambda.is_finite())
+            .collect();
+        Some(by_magnitude(pairs))
+    }
 }
 
 #[cfg(test)]

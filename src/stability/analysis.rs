@@ -11,7 +11,7 @@ use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 /// usual rule of thumb of saw makers.
 pub const OPERATING_LIMIT: f64 = 0.85;
 /// Speeds of a chart, before those that its events add.
-const CHART_SPEEDS: usize = 101;
+const CHART_SPEEDS: usize = 51;
 /// Critical speeds that the error estimate looks at.
 const ESTIMATED_SPEEDS: usize = 6;
 

@@ -62,6 +62,10 @@ pub struct StabilityChart {
     pub certificate: Certificate,
 }
 
+/// Even speeds from which the bands of a chart are searched: the same bands come out of any
+/// number of them.
+const SEARCH_SPEEDS: usize = 25;
+
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.
 ///
 /// # Errors
@@ -77,7 +81,8 @@ pub fn chart(
     }
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    let (instabilities, certificate) = bands(model, &speeds)?;
+    let search = campbell::even_speeds(range, SEARCH_SPEEDS);
+    let (instabilities, certificate) = bands(model, &with_critical_speeds(model, range, search))?;
     let between = inside(&instabilities, &samples);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     Ok(StabilityChart {
@@ -108,7 +113,7 @@ pub(super) fn bands(
     model: &SpectralModel,
     speeds: &[f64],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let finder = Finder::new(model);
+    let finder = Finder::new(model, speeds)?;
     let stations = finder.stations(speeds)?;
     let mut instabilities = Vec::new();
     // Nothing couples the waves of a free blade, so they cross and never merge.
@@ -180,7 +185,7 @@ pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> 
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [0.01, 0.1, 0.3, 0.7, 0.9, 0.99]
+            [0.01, 0.12, 0.4, 0.6, 0.88, 0.99]
                 .map(at)
                 .into_iter()
                 .chain([band.peak])

@@ -5,15 +5,15 @@
 //! halved until each holds at most one such change; intervals without a change are
 //! halved too where the tangents of a + and a − mode meet inside.
 
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use super::bands::Certificate;
 use super::refine::{self, Inside};
 use super::station::{Change, Sign, Station, change};
-use crate::spectrum::{LowModel, SpectralModel, SpectrumError};
+use crate::spectrum::{LowModel, LowModes, ModePair, SpectralModel, SpectrumError};
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
 /// known to 1e-15 of the stiffness only.
@@ -27,6 +27,10 @@ const LEAST_WIDTH: f64 = 1e-9;
 /// Speeds that a search may look at: twenty times what a saw needs. It bounds the time
 /// where modes cannot be told apart.
 const MOST_SPEEDS: usize = 20_000;
+
+/// Speeds at which the search solves the whole projected system; between two of them it goes
+/// by their modes.
+const ANCHORS: usize = 13;
 
 /// What happens between two stations, in order of speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,17 +65,36 @@ struct Tally {
 pub struct Finder<'a> {
     model: &'a SpectralModel,
     low: Option<LowModel<'a>>,
-    tally: Arc<Tally>,
+    /// The same between neighbouring anchors, with the upper of both.
+    pieces: Vec<(f64, LowModel<'a>)>,
+    tally: Tally,
 }
 
 impl<'a> Finder<'a> {
-    /// A finder on an undamped blade.
-    pub fn new(model: &'a SpectralModel) -> Self {
-        Finder {
-            model,
-            low: model.low_model(),
-            tally: Arc::default(),
+    /// A finder on an undamped blade, for the speeds between the first and the last given.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
+        let low = model.low_model();
+        let mut pieces = Vec::new();
+        if let Some(low) = &low {
+            let anchors: Vec<_> = anchors(speeds)
+                .into_par_iter()
+                .map(|speed| low.modes(speed))
+                .collect();
+            let anchors: Vec<LowModes> = anchors.into_iter().collect::<Result<_, _>>()?;
+            pieces = anchors
+                .par_windows(2)
+                .map(|ends| (ends[1].speed_rad_per_s, low.between([&ends[0], &ends[1]])))
+                .collect();
         }
+        Ok(Finder {
+            model,
+            low,
+            pieces,
+            tally: Tally::default(),
+        })
     }
 
     /// The speeds checked so far.
@@ -91,34 +114,32 @@ impl<'a> Finder<'a> {
         self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
     }
 
-    /// A cheaper finder for the speeds between `from` and `to`.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn narrowed(&self, from: f64, to: f64) -> Result<Self, SpectrumError> {
-        let low = self
-            .low
-            .as_ref()
-            .map(|low| low.narrowed(from, to))
-            .transpose()?;
-        Ok(Finder {
-            model: self.model,
-            low,
-            tally: Arc::clone(&self.tally),
-        })
-    }
-
     /// The word of signs at a speed. Where it contradicts the Krein index it is read
     /// again off the whole basis; what contradicts even then is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
+        self.tally.checked.fetch_add(1, Ordering::Relaxed);
+        if let Some(low) = self.near(speed_rad_per_s) {
+            let modes = low.modes(speed_rad_per_s)?.modes;
+            let station = Station::new(speed_rad_per_s, modes.iter());
+            if self.matches(&station) {
+                return Ok(station);
+            }
+        }
+        self.exact_station(speed_rad_per_s)
+    }
+
+    /// The same without the haste of few states.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn exact_station(&self, speed_rad_per_s: f64) -> Result<Station, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
+            Some(low) => low.modes(speed_rad_per_s)?.modes,
             None => self.model.all_modes(speed_rad_per_s)?,
         };
-        self.tally.checked.fetch_add(1, Ordering::Relaxed);
         let station = Station::new(speed_rad_per_s, modes.iter());
         if self.matches(&station) {
             return Ok(station);
@@ -133,6 +154,27 @@ impl<'a> Finder<'a> {
         Ok(station)
     }
 
+    /// The smallest model for a speed.
+    fn near(&self, speed_rad_per_s: f64) -> Option<&LowModel<'a>> {
+        let place = self.pieces.partition_point(|(to, _)| *to < speed_rad_per_s);
+        self.pieces.get(place).map(|(_, low)| low)
+    }
+
+    /// The two modes of a speed next to a frequency, to rounding.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn pair(
+        &self,
+        speed_rad_per_s: f64,
+        frequency_rad_per_s: f64,
+    ) -> Result<Option<ModePair>, SpectrumError> {
+        match self.near(speed_rad_per_s).or(self.low.as_ref()) {
+            Some(low) => low.pair(speed_rad_per_s, frequency_rad_per_s),
+            None => Ok(None),
+        }
+    }
+
     /// Largest growth of a divergent mode next to a critical speed, where the Krein index
     /// cannot be read off rounded eigenvalues.
     ///
@@ -140,7 +182,7 @@ impl<'a> Finder<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
+            Some(low) => low.modes(speed_rad_per_s)?.modes,
             None => return Ok(0.0),
         };
         Ok(Station::new(speed_rad_per_s, modes.iter())
@@ -231,19 +273,42 @@ impl<'a> Finder<'a> {
         Ok(match seen {
             Change::Exchange(place) => refine::band_between(self, a, b, place)?
                 .map(|Inside { from, to }| Event::Band(from, to)),
-            Change::Merge(place) => Some(Event::Begin(Edge {
-                index: merged_before(b, place),
-                speed_rad_per_s: refine::boundary(self, a, b, place)?,
-                real: refine::is_real(a, place),
-            })),
-            Change::Part(place) => Some(Event::End(Edge {
-                index: merged_before(a, place),
-                speed_rad_per_s: refine::boundary(self, b, a, place)?,
-                real: refine::is_real(b, place),
-            })),
+            Change::Merge(place) => refine::boundary(self, a, b, place)?.map(|speed_rad_per_s| {
+                Event::Begin(Edge {
+                    index: merged_before(b, place),
+                    speed_rad_per_s,
+                    real: refine::is_real(a, place),
+                })
+            }),
+            Change::Part(place) => refine::boundary(self, b, a, place)?.map(|speed_rad_per_s| {
+                Event::End(Edge {
+                    index: merged_before(a, place),
+                    speed_rad_per_s,
+                    real: refine::is_real(b, place),
+                })
+            }),
             Change::None | Change::Several => None,
         })
     }
+}
+
+/// Of ascending speeds the first, the last, and some about evenly spread between.
+fn anchors(speeds: &[f64]) -> Vec<f64> {
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
+        return Vec::new();
+    };
+    let spacing = (last - first) / ANCHORS as f64;
+    let mut chosen = vec![first];
+    for &speed in speeds {
+        let latest = chosen[chosen.len() - 1];
+        if speed - latest >= spacing && last - speed >= 0.5 * spacing {
+            chosen.push(speed);
+        }
+    }
+    if last > first {
+        chosen.push(last);
+    }
+    chosen
 }
 
 /// Number of merged pairs below a place of the doubled list.

@@ -86,7 +86,6 @@ fn band(
 ) -> Result<Instability, SpectrumError> {
     let (from, to) = (begin.speed, end.speed);
     let zero_at_ends = [begin.at_zero, end.at_zero];
-    let finder = finder.narrowed(from, to)?;
     let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
     let mut frequencies = [0.0; 2];
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
@@ -110,7 +109,10 @@ fn band(
         Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
     };
     let (peak, _) = refine::maximise((from, to), zero_at_ends, |speed| Ok(pair(speed)?.0.powi(2)))?;
-    let (peak_growth_per_s, frequency) = pair(peak)?;
+    let (mut peak_growth_per_s, frequency) = pair(peak)?;
+    if let Some(sharp) = finder.pair(peak, frequency)? {
+        peak_growth_per_s = (-sharp.discriminant(peak)).max(0.0).sqrt();
+    }
     Ok(Instability {
         kind: InstabilityKind::Flutter,
         from,

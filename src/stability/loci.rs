@@ -17,6 +17,8 @@ pub struct RootLoci {
     pub paths: [Vec<(c64, i8)>; 2],
 }
 
+/// Stretches wider than this share of their end are not spanned by the modes at both ends.
+const NARROW: f64 = 0.04;
 /// Speeds of the loci on each side of the band and within it.
 const SPEEDS: usize = 20;
 
@@ -38,7 +40,11 @@ impl RootLoci {
             (band.from - width).max(range.0),
             (band.to + width).min(range.1),
         );
-        let low = low.narrowed(from, to)?;
+        let low = if to - from <= NARROW * to {
+            low.between([&low.modes(from)?, &low.modes(to)?])
+        } else {
+            low
+        };
         let mut loci = RootLoci {
             speeds: Vec::new(),
             names: meeting_modes(model, band.from, band.frequency)?,
@@ -50,7 +56,7 @@ impl RootLoci {
                 let share =
                     0.5 * (1.0 - (std::f64::consts::PI * (k as f64 + 0.5) / SPEEDS as f64).cos());
                 let speed = start + share * (end - start);
-                if let Some(pair) = pair(&low.modes(speed)?, band.frequency) {
+                if let Some(pair) = pair(&low.modes(speed)?.modes, band.frequency) {
                     loci.speeds.push(speed);
                     for (path, mode) in loci.paths.iter_mut().zip(pair) {
                         path.push((mode.lambda, mode.krein_sign()));

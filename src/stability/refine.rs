@@ -10,8 +10,23 @@ use crate::spectrum::SpectrumError;
 
 /// Relative accuracy in speed to which onsets are bracketed.
 const SPEED_TOLERANCE: f64 = 1e-11;
-/// Relative distance from a rough onset at which the last look begins.
+/// The same before the pair itself is looked at.
+const ROUGH_TOLERANCE: f64 = 1e-5;
+/// How far beyond its bracket, relatively, an onset may turn out to be: the bracket comes
+/// from few states.
 const VICINITY: f64 = 1e-5;
+/// Relative width below which a band is looked at as a crossing that failed.
+const SHORT_BAND: f64 = 1e-3;
+/// Relative differences of speed for the slope and the curvature of a discriminant: its
+/// rounding is 1e-15 of ω², and the pair is exact to the square of the distance.
+const NEWTON_DIFFERENCE: f64 = 1e-6;
+const VERTEX_DIFFERENCE: f64 = 1e-5;
+/// A last step of this relative length leaves its square, times how many widths of the
+/// band the speed is: below the accuracy asked.
+const NEWTON_TOLERANCE: f64 = 1e-8;
+/// The same for the vertex of a crossing, whose onsets are refined by themselves.
+const VERTEX_TOLERANCE: f64 = 3e-5;
+const MAX_NEWTON: usize = 8;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
 const MAX_STEPS: usize = 120;
@@ -42,30 +57,66 @@ fn discriminant(station: &Station, place: usize, real: bool) -> Option<f64> {
 }
 
 /// Speed at which the pair at `place` merges, between a station where it is apart and
-/// one where it is merged. The first look goes by the modes at the two ends; the last by
-/// the modes next to the onset, where their span is exact to rounding.
+/// one where it is merged. The first look goes by the few states of the finder; the last by
+/// the pair itself. `None` where the two have not merged after all.
 pub fn boundary(
     finder: &Finder<'_>,
     apart: &Station,
     merged: &Station,
     place: usize,
-) -> Result<f64, SpectrumError> {
-    let (out, inn) = (apart.speed_rad_per_s, merged.speed_rad_per_s);
-    let narrow = finder.narrowed(out.min(inn), out.max(inn))?;
-    let rough = false_position(&narrow, apart, merged, place)?;
-    let outwards = if out < inn { -1.0 } else { 1.0 };
-    let clamped = |speed: f64| speed.clamp(out.min(inn), out.max(inn));
-    let before = finder.station(clamped(rough * (1.0 + outwards * VICINITY)))?;
-    let after = finder.station(clamped(rough * (1.0 - outwards * VICINITY)))?;
-    let brackets = |station: &Station, inside: bool| {
-        discriminant(station, place, is_real(apart, place)).is_some_and(|d| (d < 0.0) == inside)
-    };
-    if !(brackets(&before, false) && brackets(&after, true)) {
-        return false_position(finder, apart, merged, place);
+) -> Result<Option<f64>, SpectrumError> {
+    let ends = (apart.speed_rad_per_s, merged.speed_rad_per_s);
+    if !is_real(apart, place) {
+        let near = |speed| finder.station(speed);
+        let rough = false_position(&near, apart, merged, place, ROUGH_TOLERANCE)?;
+        let pair = rough.doubled();
+        let frequency = pair.get(place).map_or(0.0, |token| token.frequency);
+        let speed = rough.speed_rad_per_s;
+        if let Some(onset) = sharpened_onset(finder, speed, frequency, ends)? {
+            return Ok(Some(onset));
+        }
     }
-    let (low, high) = (before.speed_rad_per_s, after.speed_rad_per_s);
-    let near = finder.narrowed(low.min(high), low.max(high))?;
-    false_position(&near, &before, &after, place)
+    let exact = |speed| finder.exact_station(speed);
+    let (apart, merged) = (exact(ends.0)?, exact(ends.1)?);
+    let inside = discriminant(&merged, place, is_real(&apart, place));
+    if inside.is_none_or(|d| d >= 0.0) {
+        return Ok(None);
+    }
+    let onset = false_position(&exact, &apart, &merged, place, SPEED_TOLERANCE)?;
+    Ok(Some(onset.speed_rad_per_s))
+}
+
+/// Newton's method on the discriminant of the pair, refined anew at each speed: from the
+/// side `ends.0`, where it is positive, to `ends.1`, where it is negative. `None` where it
+/// does not settle between them.
+fn sharpened_onset(
+    finder: &Finder<'_>,
+    start: f64,
+    frequency: f64,
+    ends: (f64, f64),
+) -> Result<Option<f64>, SpectrumError> {
+    let (low, high) = (ends.0.min(ends.1), ends.0.max(ends.1));
+    let (mut speed, mut frequency) = (start, frequency);
+    for _ in 0..MAX_NEWTON {
+        let Some(pair) = finder.pair(speed, frequency)? else {
+            return Ok(None);
+        };
+        let h = NEWTON_DIFFERENCE * speed;
+        let [before, here, after] = [-h, 0.0, h].map(|d| pair.discriminant(speed + d));
+        let slope = (after - before) / (2.0 * h);
+        let next = speed - here / slope;
+        let margin = VICINITY * speed;
+        let lost = !(low - margin..=high + margin).contains(&next);
+        if lost || slope * (ends.1 - ends.0) >= 0.0 {
+            return Ok(None);
+        }
+        if (next - speed).abs() <= NEWTON_TOLERANCE * speed {
+            return Ok(Some(next));
+        }
+        frequency = pair.mean_frequency(next);
+        speed = next;
+    }
+    Ok(None)
 }
 
 /// Whether the token at a place of the doubled list is a real λ.
@@ -76,19 +127,24 @@ pub fn is_real(station: &Station, place: usize) -> bool {
         .is_some_and(|t| t.sign == Sign::Real)
 }
 
-/// False position in its Illinois form on the discriminant.
+/// How the word of a speed is had.
+type Look<'a> = &'a dyn Fn(f64) -> Result<Station, SpectrumError>;
+
+/// False position in its Illinois form on the discriminant: the last station inside.
 fn false_position(
-    finder: &Finder<'_>,
+    look: Look<'_>,
     apart: &Station,
     merged: &Station,
     place: usize,
-) -> Result<f64, SpectrumError> {
+    tolerance: f64,
+) -> Result<Station, SpectrumError> {
     let value = |station: &Station| discriminant(station, place, is_real(apart, place));
-    let (mut out, mut inn) = (apart.speed_rad_per_s, merged.speed_rad_per_s);
+    let (mut out, mut inn) = (apart.speed_rad_per_s, merged.clone());
     let mut d_out = value(apart).unwrap_or(1.0);
     let mut d_inn = value(merged).unwrap_or(-1.0);
     for step in 0..MAX_STEPS {
-        if (inn - out).abs() <= SPEED_TOLERANCE * inn.abs() || d_out == d_inn {
+        let width = inn.speed_rad_per_s - out;
+        if width.abs() <= tolerance * inn.speed_rad_per_s.abs() || d_out == d_inn {
             break;
         }
         // A halving now and then bounds the steps whatever the function does.
@@ -97,8 +153,7 @@ fn false_position(
         } else {
             d_out / (d_out - d_inn)
         };
-        let speed = out + share.clamp(1e-4, 1.0 - 1e-4) * (inn - out);
-        let station = finder.station(speed)?;
+        let station = look(out + share.clamp(1e-4, 1.0 - 1e-4) * width)?;
         // Where neighbours in the word have moved, the place is not the pair's any
         // more; then the word alone says which side this is.
         let side = || {
@@ -110,26 +165,59 @@ fn false_position(
         };
         let d = value(&station).unwrap_or_else(side);
         if d > 0.0 {
-            (out, d_out) = (speed, d);
+            (out, d_out) = (station.speed_rad_per_s, d);
             d_inn *= 0.5;
         } else {
-            (inn, d_inn) = (speed, d);
+            (inn, d_inn) = (station, d);
             d_out *= 0.5;
         }
     }
     Ok(inn)
 }
 
+/// What a pair that has exchanged its order did in between.
+enum Passage {
+    /// It crossed.
+    Crossing,
+    /// It merged and parted.
+    Band(Inside),
+}
+
 /// The band of a pair that stands in one order before and in the other after, or
-/// `None` where it crosses without merging: bisection on the order, sped up by the
-/// zero of the signed gap.
+/// `None` where it crosses without merging.
 pub fn band_between(
     finder: &Finder<'_>,
     before: &Station,
     after: &Station,
     place: usize,
 ) -> Result<Option<Inside>, SpectrumError> {
-    let narrow = finder.narrowed(before.speed_rad_per_s, after.speed_rad_per_s)?;
+    let near = |speed| finder.station(speed);
+    let passage = match passage(finder, &near, [before, after], place)? {
+        Some(passage) => Some(passage),
+        None => {
+            let exact = |speed| finder.exact_station(speed);
+            let ends = [
+                &exact(before.speed_rad_per_s)?,
+                &exact(after.speed_rad_per_s)?,
+            ];
+            passage(finder, &exact, ends, place)?
+        }
+    };
+    Ok(match passage {
+        Some(Passage::Band(inside)) => Some(inside),
+        Some(Passage::Crossing) | None => None,
+    })
+}
+
+/// Bisection on the order, sped up by the zero of the signed gap, until the pair is seen
+/// merged or is so near to its crossing that the pair itself must tell. `None` where it
+/// does not.
+fn passage(
+    finder: &Finder<'_>,
+    look: Look<'_>,
+    [before, after]: [&Station; 2],
+    place: usize,
+) -> Result<Option<Passage>, SpectrumError> {
     let (mut low, mut high) = (before.clone(), after.clone());
     for step in 0..MAX_STEPS {
         let gap =
@@ -140,26 +228,79 @@ pub fn band_between(
         // inside this width: what is left is below what eigenvalues can show.
         let highest = high.tokens.last().map_or(0.0, |t| t.frequency);
         let floor = GROWTH_FLOOR * (high.speed_rad_per_s + highest);
-        if 0.25 * (g_low + g_high) < floor || width <= SPEED_TOLERANCE * high.speed_rad_per_s {
-            return Ok(None);
-        }
+        let narrow = width <= ROUGH_TOLERANCE * high.speed_rad_per_s;
         let share = if step % 3 == 2 {
             0.5
         } else {
             (g_low / (g_low + g_high)).clamp(0.02, 0.98)
         };
-        let middle = narrow.station(low.speed_rad_per_s + share * width)?;
+        let speed = low.speed_rad_per_s + share * width;
+        if narrow || 0.25 * (g_low + g_high) < floor {
+            let frequency = low.doubled().get(place).map_or(0.0, |t| t.frequency);
+            let ends = (before.speed_rad_per_s, after.speed_rad_per_s);
+            return sharpened_passage(finder, speed, frequency, ends, floor);
+        }
+        let middle = look(speed)?;
         if discriminant(&middle, place, false).is_some_and(|d| d < 0.0) {
-            return Ok(Some(Inside {
-                from: boundary(finder, &low, &middle, place)?,
-                to: boundary(finder, &high, &middle, place)?,
-            }));
+            if width <= SHORT_BAND * speed {
+                let frequency = middle.doubled().get(place).map_or(0.0, |t| t.frequency);
+                let ends = (before.speed_rad_per_s, after.speed_rad_per_s);
+                let sharp = sharpened_passage(finder, speed, frequency, ends, floor)?;
+                if sharp.is_some() {
+                    return Ok(sharp);
+                }
+            }
+            let from = boundary(finder, &low, &middle, place)?;
+            let to = boundary(finder, &high, &middle, place)?;
+            let band = from.zip(to).map(|(from, to)| Inside { from, to });
+            return Ok(band.map(Passage::Band));
         }
         if middle.word() == after.word() {
             high = middle;
         } else {
             low = middle;
         }
+    }
+    Ok(None)
+}
+
+/// The least discriminant of a pair that crosses or nearly does, by parabolas through the
+/// pair refined anew at each vertex, and the two onsets where it is negative.
+fn sharpened_passage(
+    finder: &Finder<'_>,
+    start: f64,
+    frequency: f64,
+    ends: (f64, f64),
+    floor: f64,
+) -> Result<Option<Passage>, SpectrumError> {
+    let (mut speed, mut frequency) = (start, frequency);
+    for _ in 0..MAX_NEWTON {
+        let Some(pair) = finder.pair(speed, frequency)? else {
+            return Ok(None);
+        };
+        let h = VERTEX_DIFFERENCE * speed;
+        let [before, here, after] = [-h, 0.0, h].map(|d| pair.discriminant(speed + d));
+        let bend = (before - 2.0 * here + after) / (h * h);
+        let vertex = speed - (after - before) / (2.0 * h * bend);
+        if bend <= 0.0 || !(ends.0..=ends.1).contains(&vertex) {
+            return Ok(None);
+        }
+        frequency = pair.mean_frequency(vertex);
+        if (vertex - speed).abs() > VERTEX_TOLERANCE * speed {
+            speed = vertex;
+            continue;
+        }
+        let lowest = pair.discriminant(vertex);
+        if lowest >= -floor * floor {
+            return Ok(Some(Passage::Crossing));
+        }
+        let half = (-2.0 * lowest / bend).sqrt();
+        let onset =
+            |edge: f64, outer: f64| sharpened_onset(finder, edge, frequency, (outer, vertex));
+        let from = onset(vertex - half, ends.0)?;
+        let to = onset(vertex + half, ends.1)?;
+        let band = from.zip(to).map(|(from, to)| Inside { from, to });
+        return Ok(band.map(Passage::Band));
     }
     Ok(None)
 }
@@ -189,7 +330,7 @@ pub fn maximise(
         }
         let [left, middle, right] = [points[best - 1], points[best], points[best + 1]];
         let vertex = parabola_vertex(left, middle, right);
-        let resolution = 1e-5 * (to - from);
+        let resolution = 1e-4 * (to - from);
         if !((left.0 + resolution)..(right.0 - resolution)).contains(&vertex)
             || (vertex - middle.0).abs() < resolution
         {

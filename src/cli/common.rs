@@ -1,0 +1,102 @@
+//! What every command that looks at a scene has in common.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use sawflutter::scene::{Accuracy, Scene};
+
+use super::output::OutputFolder;
+
+#[derive(Args, Default)]
+pub struct Common {
+    /// Scene to look at; without it, the built-in guided spline saw
+    scene: Option<PathBuf>,
+    /// Folder for the files [default: sawflutter-out]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Speed for accuracy; overrides the scene's
+    #[arg(long, value_name = "NAME")]
+    accuracy: Option<AccuracyName>,
+    /// Print the report as JSON instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AccuracyName {
+    Draft,
+    Design,
+    Reference,
+}
+
+/// A file by name.
+pub type NamedFile = (&'static str, Vec<u8>);
+
+impl Common {
+    /// The scene asked for.
+    pub fn scene(&self) -> anyhow::Result<Scene> {
+        let mut scene = match &self.scene {
+            Some(path) => {
+                Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))?
+            }
+            None => Scene::paper(),
+        };
+        if let Some(name) = self.accuracy {
+            let accuracy = match name {
+                AccuracyName::Draft => Accuracy::Draft,
+                AccuracyName::Design => Accuracy::Design,
+                AccuracyName::Reference => Accuracy::Reference,
+            };
+            scene.accuracy = accuracy;
+            scene.file.accuracy = accuracy;
+        }
+        Ok(scene)
+    }
+
+    /// The folder asked for, seen to take files.
+    pub fn folder(&self) -> anyhow::Result<OutputFolder> {
+        let out = self.out.clone();
+        OutputFolder::open(&out.unwrap_or_else(|| "sawflutter-out".into()))
+    }
+
+    /// Writes the files, removes those of an earlier run that have become stale, and prints the report, in words or as JSON.
+    pub fn print(
+        &self,
+        folder: &OutputFolder,
+        files: &[NamedFile],
+        stale: &[&str],
+        json: &str,
+        summary: impl FnOnce() -> String,
+    ) -> anyhow::Result<()> {
+        folder.write_together(files, stale)?;
+        let mut stdout = std::io::stdout().lock();
+        if self.json {
+            writeln!(stdout, "{json}")?;
+        } else {
+            write!(stdout, "{}", summary())?;
+            let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+            let names = names.join(", ");
+            writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
+        }
+        Ok(())
+    }
+}
+
+/// A bar on the terminal's error stream, and nothing where that is not a terminal.
+pub fn progress_bar(what: &str) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let style =
+        ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}"));
+    ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Moves a bar.
+pub fn show(bar: &ProgressBar, done: usize, of: usize) {
+    bar.set_length(of as u64);
+    bar.set_position(done as u64);
+}

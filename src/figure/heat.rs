@@ -1,0 +1,151 @@
+//! Colour over a grid.
+
+use super::axis::Axis;
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
+
+/// Colours between which a value is mixed: few enough steps that neighbouring cells join
+/// to one rectangle, and enough that no step is seen.
+const STEPS: f64 = 40.0;
+
+/// The colour at `share` of a ramp of evenly spread colours.
+pub fn ramp(colours: &[Colour], share: f64) -> Colour {
+    let share = (share.clamp(0.0, 1.0) * STEPS).round() / STEPS;
+    let place = share * (colours.len() - 1) as f64;
+    let below = (place.floor() as usize).min(colours.len() - 2);
+    let mix = |low: u8, high: u8| {
+        let (low, high) = (f64::from(low), f64::from(high));
+        (low + (place - below as f64) * (high - low)).round() as u8
+    };
+    let (low, high) = (colours[below], colours[below + 1]);
+    plotters::style::RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
+}
+
+/// Fills a cell around each pair of grid values, cut at the ends of the axes; equal
+/// neighbours along x become one rectangle.
+pub fn draw_grid(
+    sheet: &mut Sheet,
+    (x_axis, x_values): (&Axis, &[f64]),
+    (y_axis, y_values): (&Axis, &[f64]),
+    colour: impl Fn(usize, usize) -> Colour,
+) {
+    let (x_edges, y_edges) = (edges(x_axis, x_values), edges(y_axis, y_values));
+    for row in 0..y_values.len() {
+        let mut from = 0;
+        while from < x_values.len() {
+            let shade = colour(from, row);
+            let run = (from..x_values.len()).take_while(|&column| colour(column, row) == shade);
+            let to = from + run.count();
+            let frame = Frame {
+                left: x_edges[from],
+                right: x_edges[to],
+                top: y_edges[row].min(y_edges[row + 1]),
+                bottom: y_edges[row].max(y_edges[row + 1]),
+            };
+            sheet.fill(frame, shade);
+            from = to;
+        }
+    }
+}
+
+/// Places halfway between the values, and the ends of the axis.
+fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
+    let [first, last] = axis.places();
+    let between = values
+        .windows(2)
+        .map(|pair| axis.at(0.5 * (pair[0] + pair[1])));
+    std::iter::once(first)
+        .chain(between)
+        .chain(std::iter::once(last))
+        .collect()
+}
+
+/// A bar that tells what the colours mean, upright, with labels of some ticks at its right.
+pub fn draw_scale(
+    sheet: &mut Sheet,
+    frame: &Frame,
+    axis: &Axis,
+    name: &str,
+    (colour, label): (impl Fn(f64) -> Colour, impl Fn(f64) -> Option<String>),
+) {
+    const BARS: usize = 80;
+    let [low, high] = axis.values();
+    let height = (frame.bottom - frame.top) / BARS as f64;
+    for bar in 0..BARS {
+        let bottom = frame.bottom - bar as f64 * height;
+        let value = low + (high - low) * (bar as f64 + 0.5) / BARS as f64;
+        let cell = Frame {
+            top: bottom - height,
+            bottom,
+            ..*frame
+        };
+        sheet.fill(cell, colour(value));
+    }
+    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Start);
+    for tick in axis.ticks(36.0) {
+        let Some(text) = label(tick) else {
+            continue;
+        };
+        let y = axis.at(tick);
+        let short = [[frame.right, y], [frame.right + 5.0, y]];
+        sheet.line(short, Stroke::solid(QUIET, HAIRLINE));
+        let at = [frame.right + 9.0, y + 0.36 * AXIS_SIZE];
+        sheet.text(at, letters, &text);
+    }
+    let at = [frame.left, frame.top - 12.0];
+    sheet.text(
+        at,
+        Lettering::regular(AXIS_SIZE, QUIET, Anchor::Start),
+        name,
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::axis::Spread;
+    use crate::figure::canvas::Mark;
+    use plotters::style::RGBColor;
+
+    #[test]
+    fn a_ramp_runs_from_its_first_to_its_last_colour() {
+        let colours = [
+            RGBColor(0, 0, 0),
+            RGBColor(100, 0, 0),
+            RGBColor(100, 200, 0),
+        ];
+        assert_eq!(ramp(&colours, -1.0), colours[0]);
+        assert_eq!(ramp(&colours, 0.5), colours[1]);
+        assert_eq!(ramp(&colours, 2.0), colours[2]);
+        assert_eq!(ramp(&colours, 0.75), RGBColor(100, 100, 0));
+    }
+
+    #[test]
+    fn equal_neighbours_join() {
+        let mut sheet = Sheet::new(100, 100);
+        let x = Axis::new([0.0, 3.0], [0.0, 90.0], Spread::Linear);
+        let y = Axis::new([0.0, 1.0], [90.0, 0.0], Spread::Linear);
+        let colours = [RGBColor(0, 0, 0), RGBColor(9, 9, 9)];
+        draw_grid(
+            &mut sheet,
+            (&x, &[0.0, 1.0, 2.0, 3.0]),
+            (&y, &[0.0, 1.0]),
+            |column, row| colours[usize::from(column + row > 1)],
+        );
+        let frames: Vec<[f64; 4]> = sheet
+            .marks()
+            .iter()
+            .filter_map(|mark| match mark {
+                Mark::Fill(f, _) => Some([f.left, f.top, f.right, f.bottom]),
+                _ => None,
+            })
+            .collect();
+        let expected = [
+            [0.0, 45.0, 45.0, 90.0],
+            [45.0, 45.0, 90.0, 90.0],
+            [0.0, 0.0, 15.0, 45.0],
+            [15.0, 0.0, 90.0, 45.0],
+        ];
+        assert_eq!(frames, expected);
+    }
+}

@@ -1,0 +1,146 @@
+//! The response at the probe over speed and frequency, with the branches on top, as in the
+//! paper's Figure 15.
+
+use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
+use super::campbell::draw_measured_mark;
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::clip;
+use super::heat::{draw_grid, draw_scale, ramp};
+use super::style::{AXIS_SIZE, Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, Weight, shorten};
+use super::{FigureError, heading, render};
+use crate::report::RunUpReport;
+
+const WIDTH: u32 = 1200;
+const HEIGHT: u32 = 760;
+const PANEL: Frame = Frame {
+    left: 92.0,
+    top: 96.0,
+    right: 1060.0,
+    bottom: 660.0,
+};
+const SCALE: [f64; 2] = [1092.0, 1112.0];
+/// Decades of response from the palest to the darkest colour.
+const DECADES: f64 = 3.0;
+/// From weak to strong: lightness falls evenly, so that grey prints read too.
+const RESPONSE: [Colour; 5] = [
+    plotters::style::RGBColor(250, 251, 253),
+    plotters::style::RGBColor(196, 216, 236),
+    plotters::style::RGBColor(104, 152, 204),
+    plotters::style::RGBColor(38, 84, 152),
+    plotters::style::RGBColor(12, 24, 64),
+];
+const BRANCH: Colour = plotters::style::RGBColor(216, 96, 60);
+
+/// The response map as PNG, 1200 × 760 pixels.
+pub fn response_map_png(report: &RunUpReport) -> Result<Vec<u8>, FigureError> {
+    render::png(&sheet(report))
+}
+
+/// The response map as SVG.
+pub fn response_map_svg(report: &RunUpReport) -> Result<String, FigureError> {
+    render::svg(&sheet(report))
+}
+
+pub(super) fn sheet(report: &RunUpReport) -> Sheet {
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    let title = "Response at the probe over speed and frequency";
+    heading::draw(&mut sheet, title, &report.scene.name);
+    let response = &report.response;
+    let ends = |values: &[f64]| {
+        let first = values.first().copied().unwrap_or(0.0);
+        [first, values.last().copied().unwrap_or(1.0)]
+    };
+    let speed = Axis::new(
+        ends(&response.rpm),
+        [PANEL.left, PANEL.right],
+        Spread::Linear,
+    );
+    let frequency = Axis::new(
+        ends(&response.frequency_hz),
+        [PANEL.bottom, PANEL.top],
+        Spread::Linear,
+    );
+    // Millimetres per newton on a logarithmic scale, from the strongest three decades down.
+    let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
+    let all = response.receptance_m_per_n.iter().flatten();
+    let strongest = all.fold(f64::NEG_INFINITY, |max, value| max.max(level(*value)));
+    let strongest = if strongest.is_finite() {
+        strongest
+    } else {
+        0.0
+    };
+    let shade = |level: f64| ramp(&RESPONSE, (level - strongest) / DECADES + 1.0);
+    draw_vertical(
+        &mut sheet,
+        &frequency,
+        &PANEL,
+        "frequency in space\u{2003}[Hz]",
+    );
+    draw_grid(
+        &mut sheet,
+        (&speed, &response.rpm),
+        (&frequency, &response.frequency_hz),
+        |column, row| {
+            let of_speed = response.receptance_m_per_n.get(column);
+            let value = of_speed.and_then(|of_speed| of_speed.get(row));
+            value.map_or(PAPER, |value| shade(level(*value)))
+        },
+    );
+    draw_branches(&mut sheet, report, &speed, &frequency);
+    draw_horizontal(&mut sheet, &speed, PANEL.bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let centre = (PANEL.left + PANEL.right) / 2.0;
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([centre, PANEL.bottom + 42.0], letters, name);
+    let scale = Frame {
+        left: SCALE[0],
+        top: PANEL.top + 20.0,
+        right: SCALE[1],
+        bottom: PANEL.bottom,
+    };
+    let decades = [strongest - DECADES, strongest];
+    let axis = Axis::new(decades, [scale.bottom, scale.top], Spread::Linear);
+    draw_scale(&mut sheet, &scale, &axis, "mm/N", (shade, decade));
+    draw_key(&mut sheet, report);
+    sheet
+}
+
+/// The value of a whole power of ten; the ticks between have no label.
+fn decade(level: f64) -> Option<String> {
+    let whole = level.round();
+    ((level - whole).abs() < 1e-6).then(|| tick_label(10f64.powf(whole)))
+}
+
+fn draw_branches(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, frequency: &Axis) {
+    for branch in &report.campbell.branches {
+        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
+        let places: Vec<[f64; 2]> = samples
+            .map(|(rpm, hz)| [speed.at(*rpm), frequency.at(*hz)])
+            .collect();
+        for part in clip(&places, &PANEL) {
+            sheet.line(part, Stroke::solid(BRANCH, HAIRLINE));
+        }
+    }
+    for row in report.scene.measured.iter().flat_map(|m| &m.rows) {
+        for hz in &row.frequencies_hz {
+            if speed.shows(row.rpm) && frequency.shows(*hz) {
+                draw_measured_mark(sheet, [speed.at(row.rpm), frequency.at(*hz)]);
+            }
+        }
+    }
+}
+
+fn draw_key(sheet: &mut Sheet, report: &RunUpReport) {
+    let y = f64::from(HEIGHT) - 28.0;
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let line = [[PANEL.left, y - 4.0], [PANEL.left + 22.0, y - 4.0]];
+    sheet.line(line, Stroke::solid(BRANCH, 1.5 * HAIRLINE));
+    sheet.text([PANEL.left + 30.0, y], letters, "eigenvalue branches");
+    if let Some(measured) = &report.scene.measured {
+        let x = PANEL.left + 190.0;
+        draw_measured_mark(sheet, [x, y - 4.0]);
+        let room = PANEL.right - x - 14.0;
+        let source = shorten(&measured.source, LABEL_SIZE, Weight::Regular, room);
+        sheet.text([x + 12.0, y], letters, &source);
+    }
+}

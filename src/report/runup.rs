@@ -1,0 +1,126 @@
+//! `runup.json`: the deflection of the saw while it runs up, and what explains it.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, Report};
+use crate::scene::{RunUp, Scene, SceneFile, rpm};
+use crate::spectrum::SpectrumError;
+use crate::transient::RunningUp;
+
+/// `runup.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunUpReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Size of the basis.
+    pub degrees_of_freedom: usize,
+    /// Rate of the run-up.
+    pub rate_rpm_per_s: f64,
+    /// Step of the integration.
+    pub step_s: f64,
+    /// Speeds of the record.
+    pub rpm: Vec<f64>,
+    /// Deflection at the probe.
+    pub deflection_m: Vec<f64>,
+    /// Critical speeds up to the end of the run-up.
+    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    /// Bands of instability and what they do to the run-up.
+    pub bands: Vec<RunUpBand>,
+    /// Branches over the speeds of the run-up.
+    pub campbell: CampbellEntry,
+    /// Response over speed and frequency.
+    pub response: ResponseEntry,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// A band of instability in a run-up.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunUpBand {
+    /// The band.
+    pub band: InstabilityEntry,
+    /// Time that the run-up spends in it.
+    pub time_s: f64,
+    /// Re λ integrated over that time: the motion grows by no more than e to this power.
+    pub growth_exponent: f64,
+    /// Largest deflection at the probe within the band over that in as many speeds before.
+    pub seen_amplification: Option<f64>,
+}
+
+/// |w/F| over speed and frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseEntry {
+    /// Rotation speeds.
+    pub rpm: Vec<f64>,
+    /// Frequencies of the force.
+    pub frequency_hz: Vec<f64>,
+    /// Deflection at the probe per newton, one row a speed.
+    pub receptance_m_per_n: Vec<Vec<f64>>,
+}
+
+impl RunUpReport {
+    /// Reports a run-up.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the modes at rest cannot be computed.
+    pub fn new(scene: &Scene, runup: &RunUp, found: &RunningUp) -> Result<Self, SpectrumError> {
+        let chart = Report::new(scene, &found.analysis)?;
+        let history = &found.history;
+        let speeds: Vec<f64> = history.speed_rad_per_s.iter().map(|s| rpm(*s)).collect();
+        let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());
+        let bands = chart
+            .instabilities
+            .into_iter()
+            .zip(&found.growths)
+            .map(|(band, growth)| RunUpBand {
+                time_s: (band.to_rpm - band.from_rpm) / rate_rpm_per_s,
+                growth_exponent: growth.exponent,
+                seen_amplification: seen_amplification(&speeds, &history.deflection_m, &band),
+                band,
+            })
+            .collect();
+        let response = &found.response;
+        Ok(RunUpReport {
+            sawflutter: chart.sawflutter,
+            scene: chart.scene,
+            degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+            rate_rpm_per_s,
+            step_s: history.step_s,
+            deflection_m: history.deflection_m.clone(),
+            critical_speeds: chart.critical_speeds,
+            bands,
+            campbell: chart.campbell,
+            response: ResponseEntry {
+                rpm: response.speed_rad_per_s.iter().map(|s| rpm(*s)).collect(),
+                frequency_hz: response
+                    .frequency_rad_per_s
+                    .iter()
+                    .map(|w| w / TAU)
+                    .collect(),
+                receptance_m_per_n: response.receptance_m_per_n.clone(),
+            },
+            warnings: chart.warnings,
+            rpm: speeds,
+        })
+    }
+}
+
+/// Largest deflection in the band over the largest in a stretch of the same length before.
+fn seen_amplification(rpm: &[f64], deflection_m: &[f64], band: &InstabilityEntry) -> Option<f64> {
+    let largest = |from: f64, to: f64| {
+        let record = rpm.iter().zip(deflection_m);
+        let within = record.filter(|(speed, _)| (from..=to).contains(*speed));
+        within.map(|(_, w)| w.abs()).reduce(f64::max)
+    };
+    let width = band.to_rpm - band.from_rpm;
+    let before = largest(band.from_rpm - width, band.from_rpm)?;
+    let inside = largest(band.from_rpm, band.to_rpm)?;
+    (before > 0.0).then(|| inside / before)
+}

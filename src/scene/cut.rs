@@ -1,0 +1,343 @@
+//! The cut: which forces the wood exerts on which teeth, and for how long.
+
+use std::f64::consts::{PI, TAU};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{MAX_RPM, SPAN, positive, refuse, within};
+use super::{Blade, SceneError, SceneFile, rad_per_s};
+
+/// Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth,
+/// or the depth of cut; the tangential force, or the power.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutFile {
+    /// Angle of the middle of the cut, positive with the rotation.
+    #[serde(default)]
+    pub angle_deg: f64,
+    /// Depth of cut; over the pitch of the teeth it gives their number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_m: Option<f64>,
+    /// Number of teeth in the cut at a time; wins over the depth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub teeth_in_cut: Option<u32>,
+    /// Force against the rotation on each tooth; wins over the power.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_n_per_tooth: Option<f64>,
+    /// Force towards the axis on each tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_n_per_tooth: Option<f64>,
+    /// Force across the blade on each tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateral_n_per_tooth: Option<f64>,
+    /// Power of the cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power_w: Option<f64>,
+    /// Speed at which the wood is fed; with the length of the board it tells how long
+    /// the cut takes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_m_per_s: Option<f64>,
+    /// Length of the board. Without it, or without the feed, the cut takes one second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub board_length_m: Option<f64>,
+    /// Time shown before and after the cut.
+    #[serde(default = "default_idle_s")]
+    pub idle_s: f64,
+    /// Speeds at which the saw cuts, and what differs there. By default the operating
+    /// speed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub speeds: Vec<CutSpeedFile>,
+}
+
+fn default_idle_s() -> f64 {
+    0.5
+}
+
+/// A speed at which the saw cuts. What is not given is that of the cut.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutSpeedFile {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Force against the rotation on each tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tangential_n_per_tooth: Option<f64>,
+    /// Force towards the axis on each tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_n_per_tooth: Option<f64>,
+    /// Force across the blade on each tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lateral_n_per_tooth: Option<f64>,
+    /// Power of the cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub power_w: Option<f64>,
+    /// Speed at which the wood is fed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_m_per_s: Option<f64>,
+}
+
+/// A validated cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cut {
+    /// Angle of its middle.
+    pub angle_rad: f64,
+    /// Teeth in the cut at a time.
+    pub teeth: u32,
+    /// Angle from tooth to tooth.
+    pub pitch_rad: f64,
+    /// Time before and after the forces.
+    pub idle_s: f64,
+    /// Speeds and the forces at each.
+    pub runs: Vec<CutRun>,
+    file: CutFile,
+    rim_radius_m: f64,
+}
+
+/// One speed of a cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CutRun {
+    /// Rotation speed.
+    pub speed_rad_per_s: f64,
+    /// Force against the rotation on each tooth, given or from the power.
+    pub tangential_n: f64,
+    /// Force towards the axis on each tooth.
+    pub radial_n: f64,
+    /// Force across the blade on each tooth.
+    pub lateral_n: f64,
+    /// The tangential force that the power allows, P/(Ωb) shared by the teeth.
+    pub tangential_of_power_n: Option<f64>,
+    /// Time that the forces last.
+    pub duration_s: f64,
+}
+
+/// Longest time a transient may show: far beyond any board, and short enough to keep
+/// the record in memory.
+const MAX_DURATION_S: f64 = 600.0;
+/// Largest force on a tooth: it would shear off at a small part of it.
+const MAX_FORCE_N: f64 = 1e9;
+
+impl Cut {
+    pub(super) fn new(
+        typed: &CutFile,
+        file: &SceneFile,
+        blade: &Blade,
+    ) -> Result<Self, SceneError> {
+        let all_teeth = file.blade.teeth.filter(|teeth| *teeth > 0);
+        let Some(all_teeth) = all_teeth else {
+            let remedy = "the pitch of the teeth says where the forces act; give their number";
+            let given = file.blade.teeth.map_or("missing".into(), |t| t.to_string());
+            return Err(SceneError::Value {
+                key: "blade.teeth".into(),
+                value: given,
+                allowed: "at least 1 where the scene has a cut".into(),
+                remedy,
+            });
+        };
+        let mut cut = Cut {
+            angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
+            teeth: teeth_in_cut(typed, all_teeth, blade)?,
+            pitch_rad: TAU / f64::from(all_teeth),
+            idle_s: within("cut.idle_s", typed.idle_s, (0.0, MAX_DURATION_S))?,
+            runs: Vec::new(),
+            file: typed.clone(),
+            rim_radius_m: blade.outer_radius_m,
+        };
+        let speeds: Vec<f64> = match (&typed.speeds[..], file.operating_rpm) {
+            ([], Some(rpm)) => vec![rpm],
+            (speeds, _) => speeds.iter().map(|speed| speed.rpm).collect(),
+        };
+        for rpm in speeds {
+            let run = cut.at_rpm(rpm)?;
+            cut.runs.push(run);
+        }
+        Ok(cut)
+    }
+
+    /// The forces at a speed: those of the scene's entry for it, else those of the cut.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where neither a tangential force nor a power is given, or a
+    /// number is out of range.
+    pub fn at_rpm(&self, rpm: f64) -> Result<CutRun, SceneError> {
+        let index = self.file.speeds.iter().position(|speed| speed.rpm == rpm);
+        let own = index.map_or_else(CutSpeedFile::default, |i| self.file.speeds[i].clone());
+        let number = |name: &str, own: Option<f64>, of_cut: Option<f64>, range: (f64, f64)| {
+            let key = match (own, index) {
+                (Some(_), Some(i)) => format!("cut.speeds[{i}].{name}"),
+                _ => format!("cut.{name}"),
+            };
+            let given = own.or(of_cut);
+            given.map(|value| within(&key, value, range)).transpose()
+        };
+        let key = index.map_or("rpm".into(), |i| format!("cut.speeds[{i}].rpm"));
+        let speed_rad_per_s = rad_per_s(within(&key, rpm, (1e-3, MAX_RPM))?);
+        let force = (-MAX_FORCE_N, MAX_FORCE_N);
+        let typed = &self.file;
+        let power_w = number("power_w", own.power_w, typed.power_w, (0.0, SPAN.1))?;
+        let tangential_of_power_n =
+            power_w.map(|p| p / (speed_rad_per_s * self.rim_radius_m) / f64::from(self.teeth));
+        let given = number(
+            "tangential_n_per_tooth",
+            own.tangential_n_per_tooth,
+            typed.tangential_n_per_tooth,
+            force,
+        )?;
+        let Some(tangential_n) = given.or(tangential_of_power_n) else {
+            return Err(SceneError::Value {
+                key: "cut.tangential_n_per_tooth".into(),
+                value: "missing".into(),
+                allowed: "given, or cut.power_w in its place".into(),
+                remedy: "a cut needs the force against the rotation, or the power",
+            });
+        };
+        let radial = own.radial_n_per_tooth;
+        let lateral = own.lateral_n_per_tooth;
+        let feed = number(
+            "feed_m_per_s",
+            own.feed_m_per_s,
+            typed.feed_m_per_s,
+            (1e-6, 1e3),
+        )?;
+        Ok(CutRun {
+            speed_rad_per_s,
+            tangential_n,
+            radial_n: number(
+                "radial_n_per_tooth",
+                radial,
+                typed.radial_n_per_tooth,
+                force,
+            )?
+            .unwrap_or(0.0),
+            lateral_n: number(
+                "lateral_n_per_tooth",
+                lateral,
+                typed.lateral_n_per_tooth,
+                force,
+            )?
+            .unwrap_or(0.0),
+            tangential_of_power_n,
+            duration_s: self.duration_s(feed)?,
+        })
+    }
+
+    fn duration_s(&self, feed_m_per_s: Option<f64>) -> Result<f64, SceneError> {
+        let board = self.file.board_length_m;
+        let board = board
+            .map(|length| positive("cut.board_length_m", length))
+            .transpose()?;
+        let Some((length, feed)) = board.zip(feed_m_per_s) else {
+            return Ok(1.0);
+        };
+        let seconds = length / feed;
+        if seconds > MAX_DURATION_S {
+            let allowed = format!("such that the cut takes at most {MAX_DURATION_S} s");
+            let remedy = "give a shorter board or a faster feed";
+            return Err(refuse("cut.board_length_m", length, allowed, remedy));
+        }
+        Ok(seconds)
+    }
+
+    /// Where the teeth in the cut are: one pitch apart, around its middle.
+    pub fn tooth_angles_rad(&self) -> impl Iterator<Item = f64> + '_ {
+        let first = -0.5 * f64::from(self.teeth - 1);
+        (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
+    }
+}
+
+/// The given number, or the depth over the pitch, rounded: what is in the cut on average.
+fn teeth_in_cut(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneError> {
+    if let Some(teeth) = typed.teeth_in_cut {
+        if (1..=all_teeth).contains(&teeth) {
+            return Ok(teeth);
+        }
+        let allowed = format!("between 1 and blade.teeth ({all_teeth})");
+        let remedy = "count the teeth that touch the wood at a time";
+        return Err(refuse(
+            "cut.teeth_in_cut",
+            f64::from(teeth),
+            allowed,
+            remedy,
+        ));
+    }
+    let Some(depth_m) = typed.depth_m else {
+        return Err(SceneError::Value {
+            key: "cut.teeth_in_cut".into(),
+            value: "missing".into(),
+            allowed: "given, or cut.depth_m in its place".into(),
+            remedy: "say how many teeth are in the cut, or how deep it is",
+        });
+    };
+    let diameter_m = 2.0 * blade.outer_radius_m;
+    if !(depth_m > 0.0 && depth_m <= diameter_m) {
+        let allowed = format!("above 0 and at most the blade's diameter ({diameter_m})");
+        let remedy = "give the depth of cut in metres";
+        return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
+    }
+    let pitch_m = PI * diameter_m / f64::from(all_teeth);
+    Ok(((depth_m / pitch_m).round() as u32).clamp(1, all_teeth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn with(change: impl FnOnce(&mut SceneFile, &mut CutFile)) -> Result<Cut, SceneError> {
+        let mut file = Scene::paper().file;
+        let mut cut = file.cut.take().unwrap();
+        change(&mut file, &mut cut);
+        file.cut = Some(cut);
+        Scene::try_from(file).map(|scene| scene.cut.unwrap())
+    }
+
+    #[test]
+    fn the_papers_depth_of_cut_holds_four_teeth_around_its_middle() {
+        let cut = with(|_, _| {}).unwrap();
+        let pitches: Vec<f64> = cut.tooth_angles_rad().map(|a| a / cut.pitch_rad).collect();
+        assert_eq!(pitches, [-1.5, -0.5, 0.5, 1.5]);
+    }
+
+    /// 80 hp at 2800 rpm and a radius of 355 mm are 573 N, a quarter of it a tooth.
+    #[test]
+    fn power_over_rim_speed_gives_the_force() {
+        let cut = with(|_, cut| {
+            cut.tangential_n_per_tooth = None;
+            cut.speeds.clear();
+            cut.power_w = Some(80.0 * 745.7);
+        })
+        .unwrap();
+        let force = cut.at_rpm(2800.0).unwrap().tangential_n;
+        assert!((force - 143.28).abs() < 0.01, "{force}");
+    }
+
+    #[test]
+    fn refusals_name_the_key() {
+        type Change = fn(&mut SceneFile, &mut CutFile);
+        let cases: [(&str, Change); 6] = [
+            ("blade.teeth", |file, _| file.blade.teeth = None),
+            ("cut.teeth_in_cut", |_, cut| cut.teeth_in_cut = Some(43)),
+            ("cut.depth_m", |_, cut| cut.depth_m = Some(-0.2)),
+            ("cut.speeds[1].rpm", |_, cut| cut.speeds[1].rpm = 0.0),
+            ("cut.board_length_m", |_, cut| {
+                cut.board_length_m = Some(1e9)
+            }),
+            ("cut.tangential_n_per_tooth", |_, cut| {
+                *cut = CutFile {
+                    teeth_in_cut: Some(1),
+                    speeds: vec![CutSpeedFile {
+                        rpm: 1000.0,
+                        ..CutSpeedFile::default()
+                    }],
+                    ..CutFile::default()
+                }
+            }),
+        ];
+        for (expected, change) in cases {
+            match with(change) {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+}

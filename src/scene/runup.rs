@@ -1,0 +1,117 @@
+//! The run-up, and where its deflection is read.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{MAX_RPM, refuse, within};
+use super::{Blade, SceneError, SpeedRange, rad_per_s};
+
+/// Run-up at a constant rate, under a constant lateral force fixed in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RunUpFile {
+    /// First speed.
+    #[serde(default)]
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+    /// Time it takes.
+    pub duration_s: f64,
+    /// Lateral force at the rim.
+    pub force_n: f64,
+    /// Angle of the force, positive with the rotation.
+    #[serde(default)]
+    pub angle_deg: f64,
+}
+
+/// Where the deflection is read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProbeFile {
+    /// Distance from the axis; the rim by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
+    /// Angle, positive with the rotation.
+    pub angle_deg: f64,
+}
+
+/// A validated run-up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunUp {
+    /// Speeds.
+    pub speeds: SpeedRange,
+    /// Time it takes.
+    pub duration_s: f64,
+    /// Lateral force at the rim.
+    pub force_n: f64,
+    /// Angle of the force.
+    pub angle_rad: f64,
+}
+
+/// A validated probe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Probe {
+    /// Distance from the axis.
+    pub radius_m: f64,
+    /// Angle.
+    pub angle_rad: f64,
+}
+
+/// The paper's position of the displacement probe, section 3.1.
+const DEFAULT_PROBE_DEG: f64 = 90.0;
+/// Longest run-up: the paper's experiment took 1600 s.
+const MAX_RUN_UP_S: f64 = 3600.0;
+
+impl RunUp {
+    pub(super) fn new(typed: &RunUpFile) -> Result<Self, SceneError> {
+        let from = within("runup.from_rpm", typed.from_rpm, (0.0, MAX_RPM))?;
+        let to = within("runup.to_rpm", typed.to_rpm, (0.0, MAX_RPM))?;
+        if to <= from {
+            let allowed = format!("more than runup.from_rpm ({from})");
+            let remedy = "a run-up goes from a lower to a higher speed";
+            return Err(refuse("runup.to_rpm", to, allowed, remedy));
+        }
+        let duration_s = within("runup.duration_s", typed.duration_s, (0.0, MAX_RUN_UP_S))?;
+        if duration_s < 0.01 {
+            let remedy = "a run-up takes seconds; is the duration in seconds?";
+            return Err(refuse(
+                "runup.duration_s",
+                duration_s,
+                "at least 0.01",
+                remedy,
+            ));
+        }
+        let angle = within("runup.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?;
+        Ok(RunUp {
+            speeds: SpeedRange {
+                from_rad_per_s: rad_per_s(from),
+                to_rad_per_s: rad_per_s(to),
+            },
+            duration_s,
+            force_n: within("runup.force_n", typed.force_n, (-1e9, 1e9))?,
+            angle_rad: angle.to_radians(),
+        })
+    }
+
+    /// Ω̇, in rad/s².
+    pub fn acceleration_rad_per_s2(&self) -> f64 {
+        (self.speeds.to_rad_per_s - self.speeds.from_rad_per_s) / self.duration_s
+    }
+}
+
+impl Probe {
+    pub(super) fn new(typed: Option<&ProbeFile>, blade: &Blade) -> Result<Self, SceneError> {
+        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+        let radius_m = typed.and_then(|probe| probe.radius_m).unwrap_or(outer);
+        if !(inner..=outer).contains(&radius_m) {
+            let allowed = format!("on the blade, from {inner} to {outer}");
+            let remedy = "put the probe over the moving part of the blade";
+            return Err(refuse("probe.radius_m", radius_m, allowed, remedy));
+        }
+        let degrees = typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg);
+        Ok(Probe {
+            radius_m,
+            angle_rad: within("probe.angle_deg", degrees, (-3600.0, 3600.0))?.to_radians(),
+        })
+    }
+}

@@ -1,0 +1,151 @@
+//! Two modes next to each other, refined on the system that they are modes of.
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale, c64};
+
+use crate::system::GyroscopicSystem;
+
+use super::state::{State, StateModel};
+
+/// The invariant subspace of two modes at one speed, and what it says next to that speed.
+#[derive(Debug)]
+pub struct ModePair {
+    model: StateModel,
+}
+
+/// Steps of inverse iteration with one factorization: each divides what is foreign by the
+/// ratio of the distances of other modes and of the pair from the shift.
+const STEPS: usize = 4;
+/// Relative residual beyond which the two states are not modes.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+impl ModePair {
+    /// Block inverse iteration from two states, shifted to their mean iω. `None` where it
+    /// does not settle on two modes.
+    pub(super) fn new(
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        scale: f64,
+        states: [&State; 2],
+    ) -> Option<Self> {
+        let mean = 0.5 * (states[0].lambda.im + states[1].lambda.im);
+        // A hair off, so that L is not singular to the last bit where both modes are one.
+        let shift = c64::new(0.0, mean * (1.0 + 1e-9));
+        let stiffness = system.stiffness_at(speed_rad_per_s);
+        let velocity = system.velocity_at(speed_rad_per_s);
+        let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
+            let inertia = if i == k {
+                shift * shift
+            } else {
+                c64::new(0.0, 0.0)
+            };
+            inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
+        });
+        let factors = dynamic.partial_piv_lu();
+        let damping = Mat::from_fn(system.order(), system.order(), |i, k| {
+            c64::new(velocity[(i, k)], 0.0)
+        });
+        let order = system.order();
+        let mut q = Mat::from_fn(order, 2, |i, k| states[k].q[i]);
+        let mut v = Mat::from_fn(order, 2, |i, k| states[k].q[i] * states[k].lambda);
+        for _ in 0..STEPS {
+            // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
+            let load = &damping * &q + Scale(shift) * &q + &v;
+            let u = Scale(c64::new(-1.0, 0.0)) * factors.solve(load);
+            v = &q + Scale(shift) * &u;
+            q = u;
+            orthonormalise(&mut q, &mut v, scale)?;
+        }
+        if residual(&stiffness, &damping, &q, &v) > LARGEST_RESIDUAL {
+            return None;
+        }
+        let states: Vec<State> = (0..2)
+            .map(|k| {
+                let (q, v) = (q.col(k).to_owned(), v.col(k).to_owned());
+                let mut state = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q));
+                state.p += v;
+                state
+            })
+            .collect();
+        let model = StateModel::new(system, scale, &states)?;
+        (model.order() == 4).then_some(ModePair { model })
+    }
+
+    /// ((ω₁ − ω₂)/2)², and once merged −σ²; exact at the pair's speed, and to the square of
+    /// the distance next to it.
+    pub fn discriminant(&self, speed_rad_per_s: f64) -> f64 {
+        let (sum, product) = self.model.pair_invariants(speed_rad_per_s);
+        0.25 * (sum - 2.0 * product)
+    }
+
+    /// (ω₁ + ω₂)/2.
+    pub fn mean_frequency(&self, speed_rad_per_s: f64) -> f64 {
+        let (sum, product) = self.model.pair_invariants(speed_rad_per_s);
+        0.5 * (sum + 2.0 * product).max(0.0).sqrt()
+    }
+}
+
+/// Gram–Schmidt on two complex states (q, v/scale).
+fn orthonormalise(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> {
+    let product = |q: &Mat<c64>, v: &Mat<c64>, i: usize, k: usize| {
+        let deflections = q.col(i).adjoint() * q.col(k);
+        let velocities: c64 = v.col(i).adjoint() * v.col(k);
+        deflections + velocities / (scale * scale)
+    };
+    for k in 0..2 {
+        if k == 1 {
+            let share = product(q, v, 0, 1);
+            for m in [&mut *q, &mut *v] {
+                for i in 0..m.nrows() {
+                    let first = m[(i, 0)];
+                    m[(i, 1)] -= share * first;
+                }
+            }
+        }
+        let norm = product(q, v, k, k).re.sqrt();
+        if !norm.is_finite() || norm == 0.0 {
+            return None;
+        }
+        for m in [&mut *q, &mut *v] {
+            for i in 0..m.nrows() {
+                m[(i, k)] /= norm;
+            }
+        }
+    }
+    Some(())
+}
+
+/// How far A(q, v) leaves the span of the two states, relative to its length: only the
+/// velocities can, q̇ = v being met by both.
+fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>) -> f64 {
+    let order = q.nrows();
+    let complex = |part: Mat<f64>| Mat::from_fn(order, 2, |i, k| c64::new(part[(i, k)], 0.0));
+    let re = complex(stiffness * Mat::from_fn(order, 2, |i, k| q[(i, k)].re));
+    let im = complex(stiffness * Mat::from_fn(order, 2, |i, k| q[(i, k)].im));
+    let force = re + Scale(c64::new(0.0, 1.0)) * im + damping * v;
+    // Coefficients of v in q by least squares are those of −force in v, if it is an
+    // invariant subspace: v = qB, −force = vB.
+    let gram: Mat<c64> = q.adjoint() * q;
+    let coefficients = gram.partial_piv_lu().solve(q.adjoint() * v);
+    let left: Mat<c64> = &force + v * &coefficients;
+    let kinematic: Mat<c64> = v - q * &coefficients;
+    let size = force.norm_l2().max(f64::MIN_POSITIVE);
+    left.norm_l2() / size + kinematic.norm_l2() / v.norm_l2().max(f64::MIN_POSITIVE)
+}
+
+/// Unit vector, for those who build states by hand.
+pub(super) fn standing_states(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    shape: &Col<f64>,
+    scale: f64,
+) -> [State; 2] {
+    let q = Col::from_fn(shape.nrows(), |i| c64::new(shape[i], 0.0));
+    let still = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q.clone()));
+    let momentum = State {
+        lambda: c64::new(0.0, 0.0),
+        q: Col::zeros(q.nrows()),
+        p: Scale(c64::new(scale, 0.0)) * q,
+    };
+    [still, momentum]
+}

@@ -1,0 +1,128 @@
+//! A part projected on few vectors, and what the projection leaves over.
+
+use faer::{Col, Mat, c64};
+
+use crate::system::GyroscopicSystem;
+
+use super::dense::Eigenpair;
+use super::mode::{Mode, split};
+use super::state::{State, StateModel};
+
+/// A part projected on few orthonormal vectors.
+#[derive(Debug)]
+pub struct Projection {
+    /// Last speed that it is good for.
+    pub to_rad_per_s: f64,
+    /// V, N × r.
+    pub basis: Mat<f64>,
+    /// The projected matrices.
+    pub reduced: GyroscopicSystem,
+    /// The matrices times V, for residuals on the whole part.
+    products: GyroscopicSystem,
+    /// The same on few states, each with the last speed that it is good for: for drawing.
+    pub(super) drawn: Vec<(f64, Option<StateModel>)>,
+}
+
+impl Projection {
+    /// Projects a part, for speeds up to `to_rad_per_s`.
+    pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
+        let products = system.times(basis.as_ref());
+        let reduced = products.onto(basis.as_ref());
+        Projection {
+            to_rad_per_s,
+            basis,
+            reduced,
+            products,
+            drawn: Vec::new(),
+        }
+    }
+
+    /// The part itself.
+    pub fn whole(system: &GyroscopicSystem) -> Self {
+        Projection {
+            to_rad_per_s: f64::INFINITY,
+            basis: Mat::identity(system.order(), system.order()),
+            reduced: system.clone(),
+            products: system.clone(),
+            drawn: Vec::new(),
+        }
+    }
+
+    /// Coordinates Vᵀq of a pair of the whole part that lies in the span.
+    pub fn inward(&self, (lambda, q): &Eigenpair) -> Eigenpair {
+        let (re, im) = split(q);
+        let (re, im) = (self.basis.transpose() * re, self.basis.transpose() * im);
+        (
+            *lambda,
+            Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])),
+        )
+    }
+
+    /// The states of pairs of the projection at a speed.
+    pub fn states(&self, speed_rad_per_s: f64, pairs: Vec<Eigenpair>) -> Vec<State> {
+        pairs
+            .into_iter()
+            .map(|pair| State::new(&self.reduced, speed_rad_per_s, pair))
+            .collect()
+    }
+
+    /// The few states for a speed, where there are such.
+    pub fn drawn_at(&self, speed_rad_per_s: f64) -> Option<&StateModel> {
+        let place = self.drawn.partition_point(|(to, _)| *to < speed_rad_per_s);
+        self.drawn.get(place).and_then(|(_, model)| model.as_ref())
+    }
+
+    /// Vq and L(λ)Vq of pairs (λ, q) at one speed, all in one product of matrices.
+    pub fn lifted(&self, speed_rad_per_s: f64, pairs: &[(c64, &Col<c64>)]) -> Vec<Lifted> {
+        let width = self.basis.ncols();
+        let coordinates = Mat::from_fn(width, 2 * pairs.len(), |i, k| {
+            let q = pairs[k / 2].1[i];
+            if k % 2 == 0 { q.re } else { q.im }
+        });
+        let shape = &self.basis * &coordinates;
+        let force = self.products.stiffness_at(speed_rad_per_s) * &coordinates;
+        let momentum = self.products.velocity_at(speed_rad_per_s) * &coordinates;
+        let column = |matrix: &Mat<f64>, k: usize| {
+            Col::from_fn(matrix.nrows(), |i| {
+                c64::new(matrix[(i, 2 * k)], matrix[(i, 2 * k + 1)])
+            })
+        };
+        pairs
+            .iter()
+            .enumerate()
+            .map(|(k, (lambda, _))| {
+                let shape = column(&shape, k);
+                let (force, momentum) = (column(&force, k), column(&momentum, k));
+                let residual = Col::from_fn(shape.nrows(), |i| {
+                    lambda * (lambda * shape[i] + momentum[i]) + force[i]
+                });
+                Lifted { shape, residual }
+            })
+            .collect()
+    }
+}
+
+/// A mode of a projection on the whole part.
+#[derive(Debug)]
+pub struct Lifted {
+    /// Vq.
+    pub shape: Col<c64>,
+    /// L(λ)Vq.
+    pub residual: Col<c64>,
+}
+
+/// Eigenvalues and coordinates of modes.
+pub fn pairs_of(modes: &[Mode]) -> Vec<(c64, &Col<c64>)> {
+    modes.iter().map(|m| (m.lambda, &m.coordinates)).collect()
+}
+
+/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
+/// closer than `tolerance` to the span of the others are left out.
+pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
+    let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
+    let qr = matrix.col_piv_qr();
+    let rank = (0..rows.min(vectors.len()))
+        .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
+        .count();
+    qr.compute_thin_Q().subcols(0, rank).to_owned()
+}

@@ -1,0 +1,155 @@
+//! A few motions of an undamped blade, as states: the smallest system that has them.
+//!
+//! With p = q̇ + ΩGq the blade is Hamiltonian, H = ½|p − ΩGq|² + ½qᵀK(Ω)q, and a mode
+//! is a state z = (q, p) with Jᵀz λ = S(Ω)z, S = S₀ + ΩS₁ + Ω²S₂ the Hessian of H. The
+//! real and imaginary parts of m modes span 2m states, where a basis of deflections
+//! takes 2m of its own for velocities besides: half the order, an eighth of the time.
+//! Galerkin's projection zᵀJᵀz, zᵀSz keeps the system Hamiltonian, so its eigenvalues are
+//! wrong by the square of what the states lack, and none loses its Krein sign.
+
+use faer::linalg::solvers::{Eigen, Solve};
+use faer::{Col, Mat, Scale, c64};
+
+use crate::scene::rpm;
+use crate::system::GyroscopicSystem;
+
+use super::SpectrumError;
+use super::dense::{Eigenpair, by_magnitude, unit};
+use super::mode::split;
+use super::projection::orthonormal;
+
+/// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// λ, in 1/s.
+    pub lambda: c64,
+    /// Deflection.
+    pub q: Col<c64>,
+    /// Momentum, in 1/s.
+    pub p: Col<c64>,
+}
+
+impl State {
+    /// The state of a mode at a speed.
+    pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, (lambda, q): Eigenpair) -> Self {
+        let (re, im) = split(&q);
+        let (g_re, g_im) = (&system.gyroscopic * re, &system.gyroscopic * im);
+        let p = Col::from_fn(q.nrows(), |i| {
+            lambda * q[i] + c64::new(g_re[i], g_im[i]) * speed_rad_per_s
+        });
+        State { lambda, q, p }
+    }
+}
+
+/// A system projected on few states.
+#[derive(Debug, Clone)]
+pub struct StateModel {
+    deflections: Mat<f64>,
+    /// (WᵀJᵀW)⁻¹ Wᵀ S_k W in units of `scale`.
+    terms: [Mat<f64>; 3],
+    scale: f64,
+}
+
+/// States closer than this to the span of the others are left out.
+const SPAN_TOLERANCE: f64 = 1e-9;
+/// Smallest pivot of the symplectic form that can be divided by.
+const LEAST_PIVOT: f64 = 1e-9;
+
+impl StateModel {
+    /// Projects a system on the real and imaginary parts of states; `scale`, in 1/s, makes
+    /// momenta of the size of deflections. `None` where the symplectic form is singular on
+    /// them: then a state lacks its partner.
+    pub fn new(system: &GyroscopicSystem, scale: f64, states: &[State]) -> Option<Self> {
+        let order = system.order();
+        let stacked = |part: fn(&c64) -> f64, state: &State| {
+            let state = Col::from_fn(2 * order, |i| match i.checked_sub(order) {
+                Some(i) => part(&state.p[i]) / scale,
+                None => part(&state.q[i]),
+            });
+            let norm = state.norm_l2();
+            (norm > 1e-12).then(|| Scale(1.0 / norm) * state)
+        };
+        let vectors: Vec<Col<f64>> = states
+            .iter()
+            .flat_map(|state| [stacked(|c| c.re, state), stacked(|c| c.im, state)])
+            .flatten()
+            .collect();
+        if vectors.is_empty() {
+            return None;
+        }
+        let basis = orthonormal(2 * order, &vectors, SPAN_TOLERANCE);
+        let q = basis.get(..order, ..);
+        let p = basis.get(order.., ..);
+        let gq = &system.gyroscopic * q;
+        let pq = p.transpose() * q;
+        let form = &pq - pq.transpose();
+        let rest = q.transpose() * &system.stiffness * q + Scale(scale * scale) * p.transpose() * p;
+        let cross = gq.transpose() * p;
+        let linear = Scale(-scale) * (&cross + cross.transpose());
+        let square = q.transpose() * &system.spin * q + gq.transpose() * &gq;
+        let factors = form.partial_piv_lu();
+        let upper = factors.U();
+        let singular = (0..form.nrows()).any(|i| {
+            let pivot: f64 = upper[(i, i)];
+            pivot.is_nan() || pivot.abs() < LEAST_PIVOT
+        });
+        if singular {
+            return None;
+        }
+        let over_form = |term: Mat<f64>| factors.solve(Scale(scale.powi(-2)) * term);
+        Some(StateModel {
+            deflections: q.to_owned(),
+            terms: [rest, linear, square].map(over_form),
+            scale,
+        })
+    }
+
+    /// Number of states.
+    pub fn order(&self) -> usize {
+        self.deflections.ncols()
+    }
+
+    /// A with ż = Az, in units of the scale.
+    fn matrix(&self, speed: f64) -> Mat<f64> {
+        let [rest, linear, square] = &self.terms;
+        rest + Scale(speed) * linear + Scale(speed * speed) * square
+    }
+
+    /// Eigenpairs (λ, q) with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|.
+    ///
+    /// # Errors
+    /// [`SpectrumError::NoConvergence`].
+    pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
+        let matrix = self.matrix(speed_rad_per_s);
+        let failed = |_| SpectrumError::NoConvergence {
+            order: matrix.nrows(),
+            rpm: rpm(speed_rad_per_s),
+        };
+        let eigen = Eigen::new_from_real(matrix.as_ref()).map_err(failed)?;
+        let pairs = (0..matrix.nrows())
+            .map(|i| (eigen.S()[i] * self.scale, i))
+            .filter(|(lambda, _)| lambda.im >= 0.0)
+            .map(|(lambda, i)| {
+                let y = eigen.U().col(i).to_owned();
+                let (re, im) = split(&y);
+                let (re, im) = (&self.deflections * re, &self.deflections * im);
+                let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
+                (lambda, unit(q.as_ref()))
+            })
+            .collect();
+        Ok(by_magnitude(pairs))
+    }
+
+    /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth
+    /// through a merging, where the eigenvalues themselves are not.
+    pub fn pair_invariants(&self, speed_rad_per_s: f64) -> (f64, f64) {
+        let matrix = self.matrix(speed_rad_per_s);
+        let square = &matrix * &matrix;
+        let trace = |m: &Mat<f64>| (0..m.nrows()).map(|i| m[(i, i)]).sum::<f64>();
+        let fourth: f64 = trace(&(&square * &square));
+        let sum = -0.5 * trace(&square);
+        let product_square = 0.5 * (sum * sum - 0.5 * fourth);
+        let unit = self.scale * self.scale;
+        (sum * unit, product_square.max(0.0).sqrt() * unit)
+    }
+}

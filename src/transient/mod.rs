@@ -1,0 +1,65 @@
+//! Time histories: the saw in a cut and in a run-up, and the second opinion that they
+//! give on its stability.
+//!
+//! At a constant speed a step is the exponential of the state matrix, exact for loads that
+//! change linearly ([`Propagator`]); while the speed changes it is Newmark's average
+//! acceleration ([`Newmark`]). Both work on the blade's lowest modes and its static
+//! answers to the loads ([`ReducedBlade`]).
+
+mod cut;
+mod newmark;
+mod on_spline;
+mod propagator;
+mod reduced;
+mod response;
+mod runup;
+mod scenario;
+mod sinusoids;
+mod teeth;
+mod verdict_map;
+
+pub use cut::{CutHistory, Growth, cut_history, in_cut_plate};
+pub use newmark::{Motion, Newmark};
+pub use on_spline::{OnSpline, on_spline};
+pub use propagator::{Propagator, State};
+pub use reduced::ReducedBlade;
+pub use response::{ResponseMap, response_map};
+pub use runup::{BandGrowth, RunUpHistory, band_growths, run_up};
+pub use scenario::{Cutting, CuttingRun, RunningUp};
+pub use sinusoids::{Sinusoid, damped_sinusoids, fitted_growth};
+pub use teeth::{ToothPassing, tooth_passing};
+pub use verdict_map::{VerdictMap, verdict_map};
+
+use crate::spectrum::SpectrumError;
+use crate::spline::SplineError;
+
+/// Why a time history could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum TransientError {
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The blade could not be followed on its arbor.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
+    /// Growth beyond what a double holds.
+    #[error(
+        "the deflection at {rpm:.0} rpm outgrows every number within {time_s:.3} s; shorten the time, or lower the speed"
+    )]
+    Overflow {
+        /// Rotation speed.
+        rpm: f64,
+        /// Time from the beginning.
+        time_s: f64,
+    },
+    /// Matrices that no exponential can be taken of.
+    #[error(
+        "a step of {step_s} s at {rpm:.0} rpm is not finite; the scene's numbers are too far apart"
+    )]
+    NotFinite {
+        /// Rotation speed.
+        rpm: f64,
+        /// Length of the step.
+        step_s: f64,
+    },
+}

@@ -1,0 +1,130 @@
+//! The few shapes that a time history is made of.
+//!
+//! The lowest modes of some speeds, and the answers to the loads: a load that bends the
+//! blade where no low mode bends is then carried by the right stiffness all the same.
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, MatRef, Scale};
+
+use crate::plate::Plate;
+use crate::spectrum::{frequency_scale, lowest_eigenpairs, orthonormal, split};
+use crate::system::GyroscopicSystem;
+
+/// A system at a speed, whose lowest modes join the basis.
+#[derive(Debug, Clone, Copy)]
+pub struct Snapshot<'a> {
+    /// On the whole basis.
+    pub system: &'a GyroscopicSystem,
+    /// Ω.
+    pub speed_rad_per_s: f64,
+}
+
+/// An orthonormal basis V of a part of the plate's motions.
+#[derive(Debug, Clone)]
+pub struct ReducedBlade {
+    basis: Mat<f64>,
+}
+
+/// Modes of a snapshot where one speed is looked at.
+pub const MODES: usize = 14;
+/// Directions nearer to the span of the others are left out.
+const INDEPENDENT: f64 = 1e-7;
+
+impl ReducedBlade {
+    /// Spans the `modes` lowest modes of each snapshot and its answers to the loads, which are
+    /// (K + σD + σ²)⁻¹ b: static ones, but for the rigid motions that nothing holds.
+    pub fn new(
+        plate: &Plate,
+        snapshots: &[Snapshot<'_>],
+        modes: usize,
+        loads: &[Col<f64>],
+    ) -> Self {
+        let order = plate.degrees_of_freedom();
+        let shift = frequency_scale(plate);
+        let mut vectors = Vec::new();
+        for Snapshot {
+            system,
+            speed_rad_per_s,
+        } in snapshots
+        {
+            for (_, q) in lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) {
+                let (re, im) = split(&q);
+                vectors.extend([re, im]);
+            }
+            let mut dynamic = system.stiffness_at(*speed_rad_per_s)
+                + Scale(shift) * system.velocity_at(*speed_rad_per_s);
+            for i in 0..order {
+                dynamic[(i, i)] += shift.powi(2);
+            }
+            let factors = dynamic.partial_piv_lu();
+            for load in loads {
+                let answer = factors.solve(load);
+                let norm = answer.norm_l2();
+                if norm > 0.0 && norm.is_finite() {
+                    vectors.push(Scale(1.0 / norm) * answer);
+                }
+            }
+        }
+        ReducedBlade {
+            basis: orthonormal(order, &vectors, INDEPENDENT),
+        }
+    }
+
+    /// The whole basis, for comparison.
+    pub fn whole(plate: &Plate) -> Self {
+        let order = plate.degrees_of_freedom();
+        ReducedBlade {
+            basis: Mat::identity(order, order),
+        }
+    }
+
+    /// The same motions, turned by an angle.
+    pub fn turned(&self, plate: &Plate, angle_rad: f64) -> Self {
+        let mut basis = self.basis.clone();
+        let size = plate.basis.count();
+        for n in 1..=plate.max_diameters() {
+            let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+            let cosine = plate.offset(n);
+            for j in cosine..cosine + size {
+                for k in 0..basis.ncols() {
+                    let (c, s) = (self.basis[(j, k)], self.basis[(j + size, k)]);
+                    basis[(j, k)] = c * cos - s * sin;
+                    basis[(j + size, k)] = c * sin + s * cos;
+                }
+            }
+        }
+        ReducedBlade { basis }
+    }
+
+    /// V, orthonormal.
+    pub fn basis(&self) -> MatRef<'_, f64> {
+        self.basis.as_ref()
+    }
+
+    /// Number of motions.
+    pub fn order(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// VᵀMV = 1, VᵀKV, …
+    pub fn system(&self, full: &GyroscopicSystem) -> GyroscopicSystem {
+        full.project(self.basis.as_ref())
+    }
+
+    /// VᵀAV of a symmetric A.
+    pub fn matrix(&self, full: &Mat<f64>) -> Mat<f64> {
+        self.basis.transpose() * full * &self.basis
+    }
+
+    /// Vᵀb.
+    pub fn vector(&self, full: &Col<f64>) -> Col<f64> {
+        self.basis.transpose() * full
+    }
+}
+
+/// Every basis function at a point, as a vector: what a unit force there excites, and what
+/// a probe there reads.
+pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
+    let values = plate.functions_at(radius_m, angle_rad);
+    Col::from_fn(values.len(), |i| values[i])
+}

@@ -1,0 +1,158 @@
+//! The saw while it runs up under a constant lateral force.
+
+use faer::Col;
+use rayon::prelude::*;
+
+use crate::campbell::Progress;
+use crate::plate::Plate;
+use crate::scene::{Probe, RunUp};
+use crate::spectrum::{Mode, SpectralModel};
+use crate::stability::Instability;
+use crate::system::GyroscopicSystem;
+
+use super::cut::finite;
+use super::reduced::{ReducedBlade, Snapshot, at_point};
+use super::{Newmark, TransientError};
+
+/// Deflection over the run-up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunUpHistory {
+    /// Speeds of the record, in rad/s.
+    pub speed_rad_per_s: Vec<f64>,
+    /// Deflection at the probe.
+    pub deflection_m: Vec<f64>,
+    /// Step of the integration.
+    pub step_s: f64,
+}
+
+/// What a band of instability does to a run-up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BandGrowth {
+    /// ∫ Re λ dt while the speed is within the band.
+    pub exponent: f64,
+}
+
+/// Speeds whose modes span the motion.
+const SNAPSHOTS: usize = 7;
+/// Modes of each: what a probe sees of a slow force.
+const MODES: usize = 6;
+/// Steps a period of the highest frequency that the record is to show.
+const STEPS_A_PERIOD: f64 = 24.0;
+/// Steps at one speed.
+const HELD_STEPS: usize = 8;
+/// Samples of the record.
+const MAX_SAMPLES: usize = 30_000;
+/// Points of the quadrature over a band.
+const BAND_POINTS: usize = 24;
+
+/// The basis of a run-up: modes of a few speeds and the answers to the force.
+pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
+    let system = GyroscopicSystem::of_plate(plate);
+    let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    let snapshots: Vec<Snapshot<'_>> = (0..SNAPSHOTS)
+        .map(|k| Snapshot {
+            system: &system,
+            speed_rad_per_s: from + (to - from) * k as f64 / (SNAPSHOTS - 1) as f64,
+        })
+        .collect();
+    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
+    ReducedBlade::new(plate, &snapshots, MODES, &[force])
+}
+
+/// Integrates the run-up, with steps that resolve `highest_rad_per_s`.
+///
+/// # Errors
+/// [`TransientError::Overflow`] when a growing motion exceeds every number.
+pub fn run_up(
+    plate: &Plate,
+    runup: &RunUp,
+    probe: &Probe,
+    highest_rad_per_s: f64,
+    progress: Progress<'_>,
+) -> Result<RunUpHistory, TransientError> {
+    let blade = reduced_blade(plate, runup);
+    let system = blade.system(&GyroscopicSystem::of_plate(plate));
+    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
+    let load = faer::Scale(runup.force_n) * blade.vector(&force);
+    let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
+    let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
+    let steps = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
+    let step_s = runup.duration_s / steps as f64;
+    let rate = runup.acceleration_rad_per_s2();
+    let speed_at = |step: usize| runup.speeds.from_rad_per_s + rate * step as f64 * step_s;
+    // The speed is held for a few steps at that of their middle: so near to each other
+    // that the error stays of second order, and one factorization serves them all.
+    let held = |step: usize| {
+        let middle = speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
+        Newmark::new(&system, middle, rate, step_s)
+    };
+    let mut newmark = held(0);
+    // The force is there from the beginning: the blade starts where it holds it, unless
+    // nothing does.
+    let mut motion = newmark.start(
+        static_deflection(&system, speed_at(0), &load),
+        Col::zeros(blade.order()),
+        &load,
+    );
+    let stride = steps.div_ceil(MAX_SAMPLES);
+    let mut history = RunUpHistory {
+        speed_rad_per_s: vec![speed_at(0)],
+        deflection_m: vec![read.transpose() * &motion.displacement],
+        step_s,
+    };
+    for step in 1..=steps {
+        let speed = speed_at(step);
+        motion = newmark.step(&motion, &load);
+        if step % HELD_STEPS == 0 {
+            newmark = held(step);
+        }
+        if step % stride == 0 || step == steps {
+            let deflection = read.transpose() * &motion.displacement;
+            let deflection = finite(deflection, speed, step as f64 * step_s)?;
+            history.speed_rad_per_s.push(speed);
+            history.deflection_m.push(deflection);
+            progress(step, steps);
+        }
+    }
+    Ok(history)
+}
+
+/// K⁻¹f where K is positive definite, else zero: nothing holds the blade then.
+fn static_deflection(system: &GyroscopicSystem, speed_rad_per_s: f64, load: &Col<f64>) -> Col<f64> {
+    use faer::linalg::solvers::Solve;
+    let stiffness = system.stiffness_at(speed_rad_per_s);
+    match stiffness.llt(faer::Side::Lower) {
+        Ok(factors) => factors.solve(load),
+        Err(_) => Col::zeros(system.order()),
+    }
+}
+
+/// ∫ Re λ dt over each band, at the rate of the run-up. Growth starts and ends like a
+/// square root, which Gauss–Chebyshev points of the second kind integrate exactly.
+///
+/// # Errors
+/// [`TransientError::Spectrum`].
+pub fn band_growths(
+    model: &SpectralModel,
+    bands: &[Instability],
+    rate_rad_per_s2: f64,
+) -> Result<Vec<BandGrowth>, TransientError> {
+    let weight = std::f64::consts::PI / (BAND_POINTS + 1) as f64;
+    bands
+        .par_iter()
+        .map(|band| {
+            let half = 0.5 * (band.to - band.from);
+            let mut sum = 0.0;
+            for k in 1..=BAND_POINTS {
+                let (sin, cos) = (weight * k as f64).sin_cos();
+                let speed = band.from + half * (1.0 - cos);
+                let modes = model.modes(speed)?;
+                let growth = modes.iter().map(Mode::growth_per_s).fold(0.0, f64::max);
+                sum += weight * sin * growth;
+            }
+            Ok(BandGrowth {
+                exponent: sum * half / rate_rad_per_s2,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,148 @@
+//! The whole story of a cut, and of a run-up: what the commands compute.
+
+use crate::campbell::Progress;
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Cut, CutRun, RunUp, Scene};
+use crate::spectrum::Mode;
+use crate::stability::Analysis;
+
+use super::{
+    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, ToothPassing, TransientError,
+    VerdictMap, band_growths, cut_history, on_spline, response_map, run_up, tooth_passing,
+    verdict_map,
+};
+
+/// A cut at some speeds.
+#[derive(Debug)]
+pub struct Cutting {
+    /// The saw without the forces.
+    pub plate: Plate,
+    /// The cut.
+    pub cut: Cut,
+    /// One entry a speed.
+    pub runs: Vec<CuttingRun>,
+}
+
+/// One speed of a cut.
+#[derive(Debug, Clone)]
+pub struct CuttingRun {
+    /// Eigenvalues and time history.
+    pub history: CutHistory,
+    /// What the passing of the teeth changes.
+    pub passing: ToothPassing,
+    /// Growth over guide angle and load.
+    pub map: VerdictMap,
+    /// The reaction of the spline teeth, when the scene asks for it.
+    pub spline: Option<OnSpline>,
+}
+
+/// Positions of the teeth within a pitch: from 8 to 16 the growth rate changes by 0.03 %.
+const STAGES: usize = 8;
+/// The map reaches so far on both sides of the guides, in steps of so much.
+const MAP_TURN_DEG: (f64, f64) = (30.0, 2.5);
+/// Highest load level of the map, and its steps.
+const MAP_LOAD: (f64, f64) = (1.5, 0.1);
+
+impl Cutting {
+    /// Computes the speeds of a cut.
+    ///
+    /// # Errors
+    /// [`TransientError`].
+    pub fn new(
+        scene: &Scene,
+        cut: &Cut,
+        runs: &[CutRun],
+        progress: Progress<'_>,
+    ) -> Result<Self, TransientError> {
+        let plate = Plate::new(scene, Resolution::of(scene.accuracy));
+        let turns = even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1).map(f64::to_radians);
+        let turns: Vec<f64> = turns.collect();
+        let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
+        let points = turns.len() * levels.len();
+        let runs = runs
+            .iter()
+            .enumerate()
+            .map(|(index, run)| {
+                let of = |done: usize, _| progress(index * points + done, runs.len() * points);
+                Ok(CuttingRun {
+                    history: cut_history(&plate, cut, run, &scene.probe)?,
+                    passing: tooth_passing(&plate, cut, run, &scene.probe, STAGES)?,
+                    spline: on_spline(scene, &plate, cut, run)?,
+                    map: verdict_map(&plate, cut, run, (&turns, &levels), &of)?,
+                })
+            })
+            .collect::<Result<Vec<_>, TransientError>>()?;
+        Ok(Cutting {
+            plate,
+            cut: cut.clone(),
+            runs,
+        })
+    }
+}
+
+/// A run-up.
+#[derive(Debug)]
+pub struct RunningUp {
+    /// Modes and bands over the speeds of the run-up.
+    pub analysis: Analysis,
+    /// Deflection at the probe.
+    pub history: RunUpHistory,
+    /// What each band of the analysis does to it.
+    pub growths: Vec<BandGrowth>,
+    /// Response over speed and frequency.
+    pub response: ResponseMap,
+}
+
+/// Speeds and frequencies of the response map.
+const MAP_SIZE: (usize, usize) = (200, 150);
+/// Modes at rest whose oscillation the steps resolve and the map shows.
+const SHOWN_MODES: usize = 6;
+
+impl RunningUp {
+    /// Computes a run-up.
+    ///
+    /// # Errors
+    /// [`TransientError`].
+    pub fn new(
+        scene: &Scene,
+        runup: &RunUp,
+        progress: Progress<'_>,
+    ) -> Result<Self, TransientError> {
+        let swept = Scene {
+            sweep: Some(runup.speeds),
+            ..scene.clone()
+        };
+        let analysis = Analysis::new(&swept, &|_, _| ())?;
+        let model = &analysis.model;
+        let modes = model.modes(runup.speeds.from_rad_per_s)?;
+        let highest = modes
+            .iter()
+            .map(Mode::frequency_rad_per_s)
+            .take(SHOWN_MODES)
+            .fold(0.0, f64::max);
+        let plate = &model.plate;
+        let history = run_up(plate, runup, &scene.probe, highest, progress)?;
+        let rate = runup.acceleration_rad_per_s2();
+        let growths = band_growths(model, &analysis.chart.instabilities, rate)?;
+        let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+        let share = |k: usize, of: usize| k as f64 / (of - 1) as f64;
+        let speeds: Vec<f64> = (0..MAP_SIZE.0)
+            .map(|k| from + (to - from) * share(k, MAP_SIZE.0))
+            .collect();
+        let frequencies: Vec<f64> = (0..MAP_SIZE.1)
+            .map(|k| highest * share(k, MAP_SIZE.1))
+            .collect();
+        let response = response_map(plate, runup, &scene.probe, (&speeds, &frequencies));
+        Ok(RunningUp {
+            history,
+            growths,
+            response,
+            analysis,
+        })
+    }
+}
+
+fn even(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = ((to - from) / step).round() as usize;
+    (0..=count).map(move |k| from + (to - from) * k as f64 / count as f64)
+}
