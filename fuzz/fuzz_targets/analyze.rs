@@ -7,7 +7,8 @@ mod draw;
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let file = draw::scene_file(&mut draw::Bytes(bytes));
     if let Ok(scene) = sawflutter::scene::Scene::try_from(file) {
-        draw::survives_on_a_small_basis(&scene);
+        draw::survives_two_speeds(&scene);
+        draw::survives_chart(&scene);
         draw::survives_analysis(&scene);
     }
 });
