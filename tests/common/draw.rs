@@ -79,6 +79,8 @@ fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
 pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     let mut file = Scene::paper().file;
     file.measured = None;
+    // What belongs to the paper's own blade.
+    (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
     file.guides.clear();
     file.accuracy = Accuracy::Draft;
     let outer = bytes.near(0.5);
