@@ -12,7 +12,7 @@ use crate::plate::Plate;
 
 use super::derivative;
 use super::low::LowModel;
-use super::mode::{Mode, ModeKind, MatrixNorms, classify};
+use super::mode::{MatrixNorms, Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::projection::{Projection, pairs_of};
