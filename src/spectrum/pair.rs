@@ -34,7 +34,11 @@ impl ModePair {
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
         let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
-            let inertia = if i == k { shift * shift } else { c64::new(0.0, 0.0) };
+            let inertia = if i == k {
+                shift * shift
+            } else {
+                c64::new(0.0, 0.0)
+            };
             inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
         });
         let factors = dynamic.partial_piv_lu();

@@ -52,7 +52,10 @@ impl Projection {
     pub fn inward(&self, (lambda, q): &Eigenpair) -> Eigenpair {
         let (re, im) = split(q);
         let (re, im) = (self.basis.transpose() * re, self.basis.transpose() * im);
-        (*lambda, Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])))
+        (
+            *lambda,
+            Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])),
+        )
     }
 
     /// The states of pairs of the projection at a speed.

@@ -5,16 +5,16 @@ use std::sync::atomic::Ordering;
 use faer::{Col, Mat, Scale, Side, c64};
 use rayon::prelude::*;
 
+use super::projection::{Lifted, Projection, orthonormal};
 use crate::plate::Plate;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
-use super::projection::{Lifted, Projection, orthonormal};
 
-use super::mode::{ModeKind, classify, split};
 use super::dense::Eigenpair;
+use super::mode::{ModeKind, classify, split};
 use super::model::WorkCounters;
 use super::pair::standing_states;
-use super::state::{State, StateModel};
 use super::part::{NamedCriticalSpeed, frequency_scale};
+use super::state::{State, StateModel};
 use super::{companion_eigenpairs, lowest_eigenpairs};
 
 /// Modes a chart shows at the lowest speed.
@@ -282,8 +282,10 @@ impl Builder<'_> {
                         > FREQUENCY_TOLERANCE * self.window
                 })
                 .collect();
-            let (coarse, fine): (Vec<_>, Vec<_>) =
-                halfway.into_iter().zip(wrong).partition(|(_, wrong)| *wrong);
+            let (coarse, fine): (Vec<_>, Vec<_>) = halfway
+                .into_iter()
+                .zip(wrong)
+                .partition(|(_, wrong)| *wrong);
             settled.extend(fine.into_iter().map(|(speed, _)| speed));
             if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
                 return projection;
@@ -428,4 +430,3 @@ impl Builder<'_> {
 fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
     [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
 }
-

@@ -156,7 +156,11 @@ impl Krylov {
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&i, &k| eigen.S()[k].norm().total_cmp(&eigen.S()[i].norm()));
         order.truncate(wanted);
-        let last = if m == 0 { 0.0 } else { self.hessenberg[(m, m - 1)] };
+        let last = if m == 0 {
+            0.0
+        } else {
+            self.hessenberg[(m, m - 1)]
+        };
         let converged = |i: &usize| {
             let y = eigen.U().col(*i);
             let residual = last * y[m - 1].norm() / y.norm_l2();

@@ -5,8 +5,8 @@
 //! halved until each holds at most one such change; intervals without a change are
 //! halved too where the tangents of a + and a − mode meet inside.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 

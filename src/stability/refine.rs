@@ -295,7 +295,8 @@ fn sharpened_passage(
             return Ok(Some(Passage::Crossing));
         }
         let half = (-2.0 * lowest / bend).sqrt();
-        let onset = |edge: f64, outer: f64| sharpened_onset(finder, edge, frequency, (outer, vertex));
+        let onset =
+            |edge: f64, outer: f64| sharpened_onset(finder, edge, frequency, (outer, vertex));
         let from = onset(vertex - half, ends.0)?;
         let to = onset(vertex + half, ends.1)?;
         let band = from.zip(to).map(|(from, to)| Inside { from, to });
