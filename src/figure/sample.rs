@@ -36,6 +36,10 @@ pub fn empty_report(name: &str) -> Report {
         operating_rpm: None,
         sweep: None,
         accuracy: Accuracy::Draft,
+        tolerance: None,
+        cut: None,
+        runup: None,
+        probe: None,
         flutter_threshold_per_s: 0.25,
         measured: None,
     };
@@ -55,6 +59,8 @@ pub fn empty_report(name: &str) -> Report {
             max_diameters: 8,
             radial_functions: 4,
             degrees_of_freedom: 68,
+            tolerance: 1e-2,
+            reached: true,
             estimated_relative_error: None,
         },
         certificate: CertificateEntry {

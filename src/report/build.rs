@@ -52,6 +52,8 @@ impl Report {
                 max_diameters: resolution.max_diameters,
                 radial_functions: resolution.radial_functions,
                 degrees_of_freedom: resolution.degrees_of_freedom(),
+                tolerance: scene.tolerance(),
+                reached: reached(scene, analysis),
                 estimated_relative_error: analysis.estimated_relative_error,
             },
             certificate: CertificateEntry {
@@ -68,7 +70,7 @@ impl Report {
             },
             root_loci: root_loci(analysis),
             sensitivities: Vec::new(),
-            warnings: warnings(analysis),
+            warnings: warnings(scene, analysis),
         })
     }
 }
@@ -329,11 +331,25 @@ fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
     ((diameters, circles), direction)
 }
 
+fn reached(scene: &Scene, analysis: &Analysis) -> bool {
+    let error = analysis.estimated_relative_error;
+    error.is_some_and(|error| error <= scene.tolerance())
+}
+
 /// Limits of the model that this scene comes near to.
-fn warnings(analysis: &Analysis) -> Vec<String> {
+fn warnings(scene: &Scene, analysis: &Analysis) -> Vec<String> {
     let plate = &analysis.model.plate;
     let blade = &plate.blade;
     let mut warnings = Vec::new();
+    if let Some(error) = analysis.estimated_relative_error
+        && !reached(scene, analysis)
+    {
+        warnings.push(format!(
+            "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
+            scene.tolerance(),
+            plate.degrees_of_freedom()
+        ));
+    }
     let width = blade.outer_radius_m - blade.inner_radius_m;
     if blade.thickness_m > 0.1 * width {
         warnings.push(format!(

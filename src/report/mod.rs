@@ -163,7 +163,11 @@ pub struct AccuracyEntry {
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Estimated relative error of the critical speeds, from a coarser basis.
+    /// Relative error allowed of critical speeds and onsets.
+    pub tolerance: f64,
+    /// Whether the estimate is within the tolerance: the largest basis may fall short of it.
+    pub reached: bool,
+    /// Estimated relative error of the critical speeds, extrapolated from coarser bases.
     pub estimated_relative_error: Option<f64>,
 }
 

@@ -82,9 +82,22 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
+        let critical = Self::critical_speeds(&plate)?;
+        Self::with_critical(plate, critical, range, strategy)
+    }
+
+    /// The same where the critical speeds are known.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn with_critical(
+        plate: Plate,
+        critical: Vec<NamedCriticalSpeed>,
+        range: (f64, f64),
+        strategy: Strategy,
+    ) -> Result<Self, SpectrumError> {
         let counters = WorkCounters::default();
         let mut parts = Part::of(&plate);
-        let critical = named_critical_speeds(&plate, &parts)?;
         let mut complete_to_rad_per_s = f64::INFINITY;
         if strategy == Strategy::Reduced {
             let scale = frequency_scale(&plate);

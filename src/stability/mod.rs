@@ -2,6 +2,7 @@
 
 mod analysis;
 mod bands;
+mod basis;
 mod damped;
 mod divergence;
 mod finder;
@@ -13,5 +14,6 @@ mod station;
 
 pub use analysis::{Analysis, OPERATING_LIMIT};
 pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
+pub use basis::ChosenBasis;
 pub use loci::RootLoci;
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
