@@ -37,9 +37,6 @@ pub fn empty_report(name: &str) -> Report {
         sweep: None,
         accuracy: Accuracy::Draft,
         tolerance: None,
-        cut: None,
-        runup: None,
-        probe: None,
         flutter_threshold_per_s: 0.25,
         measured: None,
     };
