@@ -27,6 +27,18 @@ pub enum ModeKind {
     Damped,
 }
 
+impl ModeKind {
+    /// What a mode of this kind takes of the Krein index, which is the number of negative
+    /// eigenvalues of K(Ω): k_real + 2 k_flutter + 2 k_negative.
+    pub fn krein_index(self) -> usize {
+        match self {
+            ModeKind::Divergent => 1,
+            ModeKind::Flutter | ModeKind::Negative => 2,
+            _ => 0,
+        }
+    }
+}
+
 /// A mode of one independent part of the blade.
 #[derive(Debug, Clone)]
 pub struct Mode {
