@@ -53,20 +53,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = CutReport::new(&scene, &cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
+    let mut stale: &[&str] = &[];
     match figure::spline_orbit_png(&report)?.zip(figure::spline_orbit_svg(&report)?) {
         Some((png, svg)) => files.extend([
             ("spline-orbit.png", png),
             ("spline-orbit.svg", svg.into_bytes()),
         ]),
-        None => {
-            folder.remove("spline-orbit.png")?;
-            folder.remove("spline-orbit.svg")?;
-        }
+        None => stale = &["spline-orbit.png", "spline-orbit.svg"],
     }
     files.push(("cut.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, &json, || summary(&report))
+        .print(&folder, &files, stale, &json, || summary(&report))
 }
 
 fn figures(report: &CutReport) -> Result<Vec<NamedFile>, figure::FigureError> {
@@ -114,7 +112,7 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         text,
         "  eigenvalues   {:>9.3} 1/s {:>10}",
         run.growth_per_s,
-        hertz(run.frequency_hz)
+        hertz(run.frequency_hz.filter(|_| run.growth_per_s > 0.0))
     )?;
     if let (Some(verdict), Some(growth)) = (run.transient_verdict, run.transient_growth_per_s) {
         writeln!(

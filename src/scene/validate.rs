@@ -1,7 +1,7 @@
 //! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
 //! and radians, ready to compute with.
 
-use super::check::{MAX_GUIDE, MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_GUIDE, MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
 use super::runup::{Probe, RunUp};
 use super::{
@@ -145,6 +145,11 @@ impl TryFrom<SceneFile> for Scene {
 
     fn try_from(file: SceneFile) -> Result<Self, SceneError> {
         let blade = blade(&file)?;
+        if file.guides.len() > MAX_GUIDES {
+            let remedy = "join pads that lie side by side";
+            let (count, allowed) = (file.guides.len(), format!("at most {MAX_GUIDES} pads"));
+            return Err(refuse("guides", count as f64, allowed, remedy));
+        }
         let guides = file
             .guides
             .iter()

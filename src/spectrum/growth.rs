@@ -7,41 +7,35 @@ use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-use super::dense::{companion, time_scale};
-use super::mode::{GROWTH_NOISE, MatrixNorms, Mode, RIGID_NOISE, classify, split};
+use super::dense::deflated_companion;
+use super::mode::{GROWTH_NOISE, MatrixNorms, Mode, classify, split};
 use super::part::{Part, frequency_scale};
 use super::projection::{Projection, pairs_of};
 use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs, orthonormal};
 
 /// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system of which
-/// no motion grows beyond rounding. Rigid motions that nothing holds have defective
-/// zeros, known to √ε only: with `has_free_rigid_motions` they are passed over.
+/// no motion grows beyond rounding.
 ///
 /// # Errors
 /// [`SpectrumError`] when the eigenproblem fails.
 pub fn fastest_growing(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
-    has_free_rigid_motions: bool,
 ) -> Result<Option<c64>, SpectrumError> {
-    let (state, scale) = companion(system, speed_rad_per_s)?;
+    let (state, scale, _) = deflated_companion(system, speed_rad_per_s)?;
     let values = state
         .eigenvalues()
         .map_err(|_| SpectrumError::NoConvergence {
             order: state.nrows(),
             rpm: rpm(speed_rad_per_s),
         })?;
-    let rigid = match has_free_rigid_motions {
-        true => RIGID_NOISE * time_scale(&system.stiffness),
-        false => 0.0,
-    };
     let counts = values
         .iter()
         .map(|value| *value * scale)
         .filter(|lambda: &c64| {
             let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
             let grows = !system.is_conservative() || lambda.re > noise;
-            lambda.im >= 0.0 && lambda.norm() >= rigid && grows
+            lambda.im >= 0.0 && grows
         });
     Ok(counts.max_by(|x, y| x.re.total_cmp(&y.re)))
 }
@@ -59,10 +53,7 @@ pub fn fastest_growing_of(
     for part in Part::of(plate) {
         let found = match certified(&part, scale, speed_rad_per_s)? {
             Some(found) => found,
-            None => {
-                let free_rigid = !part.free_rigid.is_empty();
-                fastest_growing(&part.full, speed_rad_per_s, free_rigid)?
-            }
+            None => fastest_growing(&part.full, speed_rad_per_s)?,
         };
         fastest = [fastest, found]
             .into_iter()
@@ -89,7 +80,7 @@ fn certified(
     speed_rad_per_s: f64,
 ) -> Result<Option<Option<c64>>, SpectrumError> {
     let full = &part.full;
-    if full.order() < SMALL || !full.is_conservative() || !part.free_rigid.is_empty() {
+    if full.order() < SMALL || !full.is_conservative() || !part.full.free_rigid.is_empty() {
         return Ok(None);
     }
     let stiffness = full.stiffness_at(speed_rad_per_s);
@@ -108,7 +99,7 @@ fn certified(
     let projection = Projection::new(full, basis, speed_rad_per_s);
     let reduced = &projection.reduced;
     let pairs = companion_eigenpairs(reduced, speed_rad_per_s)?;
-    let modes = classify(reduced, speed_rad_per_s, 0, false, pairs);
+    let modes = classify(reduced, speed_rad_per_s, 0, pairs);
     let norms = MatrixNorms::new(full, speed_rad_per_s);
     let lifted = projection.lifted(speed_rad_per_s, &pairs_of(&modes));
     let modes: Vec<&Mode> = modes
@@ -124,13 +115,6 @@ fn certified(
     let growing = modes.iter().filter(|mode| mode.growth_per_s() > 0.0);
     let fastest = growing.max_by(|x, y| x.lambda.re.total_cmp(&y.lambda.re));
     Ok(Some(fastest.map(|mode| mode.lambda)))
-}
-
-/// Whether heave, a tilt or a mixture of them has no stiffness.
-pub fn has_free_rigid_motions(plate: &Plate) -> bool {
-    Part::of(plate)
-        .iter()
-        .any(|part| !part.free_rigid.is_empty())
 }
 
 #[cfg(test)]
@@ -158,7 +142,7 @@ mod tests {
             let part = &Part::of(plate)[0];
             for rpm in [600.0, 1540.0, 1800.0, 2110.0, 2262.0, 2800.0] {
                 let speed = rad_per_s(rpm);
-                let all = fastest_growing(&part.full, speed, false).unwrap();
+                let all = fastest_growing(&part.full, speed).unwrap();
                 let Some(few) = certified(part, frequency_scale(plate), speed).unwrap() else {
                     continue;
                 };
