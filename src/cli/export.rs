@@ -1,0 +1,120 @@
+//! `sawflutter export`.
+
+use anyhow::{Context, bail};
+use clap::Args;
+use faer::Mat;
+use npyz::WriterBuilder;
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::stability::ChosenBasis;
+use sawflutter::system::GyroscopicSystem;
+use serde_json::json;
+
+use super::common::{Common, NamedFile};
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter export --matrices                      the built-in saw
+  sawflutter export --matrices saw.json --basis 16,8 --out matrices
+  python3 -c 'import numpy; print(numpy.load(\"sawflutter-out/stiffness.npy\").shape)'";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Write the matrices of the equation of motion as NumPy files
+    #[arg(long, required = true)]
+    matrices: bool,
+    /// Nodal diameters and radial functions of the basis, instead of what the accuracy takes
+    #[arg(long, value_name = "N,J", value_parser = basis)]
+    basis: Option<Resolution>,
+}
+
+/// Most diameters and most radial functions: beyond them digits are lost or memory is.
+const LARGEST: (usize, usize) = (64, 14);
+
+fn basis(text: &str) -> Result<Resolution, String> {
+    let refused = || {
+        format!(
+            "give diameters 2 to {} and radial functions 2 to {}, such as 16,8",
+            LARGEST.0, LARGEST.1
+        )
+    };
+    let (diameters, radial) = text.split_once(',').ok_or_else(refused)?;
+    let number = |text: &str, most: usize| match text.trim().parse::<usize>() {
+        Ok(number) if (2..=most).contains(&number) => Ok(number),
+        _ => Err(refused()),
+    };
+    Ok(Resolution {
+        max_diameters: number(diameters, LARGEST.0)?,
+        radial_functions: number(radial, LARGEST.1)?,
+    })
+}
+
+/// Writes the matrices that the scene asks for, and what they are.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if !arguments.matrices {
+        bail!("say what to export: --matrices");
+    }
+    let scene = arguments.common.scene()?;
+    let folder = arguments.common.folder()?;
+    let plate = match arguments.basis {
+        Some(resolution) => Plate::new(&scene, resolution),
+        None => ChosenBasis::new(&scene, scene.tolerance())?.plate,
+    };
+    let system = GyroscopicSystem::of_plate(&plate);
+    let mut files: Vec<NamedFile> = vec![
+        ("stiffness.npy", npy(&system.stiffness)?),
+        ("spin.npy", npy(&system.spin)?),
+        ("gyroscopic.npy", npy(&system.gyroscopic)?),
+    ];
+    for (name, matrix) in [
+        ("damping.npy", &system.damping),
+        ("circulatory.npy", &system.circulatory),
+    ] {
+        match matrix {
+            Some(matrix) => files.push((name, npy(matrix)?)),
+            // What an earlier run left of another saw would be taken for this one's.
+            None => folder.remove(name)?,
+        }
+    }
+    let about = json!({
+        "scene": scene.file.name,
+        "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
+        "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
+        "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; mass matrix one",
+        "max_diameters": plate.resolution.max_diameters,
+        "radial_functions": plate.resolution.radial_functions,
+        "files": files.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+    });
+    let json = serde_json::to_string_pretty(&about)?;
+    files.push(("matrices.json", json.clone().into_bytes()));
+    arguments.common.print(&folder, &files, &json, || {
+        format!(
+            "{} functions: n up to {}, {} radial functions each\n{}\n",
+            plate.degrees_of_freedom(),
+            plate.resolution.max_diameters,
+            plate.resolution.radial_functions,
+            "equation and units in matrices.json"
+        )
+    })
+}
+
+/// A matrix as the bytes of a `.npy` file, row by row.
+fn npy(matrix: &Mat<f64>) -> anyhow::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let shape = [matrix.nrows() as u64, matrix.ncols() as u64];
+    let failed = "cannot write a matrix";
+    let mut writer = npyz::WriteOptions::new()
+        .default_dtype()
+        .shape(&shape)
+        .writer(&mut bytes)
+        .begin_nd()
+        .context(failed)?;
+    for i in 0..matrix.nrows() {
+        for k in 0..matrix.ncols() {
+            writer.push(&matrix[(i, k)]).context(failed)?;
+        }
+    }
+    writer.finish().context(failed)?;
+    Ok(bytes)
+}
