@@ -1,9 +1,8 @@
 //! `sawflutter export`.
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::Args;
 use faer::Mat;
-use npyz::WriterBuilder;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::stability::ChosenBasis;
 use sawflutter::system::GyroscopicSystem;
@@ -63,16 +62,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let system = GyroscopicSystem::of_plate(&plate);
     let mut files: Vec<NamedFile> = vec![
-        ("stiffness.npy", npy(&system.stiffness)?),
-        ("spin.npy", npy(&system.spin)?),
-        ("gyroscopic.npy", npy(&system.gyroscopic)?),
+        ("stiffness.npy", npy(&system.stiffness)),
+        ("spin.npy", npy(&system.spin)),
+        ("gyroscopic.npy", npy(&system.gyroscopic)),
     ];
     for (name, matrix) in [
         ("damping.npy", &system.damping),
         ("circulatory.npy", &system.circulatory),
     ] {
         match matrix {
-            Some(matrix) => files.push((name, npy(matrix)?)),
+            Some(matrix) => files.push((name, npy(matrix))),
             // What an earlier run left of another saw would be taken for this one's.
             None => folder.remove(name)?,
         }
@@ -99,22 +98,49 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })
 }
 
-/// A matrix as the bytes of a `.npy` file, row by row.
-fn npy(matrix: &Mat<f64>) -> anyhow::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let shape = [matrix.nrows() as u64, matrix.ncols() as u64];
-    let failed = "cannot write a matrix";
-    let mut writer = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(&shape)
-        .writer(&mut bytes)
-        .begin_nd()
-        .context(failed)?;
-    for i in 0..matrix.nrows() {
-        for k in 0..matrix.ncols() {
-            writer.push(&matrix[(i, k)]).context(failed)?;
+/// A matrix as a `.npy` file, format 1.0, row by row (NumPy Enhancement Proposal 1). The crates
+/// that write it bring a parser of Python literals, and a C compiler for that.
+fn npy(matrix: &Mat<f64>) -> Vec<u8> {
+    let (rows, columns) = (matrix.nrows(), matrix.ncols());
+    let header =
+        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version and length take ten bytes, the header ends with a line break, and all
+    // of it is a multiple of 64 bytes long.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((length as u16).to_le_bytes());
+    bytes.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    for i in 0..rows {
+        for k in 0..columns {
+            bytes.extend(matrix[(i, k)].to_le_bytes());
         }
     }
-    writer.finish().context(failed)?;
-    Ok(bytes)
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_is_written_as_numpy_reads_it() {
+        let bytes = npy(&Mat::from_fn(2, 3, |i, k| (3 * i + k) as f64));
+        assert_eq!(&bytes[..10], b"\x93NUMPY\x01\x00\x76\x00");
+        let header = std::str::from_utf8(&bytes[10..128]).unwrap();
+        assert!(header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }"));
+        assert!(header.ends_with(" \n"));
+        let value = |place: usize| {
+            let start = 128 + 8 * place;
+            f64::from_le_bytes(bytes[start..start + 8].try_into().unwrap())
+        };
+        assert_eq!((bytes.len(), value(1), value(5)), (176, 1.0, 5.0));
+    }
+
+    #[test]
+    fn a_basis_is_two_numbers() {
+        assert_eq!(basis("16, 8").map(|r| r.degrees_of_freedom()), Ok(264));
+        for wrong in ["", "16", "16,1", "65,8", "a,b", "16,8,4"] {
+            assert!(basis(wrong).is_err(), "{wrong}");
+        }
+    }
 }

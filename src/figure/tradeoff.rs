@@ -9,16 +9,16 @@ use super::style::{
 use super::{FigureError, heading, render};
 use crate::stability::{Method, Setting};
 
-const WIDTH: u32 = 1000;
+const WIDTH: u32 = 900;
 const HEIGHT: u32 = 640;
 const PANEL: Frame = Frame {
     left: 92.0,
     top: 100.0,
-    right: 800.0,
+    right: 860.0,
     bottom: 560.0,
 };
 
-/// The measured settings of a saw as PNG, 1000 × 640 pixels.
+/// The measured settings of a saw as PNG, 900 × 640 pixels.
 pub fn tradeoff_png(scene: &str, settings: &[Setting]) -> Result<Vec<u8>, FigureError> {
     render::png(&sheet(scene, settings))
 }
@@ -75,7 +75,9 @@ fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis
         let at = place(setting, error, time);
         sheet.disc(at, 4.0, colour);
         let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::End);
-        if setting.speeds == 51 || !setting.is_chart() {
+        // Single precision stands beside double at the same numbers of functions.
+        let named = setting.speeds == 51 || method == Method::CriticalSpeeds;
+        if named {
             let label = format!("{}", setting.functions);
             sheet.text([at[0] - 7.0, at[1] - 5.0], letters, &label);
         }
@@ -83,10 +85,20 @@ fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis
     let line = own.iter().filter(|s| s.speeds == 51 || !s.is_chart());
     let line: Vec<[f64; 2]> = line.map(|s| place(s, error, time)).collect();
     sheet.line(line.clone(), Stroke::solid(tint(colour, 0.6), CURVE));
-    // The largest errors stand at the right, where the names have room.
-    if let Some([_, y]) = line.first() {
-        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        sheet.text([PANEL.right + 12.0, y + 0.36 * LABEL_SIZE], letters, name);
+    // Each name beside the middle of its curve, above or below by which curve is.
+    let side: f64 = match method {
+        Method::CriticalSpeedsSingle => 22.0,
+        _ => -16.0,
+    };
+    let middle = if line.len() > 2 { line.len() / 2 } else { 0 };
+    if let Some([x, y]) = line.get(middle) {
+        let anchor = if side > 0.0 {
+            Anchor::End
+        } else {
+            Anchor::Start
+        };
+        let letters = Lettering::regular(LABEL_SIZE, colour, anchor);
+        sheet.text([x + 12.0 * -side.signum(), y + side], letters, name);
     }
 }
 

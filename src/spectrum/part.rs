@@ -5,7 +5,7 @@ use faer::{Col, MatRef, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
-use super::mode::{Mode, ModeKind, split};
+use super::mode::{MatrixNorms, Mode, ModeKind, split};
 use super::name::ModeName;
 use super::projection::Projection;
 use super::{SpectrumError, critical_speeds};
@@ -22,6 +22,8 @@ pub struct Part {
     /// Projection on the reflected waves and what they can meet, and the frequency up
     /// to which it is complete.
     pub low: Option<(Projection, f64)>,
+    /// Norms of its matrices.
+    pub(super) norms: MatrixNorms,
     /// Rigid motions that nothing holds.
     pub free_rigid: Vec<Col<f64>>,
 }
@@ -63,6 +65,7 @@ impl Part {
             first,
             chart: vec![Projection::whole(&full)],
             low: None,
+            norms: MatrixNorms::new(&full),
             free_rigid: free_rigid_motions(plate, &full, first),
             full,
         }
