@@ -3,7 +3,7 @@
 
 use crate::report::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
-    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry,
+    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry, WorkEntry,
 };
 use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
@@ -60,6 +60,7 @@ pub fn empty_report(name: &str) -> Report {
             reached: true,
             estimated_relative_error: None,
         },
+        work: WorkEntry::default(),
         certificate: CertificateEntry {
             speeds_checked: 0,
             krein_violations: 0,

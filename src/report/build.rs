@@ -1,18 +1,19 @@
 //! From an analysis to its report.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
 use super::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
     InstabilityEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
-    SensitivityEntry, ShapeEntry,
+    SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::campbell::Branch;
 use crate::plate::Plate;
 use crate::scene::{Bore, Scene, rpm};
-use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
+use crate::spectrum::{DescribedMode, Direction, SpectrumError, WorkCounters, in_words};
 use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
@@ -58,6 +59,7 @@ impl Report {
                 reached: reached(scene, analysis),
                 estimated_relative_error: analysis.estimated_relative_error,
             },
+            work: work(&model.counters),
             certificate: CertificateEntry {
                 speeds_checked: certificate.speeds_checked,
                 krein_violations: certificate.violations.len(),
@@ -331,6 +333,16 @@ fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
         .collect();
     let (diameters, circles, direction) = commonest(names).unwrap_or((0, 0, Direction::Standing));
     ((diameters, circles), direction)
+}
+
+fn work(counters: &WorkCounters) -> WorkEntry {
+    let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
+    WorkEntry {
+        full_solves: count(&counters.full_solves),
+        reduced_solves: count(&counters.reduced_solves),
+        local_solves: count(&counters.local_solves),
+        refined_pairs: count(&counters.refined_pairs),
+    }
 }
 
 fn reached(scene: &Scene, analysis: &Analysis) -> bool {

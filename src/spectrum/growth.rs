@@ -100,12 +100,14 @@ fn certified(
     let reduced = &projection.reduced;
     let pairs = companion_eigenpairs(reduced, speed_rad_per_s)?;
     let modes = classify(reduced, speed_rad_per_s, 0, pairs);
-    let norms = MatrixNorms::new(full, speed_rad_per_s);
+    let norms = MatrixNorms::new(full);
     let lifted = projection.lifted(speed_rad_per_s, &pairs_of(&modes));
     let modes: Vec<&Mode> = modes
         .iter()
         .zip(&lifted)
-        .filter(|(mode, lifted)| norms.backward_error(mode.lambda, lifted) < CONVERGED)
+        .filter(|(mode, lifted)| {
+            norms.backward_error(speed_rad_per_s, mode.lambda, lifted) < CONVERGED
+        })
         .map(|(mode, _)| mode)
         .collect();
     let index: usize = modes.iter().map(|mode| mode.kind.krein_index()).sum();

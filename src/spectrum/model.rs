@@ -12,7 +12,7 @@ use crate::plate::Plate;
 
 use super::derivative;
 use super::low::LowModel;
-use super::mode::{MatrixNorms, Mode, ModeKind, classify};
+use super::mode::{Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::projection::{Projection, pairs_of};
@@ -274,12 +274,13 @@ impl SpectralModel {
                 continue;
             }
             let own: Vec<Mode> = places.iter().map(|&k| modes[k].clone()).collect();
-            let norms = MatrixNorms::new(&part.full, speed_rad_per_s);
             let lifted = part
                 .at(speed_rad_per_s)
                 .lifted(speed_rad_per_s, &pairs_of(&own));
             for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
-                let backward_error = norms.backward_error(mode.lambda, &lifted);
+                let backward_error =
+                    part.norms
+                        .backward_error(speed_rad_per_s, mode.lambda, &lifted);
                 let shape = self.embed(part.first, &lifted.shape);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
                 described[place] = Some(DescribedMode {

@@ -9,9 +9,19 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rad_per_s, rpm};
 use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError};
 
-/// (n_max, J), each about 1.4 times as fine as the one before. More than 13 radial
+/// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
 /// polynomials lose digits on narrow rings.
-const LADDER: [(usize, usize); 7] = [(4, 3), (6, 4), (8, 5), (12, 7), (16, 9), (22, 11), (30, 12)];
+const LADDER: [(usize, usize); 9] = [
+    (4, 3),
+    (6, 4),
+    (8, 5),
+    (10, 6),
+    (12, 7),
+    (14, 9),
+    (18, 10),
+    (23, 11),
+    (30, 12),
+];
 /// The error is taken to fall by a factor between these from one size to the next. Over
 /// pads of 1e4 to 1e9 N/m and bores of 0.1 to 0.8 it did so by 0.01 to 0.75; where it
 /// falls faster, the estimate is too large, which is harmless.
