@@ -20,6 +20,9 @@ pub struct Common {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
+    /// Relative error allowed of critical speeds and onsets, 1e-6 to 0.1, instead of a name
+    #[arg(long, value_name = "SHARE", conflicts_with = "accuracy")]
+    tolerance: Option<f64>,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     json: bool,
@@ -52,6 +55,12 @@ impl Common {
             };
             scene.accuracy = accuracy;
             scene.file.accuracy = accuracy;
+            (scene.tolerance, scene.file.tolerance) = (None, None);
+        }
+        if let Some(tolerance) = self.tolerance {
+            let mut file = scene.file;
+            file.tolerance = Some(tolerance);
+            scene = Scene::try_from(file).context("--tolerance was refused")?;
         }
         Ok(scene)
     }

@@ -112,7 +112,7 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         text,
         "  eigenvalues   {:>9.3} 1/s {:>10}",
         run.growth_per_s,
-        hertz(run.frequency_hz)
+        hertz(run.frequency_hz.filter(|_| run.growth_per_s > 0.0))
     )?;
     if let (Some(verdict), Some(growth)) = (run.transient_verdict, run.transient_growth_per_s) {
         writeln!(

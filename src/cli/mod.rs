@@ -3,10 +3,12 @@
 mod analyze;
 mod common;
 mod cut;
+mod export;
 mod output;
 mod runup;
 mod schema;
 mod summary;
+mod tradeoff;
 
 use clap::{Parser, Subcommand};
 
@@ -30,6 +32,12 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
+    /// Measure what digits cost: time against true error; tradeoff.png
+    #[command(after_help = tradeoff::EXAMPLES)]
+    Tradeoff(tradeoff::Arguments),
+    /// Write the matrices of a saw as NumPy files
+    #[command(after_help = export::EXAMPLES)]
+    Export(export::Arguments),
     /// Print the JSON schema of a scene
     Schema,
 }
@@ -51,6 +59,8 @@ pub fn run() -> anyhow::Result<()> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
+        Some(Command::Export(arguments)) => export::run(&arguments),
         Some(Command::Schema) => schema::run(),
     }
 }

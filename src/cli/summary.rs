@@ -116,7 +116,7 @@ fn verdict(text: &mut String, report: &Report) -> std::fmt::Result {
     if let Some(error) = report.accuracy.estimated_relative_error {
         writeln!(
             text,
-            "Estimated error of the critical speeds: {:.2} % ({} functions)",
+            "Estimated error of the critical speeds: {:.3} % ({} functions)",
             100.0 * error,
             report.accuracy.degrees_of_freedom
         )?;

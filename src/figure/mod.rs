@@ -26,6 +26,7 @@ mod spline_orbit;
 mod style;
 #[cfg(test)]
 mod tidy;
+mod tradeoff;
 
 pub use campbell::{campbell_png, campbell_svg};
 pub use cut::{cut_png, cut_svg};
@@ -34,6 +35,7 @@ pub use response_map::{response_map_png, response_map_svg};
 pub use root_loci::{root_loci_png, root_loci_svg};
 pub use runup::{runup_png, runup_svg};
 pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
+pub use tradeoff::tradeoff_png;
 
 /// Whether any term of the equation of motion takes energy out of the saw.
 fn is_damped(report: &crate::report::Report) -> bool {

@@ -150,8 +150,8 @@ fn draw_end_of_model(sheet: &mut Sheet, x: f64) {
     sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
     let text =
         format!("more than {BELIEVABLE_THICKNESSES} thicknesses: the linear model ends here");
-    let before = x - PANEL.left > 0.5 * (PANEL.right - PANEL.left);
-    let (anchor, x) = match before {
+    let length = text_width(&text, LABEL_SIZE, Weight::Regular) + 16.0;
+    let (anchor, x) = match PANEL.right - x < length {
         true => (Anchor::End, x - 8.0),
         false => (Anchor::Start, x + 8.0),
     };

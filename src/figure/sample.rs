@@ -3,7 +3,7 @@
 
 use crate::report::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
-    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry,
+    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry, WorkEntry,
 };
 use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
@@ -36,6 +36,7 @@ pub fn empty_report(name: &str) -> Report {
         operating_rpm: None,
         sweep: None,
         accuracy: Accuracy::Draft,
+        tolerance: None,
         flutter_threshold_per_s: 0.25,
         measured: None,
     };
@@ -55,8 +56,11 @@ pub fn empty_report(name: &str) -> Report {
             max_diameters: 8,
             radial_functions: 4,
             degrees_of_freedom: 68,
+            tolerance: 1e-2,
+            reached: true,
             estimated_relative_error: None,
         },
+        work: WorkEntry::default(),
         certificate: CertificateEntry {
             speeds_checked: 0,
             krein_violations: 0,

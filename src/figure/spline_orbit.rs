@@ -127,7 +127,7 @@ fn draw_clearance(sheet: &mut Sheet, (x, y): (&Axis, &Axis), clearance_mm: f64) 
     };
     sheet.line(circle, dashed);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    let at = [x.at(0.5 * clearance_mm), y.at(-1.05 * clearance_mm)];
+    let at = [x.at(0.75 * clearance_mm), y.at(-1.08 * clearance_mm)];
     let text = format!("clearance {} mm", super::axis::tick_label(clearance_mm));
     sheet.text(at, letters, &text);
 }

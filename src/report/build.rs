@@ -1,18 +1,19 @@
 //! From an analysis to its report.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
 use super::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
     InstabilityEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
-    SensitivityEntry, ShapeEntry,
+    SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::campbell::Branch;
 use crate::plate::Plate;
 use crate::scene::{Bore, Scene, rpm};
-use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
+use crate::spectrum::{DescribedMode, Direction, SpectrumError, WorkCounters, in_words};
 use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
@@ -54,8 +55,11 @@ impl Report {
                 max_diameters: resolution.max_diameters,
                 radial_functions: resolution.radial_functions,
                 degrees_of_freedom: resolution.degrees_of_freedom(),
+                tolerance: scene.tolerance(),
+                reached: reached(scene, analysis),
                 estimated_relative_error: analysis.estimated_relative_error,
             },
+            work: work(&model.counters),
             certificate: CertificateEntry {
                 speeds_checked: certificate.speeds_checked,
                 krein_violations: certificate.violations.len(),
@@ -70,7 +74,7 @@ impl Report {
             },
             root_loci: root_loci(analysis),
             sensitivities: Vec::new(),
-            warnings: warnings(analysis, &at_rest),
+            warnings: warnings(scene, analysis, &at_rest),
         })
     }
 }
@@ -331,11 +335,35 @@ fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
     ((diameters, circles), direction)
 }
 
+fn work(counters: &WorkCounters) -> WorkEntry {
+    let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
+    WorkEntry {
+        full_solves: count(&counters.full_solves),
+        reduced_solves: count(&counters.reduced_solves),
+        local_solves: count(&counters.local_solves),
+        refined_pairs: count(&counters.refined_pairs),
+    }
+}
+
+fn reached(scene: &Scene, analysis: &Analysis) -> bool {
+    let error = analysis.estimated_relative_error;
+    error.is_some_and(|error| error <= scene.tolerance())
+}
+
 /// Limits of the model that this scene comes near to.
-fn warnings(analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
+fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
     let plate = &analysis.model.plate;
     let blade = &plate.blade;
     let mut warnings = Vec::new();
+    if let Some(error) = analysis.estimated_relative_error
+        && !reached(scene, analysis)
+    {
+        warnings.push(format!(
+            "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
+            scene.tolerance(),
+            plate.degrees_of_freedom()
+        ));
+    }
     let width = blade.outer_radius_m - blade.inner_radius_m;
     if blade.thickness_m > 0.1 * width {
         warnings.push(format!(

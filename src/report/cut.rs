@@ -60,7 +60,7 @@ pub struct CutRunEntry {
     pub transient_verdict: Option<Verdict>,
     /// Growth rate fitted on the deflection in the cut.
     pub transient_growth_per_s: Option<f64>,
-    /// Frequency of the growth fitted on the deflection.
+    /// Frequency of the growth fitted on the deflection, where it is unstable.
     pub transient_frequency_hz: Option<f64>,
     /// Whether both verdicts are the same, and growth rates within 2 % where there is
     /// growth.
@@ -205,6 +205,7 @@ impl CutRunEntry {
             transient_growth_per_s: history.fitted.map(|fitted| fitted.growth_per_s),
             transient_frequency_hz: history
                 .fitted
+                .filter(|fitted| of(fitted.growth_per_s) == Verdict::Unstable)
                 .map(|fitted| hertz(fitted.frequency_rad_per_s)),
             dominant_frequency_hz: dominant.map(hertz),
             idle_verdict: of(history.idle.growth_per_s),

@@ -44,6 +44,8 @@ pub struct Report {
     pub operating: Option<OperatingEntry>,
     /// How fine the computation was, and how far it may be off.
     pub accuracy: AccuracyEntry,
+    /// Eigenproblems that the chart took.
+    pub work: WorkEntry,
     /// Proof that no unstable or reflected mode was missed.
     pub certificate: CertificateEntry,
     /// Branches over speed.
@@ -163,8 +165,26 @@ pub struct AccuracyEntry {
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Estimated relative error of the critical speeds, from a coarser basis.
+    /// Relative error allowed of critical speeds and onsets.
+    pub tolerance: f64,
+    /// Whether the estimate is within the tolerance: the largest basis may fall short of it.
+    pub reached: bool,
+    /// Estimated relative error of the critical speeds, extrapolated from coarser bases.
     pub estimated_relative_error: Option<f64>,
+}
+
+/// Eigenproblems solved, largest first.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorkEntry {
+    /// Of the whole basis: Krylov iterations with a factorization each, or dense ones.
+    pub full_solves: usize,
+    /// Dense, of the projected matrices.
+    pub reduced_solves: usize,
+    /// Dense, of the few states between two speeds.
+    pub local_solves: usize,
+    /// Pairs of modes refined by inverse iteration, with a factorization each.
+    pub refined_pairs: usize,
 }
 
 /// The Krein index held against the spectrum, see [`crate::stability`].

@@ -41,6 +41,9 @@ pub struct SceneFile {
     /// Speed for accuracy.
     #[serde(default)]
     pub accuracy: Accuracy,
+    /// Relative error allowed of critical speeds and onsets, instead of a named accuracy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Growth rate from which an oscillatory band counts as flutter of the saw.
     #[serde(default = "default_flutter_threshold_per_s")]
     pub flutter_threshold_per_s: f64,
@@ -165,17 +168,28 @@ pub struct SweepFile {
     pub to_rpm: f64,
 }
 
-/// Named accuracies: how fine the basis is.
+/// Named accuracies: the relative error allowed of critical speeds and onsets.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Accuracy {
-    /// For looking around.
+    /// 1 %, for looking around.
     Draft,
-    /// For designing.
+    /// 0.1 %, for designing.
     #[default]
     Design,
-    /// For comparing with others.
+    /// 0.01 %, for comparing with others.
     Reference,
+}
+
+impl Accuracy {
+    /// The relative error that the name allows.
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Accuracy::Draft => 1e-2,
+            Accuracy::Design => 1e-3,
+            Accuracy::Reference => 1e-4,
+        }
+    }
 }
 
 /// Frequencies from elsewhere, drawn over the chart.

@@ -28,6 +28,8 @@ pub struct Scene {
     pub operating_rad_per_s: Option<f64>,
     /// Speed for accuracy.
     pub accuracy: Accuracy,
+    /// Relative error allowed instead of that of the name.
+    pub tolerance: Option<f64>,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
     /// Forces of the wood on the teeth.
@@ -95,6 +97,16 @@ pub struct SpeedRange {
     pub from_rad_per_s: f64,
     /// Last speed.
     pub to_rad_per_s: f64,
+}
+
+/// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-6.
+const TOLERANCES: (f64, f64) = (1e-6, 0.1);
+
+impl Scene {
+    /// Relative error allowed of critical speeds and onsets.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance.unwrap_or(self.accuracy.tolerance())
+    }
 }
 
 impl Blade {
@@ -166,6 +178,10 @@ impl TryFrom<SceneFile> for Scene {
                 .map(|rpm| within("operating_rpm", rpm, (0.0, MAX_RPM)).map(rad_per_s))
                 .transpose()?,
             accuracy: file.accuracy,
+            tolerance: file
+                .tolerance
+                .map(|share| within("tolerance", share, TOLERANCES))
+                .transpose()?,
             flutter_threshold_per_s: within(
                 "flutter_threshold_per_s",
                 file.flutter_threshold_per_s,

@@ -60,6 +60,20 @@ pub(super) fn companion(
     Ok((state, scale))
 }
 
+/// The companion matrix on what is left beside the rigid motions that nothing holds.
+pub(super) fn deflated_companion(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<(Mat<f64>, f64, Option<Deflation>), SpectrumError> {
+    let (state, scale) = companion(system, speed_rad_per_s)?;
+    let deflation = Deflation::new(system, speed_rad_per_s, scale);
+    let state = match &deflation {
+        Some(Deflation { kept, .. }) => kept.transpose() * state * kept,
+        None => state,
+    };
+    Ok((state, scale, deflation))
+}
+
 /// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
 /// each rigid motion that nothing holds there is one, with λ = 0 exactly.
 ///
@@ -69,12 +83,8 @@ pub fn companion_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
-    let (mut state, scale) = companion(system, speed_rad_per_s)?;
+    let (state, scale, deflation) = deflated_companion(system, speed_rad_per_s)?;
     let size = system.order();
-    let deflation = Deflation::new(system, speed_rad_per_s, scale);
-    if let Some(Deflation { kept, .. }) = &deflation {
-        state = kept.transpose() * state * kept;
-    }
     let eigen = Eigen::new_from_real(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
         order: state.nrows(),
         rpm: rpm(speed_rad_per_s),

@@ -17,7 +17,7 @@ mod shift_invert;
 mod state;
 
 pub use dense::{companion_eigenpairs, time_scale};
-pub use growth::{fastest_growing, fastest_growing_of, has_free_rigid_motions};
+pub use growth::{fastest_growing, fastest_growing_of};
 pub use low::{LowModel, LowModes};
 pub use mode::{Mode, ModeKind, split};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};

@@ -27,6 +27,18 @@ pub enum ModeKind {
     Damped,
 }
 
+impl ModeKind {
+    /// What a mode of this kind takes of the Krein index, which is the number of negative
+    /// eigenvalues of K(Ω): k_real + 2 k_flutter + 2 k_negative.
+    pub fn krein_index(self) -> usize {
+        match self {
+            ModeKind::Divergent => 1,
+            ModeKind::Flutter | ModeKind::Negative => 2,
+            _ => 0,
+        }
+    }
+}
+
 /// A mode of one independent part of the blade.
 #[derive(Debug, Clone)]
 pub struct Mode {
@@ -184,26 +196,37 @@ pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
     )
 }
 
-/// ‖D‖ and ‖K‖ at one speed, for residuals.
+/// ‖D‖ and ‖K‖ at any speed, from the products of their terms: for residuals.
 #[derive(Debug)]
 pub struct MatrixNorms {
-    stiffness: f64,
-    velocity: f64,
+    /// Products of K₀, K_σ − N and K_circ, which K(Ω) has with 1, Ω² and Ω.
+    stiffness: [[f64; 3]; 3],
+    /// Products of G and C, which D(Ω) has with 2Ω and 1.
+    velocity: [[f64; 2]; 2],
 }
 
 impl MatrixNorms {
-    /// Evaluates both once for all modes of a speed.
-    pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Self {
+    /// The products of a system's terms.
+    pub fn new(system: &GyroscopicSystem) -> Self {
+        let stiffness = [
+            Some(&system.stiffness),
+            Some(&system.spin),
+            system.circulatory.as_ref(),
+        ];
+        let velocity = [Some(&system.gyroscopic), system.damping.as_ref()];
         MatrixNorms {
-            stiffness: system.stiffness_at(speed_rad_per_s).norm_l2(),
-            velocity: system.velocity_at(speed_rad_per_s).norm_l2(),
+            stiffness: stiffness.map(|left| stiffness.map(|right| product(left, right))),
+            velocity: velocity.map(|left| velocity.map(|right| product(left, right))),
         }
     }
 
     /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖) ‖q‖): the relative change of the matrices
     /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
-    pub fn backward_error(&self, lambda: c64, lifted: &Lifted) -> f64 {
-        let size = lambda.norm_sqr() + lambda.norm() * self.velocity + self.stiffness;
+    pub fn backward_error(&self, speed_rad_per_s: f64, lambda: c64, lifted: &Lifted) -> f64 {
+        let speed = speed_rad_per_s;
+        let stiffness = norm(&self.stiffness, [1.0, speed * speed, speed]);
+        let velocity = norm(&self.velocity, [2.0 * speed, 1.0]);
+        let size = lambda.norm_sqr() + lambda.norm() * velocity + stiffness;
         let denominator = size * lifted.shape.norm_l2();
         if denominator > 0.0 {
             lifted.residual.norm_l2() / denominator
@@ -211,4 +234,22 @@ impl MatrixNorms {
             0.0
         }
     }
+}
+
+/// Σ aᵢⱼ bᵢⱼ; zero for a term that is not there.
+fn product(left: Option<&Mat<f64>>, right: Option<&Mat<f64>>) -> f64 {
+    let Some((left, right)) = left.zip(right) else {
+        return 0.0;
+    };
+    let columns = left.col_iter().zip(right.col_iter());
+    columns.map(|(x, y)| x.transpose() * y).sum()
+}
+
+/// ‖Σ wᵢ Aᵢ‖ from the products of the Aᵢ.
+fn norm<const N: usize>(products: &[[f64; N]; N], weights: [f64; N]) -> f64 {
+    let rows = products.iter().zip(weights);
+    let square: f64 = rows
+        .map(|(row, w)| w * row.iter().zip(weights).map(|(p, v)| p * v).sum::<f64>())
+        .sum();
+    square.max(0.0).sqrt()
 }

@@ -12,7 +12,7 @@ use crate::plate::Plate;
 
 use super::derivative;
 use super::low::LowModel;
-use super::mode::{MatrixNorms, Mode, ModeKind, classify};
+use super::mode::{Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::projection::{Projection, pairs_of};
@@ -82,9 +82,22 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
+        let critical = Self::critical_speeds(&plate)?;
+        Self::with_critical(plate, critical, range, strategy)
+    }
+
+    /// The same where the critical speeds are known.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn with_critical(
+        plate: Plate,
+        critical: Vec<NamedCriticalSpeed>,
+        range: (f64, f64),
+        strategy: Strategy,
+    ) -> Result<Self, SpectrumError> {
         let counters = WorkCounters::default();
         let mut parts = Part::of(&plate);
-        let critical = named_critical_speeds(&plate, &parts)?;
         let mut complete_to_rad_per_s = f64::INFINITY;
         if strategy == Strategy::Reduced {
             let scale = frequency_scale(&plate);
@@ -261,12 +274,13 @@ impl SpectralModel {
                 continue;
             }
             let own: Vec<Mode> = places.iter().map(|&k| modes[k].clone()).collect();
-            let norms = MatrixNorms::new(&part.full, speed_rad_per_s);
             let lifted = part
                 .at(speed_rad_per_s)
                 .lifted(speed_rad_per_s, &pairs_of(&own));
             for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
-                let backward_error = norms.backward_error(mode.lambda, &lifted);
+                let backward_error =
+                    part.norms
+                        .backward_error(speed_rad_per_s, mode.lambda, &lifted);
                 let shape = self.embed(part.first, &lifted.shape);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
                 described[place] = Some(DescribedMode {

@@ -5,7 +5,7 @@ use faer::{Col, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
-use super::mode::{Mode, ModeKind, real_times};
+use super::mode::{MatrixNorms, Mode, ModeKind, real_times};
 use super::name::ModeName;
 use super::projection::Projection;
 use super::{SpectrumError, critical_speeds};
@@ -22,6 +22,8 @@ pub struct Part {
     /// Projection on the reflected waves and what they can meet, and the frequency up
     /// to which it is complete.
     pub low: Option<(Projection, f64)>,
+    /// Norms of its matrices.
+    pub(super) norms: MatrixNorms,
 }
 
 /// A standing wave at its critical speed.
@@ -55,6 +57,7 @@ impl Part {
             first,
             chart: vec![Projection::whole(&full)],
             low: None,
+            norms: MatrixNorms::new(&full),
             full,
         }
     }

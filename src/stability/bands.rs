@@ -185,7 +185,7 @@ pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> 
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [0.01, 0.12, 0.4, 0.6, 0.88, 0.99]
+            [0.02, 0.15, 0.85, 0.98]
                 .map(at)
                 .into_iter()
                 .chain([band.peak])

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod bands;
+mod basis;
 mod damped;
 mod divergence;
 mod finder;
@@ -10,8 +11,11 @@ mod loci;
 mod refine;
 mod sensitivity;
 mod station;
+mod tradeoff;
 
 pub use analysis::{Analysis, OPERATING_LIMIT};
 pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
+pub use basis::ChosenBasis;
 pub use loci::RootLoci;
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
+pub use tradeoff::{Method, Setting, recommended, tradeoff};

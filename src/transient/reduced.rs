@@ -47,6 +47,7 @@ impl ReducedBlade {
             speed_rad_per_s,
         } in snapshots
         {
+            vectors.extend(system.free_rigid.iter().cloned());
             for (_, q) in lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) {
                 let (re, im) = split(&q);
                 vectors.extend([re, im]);

@@ -1,10 +1,10 @@
 //! The whole story of a cut, and of a run-up: what the commands compute.
 
 use crate::campbell::Progress;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Cut, CutRun, RunUp, Scene};
+use crate::plate::Plate;
+use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange};
 use crate::spectrum::Mode;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, ChosenBasis};
 
 use super::{
     BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, ToothPassing, TransientError,
@@ -54,7 +54,7 @@ impl Cutting {
         runs: &[CutRun],
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
-        let plate = Plate::new(scene, Resolution::of(scene.accuracy));
+        let plate = chosen_plate(scene, runs)?;
         let turns = even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1).map(f64::to_radians);
         let turns: Vec<f64> = turns.collect();
         let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
@@ -78,6 +78,23 @@ impl Cutting {
             runs,
         })
     }
+}
+
+/// The plate on a basis that meets the scene's tolerance up to the fastest cut.
+fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError> {
+    let fastest = runs
+        .iter()
+        .map(|run| run.speed_rad_per_s)
+        .fold(0.0, f64::max);
+    let to_rad_per_s = scene.sweep.map_or(0.0, |sweep| sweep.to_rad_per_s);
+    let swept = Scene {
+        sweep: Some(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: to_rad_per_s.max(fastest),
+        }),
+        ..scene.clone()
+    };
+    Ok(ChosenBasis::new(&swept, scene.tolerance())?.plate)
 }
 
 /// A run-up.

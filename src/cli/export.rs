@@ -1,0 +1,146 @@
+//! `sawflutter export`.
+
+use anyhow::bail;
+use clap::Args;
+use faer::Mat;
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::stability::ChosenBasis;
+use sawflutter::system::GyroscopicSystem;
+use serde_json::json;
+
+use super::common::{Common, NamedFile};
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter export --matrices                      the built-in saw
+  sawflutter export --matrices saw.json --basis 16,8 --out matrices
+  python3 -c 'import numpy; print(numpy.load(\"sawflutter-out/stiffness.npy\").shape)'";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Write the matrices of the equation of motion as NumPy files
+    #[arg(long, required = true)]
+    matrices: bool,
+    /// Nodal diameters and radial functions of the basis, instead of what the accuracy takes
+    #[arg(long, value_name = "N,J", value_parser = basis)]
+    basis: Option<Resolution>,
+}
+
+/// Most diameters and most radial functions: beyond them digits are lost or memory is.
+const LARGEST: (usize, usize) = (64, 14);
+
+fn basis(text: &str) -> Result<Resolution, String> {
+    let refused = || {
+        format!(
+            "give diameters 2 to {} and radial functions 2 to {}, such as 16,8",
+            LARGEST.0, LARGEST.1
+        )
+    };
+    let (diameters, radial) = text.split_once(',').ok_or_else(refused)?;
+    let number = |text: &str, most: usize| match text.trim().parse::<usize>() {
+        Ok(number) if (2..=most).contains(&number) => Ok(number),
+        _ => Err(refused()),
+    };
+    Ok(Resolution {
+        max_diameters: number(diameters, LARGEST.0)?,
+        radial_functions: number(radial, LARGEST.1)?,
+    })
+}
+
+/// Writes the matrices that the scene asks for, and what they are.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if !arguments.matrices {
+        bail!("say what to export: --matrices");
+    }
+    let scene = arguments.common.scene()?;
+    let folder = arguments.common.folder()?;
+    let plate = match arguments.basis {
+        Some(resolution) => Plate::new(&scene, resolution),
+        None => ChosenBasis::new(&scene, scene.tolerance())?.plate,
+    };
+    let system = GyroscopicSystem::of_plate(&plate);
+    let mut files: Vec<NamedFile> = vec![
+        ("stiffness.npy", npy(&system.stiffness)),
+        ("spin.npy", npy(&system.spin)),
+        ("gyroscopic.npy", npy(&system.gyroscopic)),
+    ];
+    for (name, matrix) in [
+        ("damping.npy", &system.damping),
+        ("circulatory.npy", &system.circulatory),
+    ] {
+        match matrix {
+            Some(matrix) => files.push((name, npy(matrix))),
+            // What an earlier run left of another saw would be taken for this one's.
+            None => folder.remove(name)?,
+        }
+    }
+    let about = json!({
+        "scene": scene.file.name,
+        "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
+        "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
+        "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; mass matrix one",
+        "max_diameters": plate.resolution.max_diameters,
+        "radial_functions": plate.resolution.radial_functions,
+        "files": files.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+    });
+    let json = serde_json::to_string_pretty(&about)?;
+    files.push(("matrices.json", json.clone().into_bytes()));
+    arguments.common.print(&folder, &files, &json, || {
+        format!(
+            "{} functions: n up to {}, {} radial functions each\n{}\n",
+            plate.degrees_of_freedom(),
+            plate.resolution.max_diameters,
+            plate.resolution.radial_functions,
+            "equation and units in matrices.json"
+        )
+    })
+}
+
+/// A matrix as a `.npy` file, format 1.0, row by row (NumPy Enhancement Proposal 1). The crates
+/// that write it bring a parser of Python literals, and a C compiler for that.
+fn npy(matrix: &Mat<f64>) -> Vec<u8> {
+    let (rows, columns) = (matrix.nrows(), matrix.ncols());
+    let header =
+        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    // Magic, version and length take ten bytes, the header ends with a line break, and all
+    // of it is a multiple of 64 bytes long.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((length as u16).to_le_bytes());
+    bytes.extend(format!("{header:<width$}\n", width = length - 1).bytes());
+    for i in 0..rows {
+        for k in 0..columns {
+            bytes.extend(matrix[(i, k)].to_le_bytes());
+        }
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_is_written_as_numpy_reads_it() {
+        let bytes = npy(&Mat::from_fn(2, 3, |i, k| (3 * i + k) as f64));
+        assert_eq!(&bytes[..10], b"\x93NUMPY\x01\x00\x76\x00");
+        let header = std::str::from_utf8(&bytes[10..128]).unwrap();
+        assert!(header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }"));
+        assert!(header.ends_with(" \n"));
+        let value = |place: usize| {
+            let start = 128 + 8 * place;
+            f64::from_le_bytes(bytes[start..start + 8].try_into().unwrap())
+        };
+        assert_eq!((bytes.len(), value(1), value(5)), (176, 1.0, 5.0));
+    }
+
+    #[test]
+    fn a_basis_is_two_numbers() {
+        assert_eq!(basis("16, 8").map(|r| r.degrees_of_freedom()), Ok(264));
+        for wrong in ["", "16", "16,1", "65,8", "a,b", "16,8,4"] {
+            assert!(basis(wrong).is_err(), "{wrong}");
+        }
+    }
+}

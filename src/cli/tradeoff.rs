@@ -1,0 +1,95 @@
+//! `sawflutter tradeoff`.
+
+use std::fmt::Write;
+
+use clap::Args;
+use sawflutter::figure;
+use sawflutter::stability::{Method, Setting, recommended, tradeoff};
+
+use super::common::{Common, progress_bar, show};
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter tradeoff                            the built-in saw
+  sawflutter tradeoff my-saw.json --out digits   your own saw";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Measures time against true error, writes the files and prints the table.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.common.scene()?;
+    let folder = arguments.common.folder()?;
+    let bar = progress_bar("settings");
+    let settings = tradeoff(&scene, &|done, of| show(&bar, done, of))?;
+    bar.finish_and_clear();
+    let json = serde_json::to_string_pretty(&settings)?;
+    let png = figure::tradeoff_png(&scene.file.name, &settings)?;
+    let files = [
+        ("tradeoff.png", png),
+        ("tradeoff.json", json.clone().into_bytes()),
+    ];
+    arguments
+        .common
+        .print(&folder, &files, &json, || summary(&settings))
+}
+
+fn summary(settings: &[Setting]) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = table(&mut text, settings);
+    text
+}
+
+fn table(text: &mut String, settings: &[Setting]) -> std::fmt::Result {
+    writeln!(
+        text,
+        "True error of critical speeds and onsets (* best at its price)\n"
+    )?;
+    writeln!(
+        text,
+        "  way                    n, J    functions  speeds       time       error"
+    )?;
+    for s in settings {
+        writeln!(
+            text,
+            "{} {:<20} {:>2}, {:>2}  {:>11} {:>7} {:>8.1} ms  {:>8.4} %",
+            if s.on_front { '*' } else { ' ' },
+            name(s.method),
+            s.max_diameters,
+            s.radial_functions,
+            s.functions,
+            s.speeds,
+            1e3 * s.seconds,
+            100.0 * s.error
+        )?;
+    }
+    writeln!(text)?;
+    for error in [1e-2, 1e-3, 1e-4] {
+        match recommended(settings, error) {
+            Some(s) => writeln!(
+                text,
+                "Within {:>4} %: {}, {} functions, {} speeds: {:.0} ms",
+                100.0 * error,
+                name(s.method),
+                s.functions,
+                s.speeds,
+                1e3 * s.seconds
+            )?,
+            None => writeln!(text, "Within {:>4} %: none of these", 100.0 * error)?,
+        }
+    }
+    Ok(())
+}
+
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::Reduced => "chart, projected",
+        Method::Dense => "chart, whole basis",
+        Method::CriticalSpeeds => "critical speeds, f64",
+        Method::CriticalSpeedsSingle => "critical speeds, f32",
+    }
+}

@@ -1,0 +1,190 @@
+//! Time against true error, both on logarithmic scales.
+
+use super::axis::{Axis, Spread};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::style::{
+    AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
+    QUIET, STANDING, STRONG_CURVE, tint,
+};
+use super::{FigureError, heading, render};
+use crate::stability::{Method, Setting};
+
+const WIDTH: u32 = 900;
+const HEIGHT: u32 = 640;
+const PANEL: Frame = Frame {
+    left: 92.0,
+    top: 100.0,
+    right: 860.0,
+    bottom: 560.0,
+};
+
+/// The measured settings of a saw as PNG, 900 × 640 pixels.
+pub fn tradeoff_png(scene: &str, settings: &[Setting]) -> Result<Vec<u8>, FigureError> {
+    render::png(&sheet(scene, settings))
+}
+
+fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    heading::draw(&mut sheet, "What digits cost", scene);
+    let decades = |value: fn(&Setting) -> f64| {
+        let logs = settings.iter().map(|s| value(s).max(1e-12).log10());
+        let low = logs.clone().fold(f64::INFINITY, f64::min).floor();
+        [low, logs.fold(low + 1.0, f64::max).ceil()]
+    };
+    let error = Axis::new(
+        decades(|s| s.error),
+        [PANEL.left, PANEL.right],
+        Spread::Linear,
+    );
+    let time = Axis::new(
+        decades(|s| s.seconds),
+        [PANEL.bottom, PANEL.top],
+        Spread::Linear,
+    );
+    draw_axes(&mut sheet, &error, &time);
+    draw_front(&mut sheet, settings, &error, &time);
+    for method in [
+        Method::Reduced,
+        Method::Dense,
+        Method::CriticalSpeeds,
+        Method::CriticalSpeedsSingle,
+    ] {
+        let own: Vec<&Setting> = settings.iter().filter(|s| s.method == method).collect();
+        draw_method(&mut sheet, method, &own, &error, &time);
+    }
+    sheet
+}
+
+fn place(setting: &Setting, error: &Axis, time: &Axis) -> [f64; 2] {
+    let log = |value: f64| value.max(1e-12).log10();
+    [error.at(log(setting.error)), time.at(log(setting.seconds))]
+}
+
+fn look(method: Method) -> (Colour, &'static str) {
+    match method {
+        Method::Reduced => (FORWARD, "chart, projected"),
+        Method::Dense => (BACKWARD, "chart, whole basis"),
+        Method::CriticalSpeeds => (DIVERGENCE, "critical speeds, f64"),
+        Method::CriticalSpeedsSingle => (STANDING, "critical speeds, f32"),
+    }
+}
+
+fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis, time: &Axis) {
+    let (colour, name) = look(method);
+    for setting in own {
+        let at = place(setting, error, time);
+        sheet.disc(at, 4.0, colour);
+        let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::End);
+        // Single precision stands beside double at the same numbers of functions.
+        let named = setting.speeds == 51 || method == Method::CriticalSpeeds;
+        if named {
+            let label = format!("{}", setting.functions);
+            sheet.text([at[0] - 7.0, at[1] - 5.0], letters, &label);
+        }
+    }
+    let line = own.iter().filter(|s| s.speeds == 51 || !s.is_chart());
+    let line: Vec<[f64; 2]> = line.map(|s| place(s, error, time)).collect();
+    sheet.line(line.clone(), Stroke::solid(tint(colour, 0.6), CURVE));
+    // Each name beside the middle of its curve, above or below by which curve is.
+    let side: f64 = match method {
+        Method::CriticalSpeedsSingle => 22.0,
+        _ => -16.0,
+    };
+    let middle = if line.len() > 2 { line.len() / 2 } else { 0 };
+    if let Some([x, y]) = line.get(middle) {
+        let anchor = if side > 0.0 {
+            Anchor::End
+        } else {
+            Anchor::Start
+        };
+        let letters = Lettering::regular(LABEL_SIZE, colour, anchor);
+        sheet.text([x + 12.0 * -side.signum(), y + side], letters, name);
+    }
+}
+
+/// The charts that no other beats in both.
+fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis) {
+    let mut front: Vec<[f64; 2]> = settings
+        .iter()
+        .filter(|s| s.on_front)
+        .map(|s| place(s, error, time))
+        .collect();
+    front.sort_by(|x, y| x[0].total_cmp(&y[0]));
+    sheet.line(
+        front,
+        Stroke::solid(tint(FORWARD, 0.25), 2.0 * STRONG_CURVE),
+    );
+}
+
+fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
+    let quiet = |anchor| Lettering::regular(AXIS_SIZE, QUIET, anchor);
+    for tick in error.ticks(60.0).into_iter().filter(|t| t.fract() == 0.0) {
+        let x = error.at(tick);
+        let grid = Stroke::solid(GRID, HAIRLINE);
+        sheet.line([[x, PANEL.top], [x, PANEL.bottom]], grid);
+        let share = format!("{} %", percent(tick));
+        sheet.text([x, PANEL.bottom + 20.0], quiet(Anchor::Middle), &share);
+    }
+    for tick in time.ticks(40.0).into_iter().filter(|t| t.fract() == 0.0) {
+        let y = time.at(tick);
+        let grid = Stroke::solid(GRID, HAIRLINE);
+        sheet.line([[PANEL.left, y], [PANEL.right, y]], grid);
+        let at = [PANEL.left - 9.0, y + 0.36 * AXIS_SIZE];
+        sheet.text(at, quiet(Anchor::End), &seconds(tick));
+    }
+    let ends = [[PANEL.left, PANEL.bottom], [PANEL.right, PANEL.bottom]];
+    sheet.line(ends, Stroke::solid(QUIET, HAIRLINE));
+    let name = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let centre = (PANEL.left + PANEL.right) / 2.0;
+    let what = "true error of critical speeds and onsets; numbers of functions at the dots";
+    sheet.text([centre, PANEL.bottom + 44.0], name, what);
+    let upright = Lettering {
+        upright: true,
+        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
+    };
+    sheet.text([28.0, (PANEL.top + PANEL.bottom) / 2.0], upright, "time");
+    // What the named accuracies promise.
+    for (log, word) in [(-2.0, "draft"), (-3.0, "design"), (-4.0, "reference")] {
+        if error.shows(log) {
+            let x = error.at(log);
+            let guide = Stroke {
+                dash: Some(DASH),
+                ..Stroke::solid(QUIET, HAIRLINE)
+            };
+            sheet.line([[x, PANEL.top], [x, PANEL.bottom]], guide);
+            let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
+            sheet.text([x, PANEL.top - 7.0], letters, word);
+        }
+    }
+}
+
+fn percent(log: f64) -> String {
+    let decimals = (-2.0 - log).max(0.0) as usize;
+    format!("{:.decimals$}", 100.0 * 10f64.powf(log))
+}
+
+fn seconds(log: f64) -> String {
+    if log < 0.0 {
+        let decimals = (-3.0 - log).max(0.0) as usize;
+        format!("{:.decimals$} ms", 1e3 * 10f64.powf(log))
+    } else {
+        format!("{:.0} s", 10f64.powf(log))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_written_in_percent_and_seconds() {
+        assert_eq!(
+            [percent(-2.0), percent(-3.0), percent(-5.0)],
+            ["1", "0.1", "0.001"]
+        );
+        assert_eq!(
+            [seconds(-3.0), seconds(-1.0), seconds(1.0)],
+            ["1 ms", "100 ms", "10 s"]
+        );
+    }
+}

@@ -1,0 +1,278 @@
+//! Time against true error, measured: what a user pays for digits.
+
+use std::time::Instant;
+
+use faer::{Mat, Side};
+use serde::{Deserialize, Serialize};
+
+use super::bands::{InstabilityKind, StabilityChart, chart};
+use super::basis::ChosenBasis;
+use crate::campbell::Progress;
+use crate::plate::{Plate, Resolution};
+use crate::scene::Scene;
+use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy};
+use crate::system::GyroscopicSystem;
+
+/// A way to the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// The whole chart from a projection: what `analyze` does.
+    Reduced,
+    /// The whole chart from every eigenvalue of the whole basis at every speed.
+    Dense,
+    /// Critical speeds alone, in double precision.
+    CriticalSpeeds,
+    /// The same in single precision.
+    CriticalSpeedsSingle,
+}
+
+/// One way, one size, and what it took.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setting {
+    /// The way.
+    pub method: Method,
+    /// n_max.
+    pub max_diameters: usize,
+    /// J.
+    pub radial_functions: usize,
+    /// Functions in all.
+    pub functions: usize,
+    /// Even speeds of the chart; 0 where none is drawn.
+    pub speeds: usize,
+    /// Least of the times measured.
+    pub seconds: f64,
+    /// Largest relative error of critical speeds and, in a chart, of flutter onsets,
+    /// against the largest basis.
+    pub error: f64,
+    /// Whether no other chart is both faster and more accurate.
+    pub on_front: bool,
+}
+
+/// Sizes of the bases (n_max, J).
+const SIZES: [(usize, usize); 8] = [
+    (6, 4),
+    (8, 5),
+    (10, 6),
+    (12, 7),
+    (14, 9),
+    (18, 10),
+    (23, 11),
+    (30, 12),
+];
+/// The whole basis at every speed takes a hundred times as long: two sizes show it.
+const DENSE_SIZES: usize = 2;
+/// What counts as the truth.
+const TRUTH: (usize, usize) = (36, 13);
+/// Speeds of a chart, and other numbers of them at one size.
+const SPEEDS: usize = 51;
+const OTHER_SPEEDS: [usize; 2] = [25, 201];
+const MIDDLE_SIZE: (usize, usize) = (14, 9);
+/// Below this a time is taken three times, and the least counts.
+const SHORT_S: f64 = 1.0;
+
+/// Speeds at which something happens, in rad/s.
+struct Events {
+    critical: Vec<f64>,
+    onsets: Vec<f64>,
+}
+
+/// Measures every setting on a saw.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, SpectrumError> {
+    let range = ChosenBasis::new(scene, 1e-3)?.range;
+    let mut runs: Vec<(Method, (usize, usize), usize)> = Vec::new();
+    runs.extend(SIZES.map(|size| (Method::Reduced, size, SPEEDS)));
+    runs.extend(OTHER_SPEEDS.map(|speeds| (Method::Reduced, MIDDLE_SIZE, speeds)));
+    let dense = SIZES.into_iter().take(DENSE_SIZES);
+    runs.extend(dense.map(|size| (Method::Dense, size, SPEEDS)));
+    runs.extend(SIZES.map(|size| (Method::CriticalSpeeds, size, 0)));
+    runs.extend(SIZES.map(|size| (Method::CriticalSpeedsSingle, size, 0)));
+    let count = runs.len() + 1;
+    let truth = events(scene, Method::Reduced, resolution(TRUTH), SPEEDS, range)?;
+    progress(1, count);
+    let mut settings = Vec::new();
+    for (done, (method, size, speeds)) in runs.into_iter().enumerate() {
+        let resolution = resolution(size);
+        let mut seconds = f64::INFINITY;
+        let mut found = None;
+        for _ in 0..3 {
+            let start = Instant::now();
+            found = events(scene, method, resolution, speeds, range)?;
+            seconds = start.elapsed().as_secs_f64().min(seconds);
+            if seconds > SHORT_S {
+                break;
+            }
+        }
+        if let (Some(found), Some(truth)) = (found, &truth) {
+            settings.push(Setting {
+                method,
+                max_diameters: size.0,
+                radial_functions: size.1,
+                functions: resolution.degrees_of_freedom(),
+                speeds,
+                seconds,
+                error: found.error(truth),
+                on_front: false,
+            });
+        }
+        progress(done + 2, count);
+    }
+    mark_front(&mut settings);
+    Ok(settings)
+}
+
+/// The cheapest chart that is within an error.
+pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
+    settings
+        .iter()
+        .filter(|s| s.is_chart() && s.error <= error)
+        .min_by(|x, y| x.seconds.total_cmp(&y.seconds))
+}
+
+impl Setting {
+    /// Whether bands are among the results.
+    pub fn is_chart(&self) -> bool {
+        matches!(self.method, Method::Reduced | Method::Dense)
+    }
+}
+
+fn mark_front(settings: &mut [Setting]) {
+    for k in 0..settings.len() {
+        let beaten = settings.iter().any(|other| {
+            other.is_chart()
+                && other.seconds < settings[k].seconds
+                && other.error < settings[k].error
+        });
+        settings[k].on_front = settings[k].is_chart() && !beaten;
+    }
+}
+
+fn resolution((max_diameters, radial_functions): (usize, usize)) -> Resolution {
+    Resolution {
+        max_diameters,
+        radial_functions,
+    }
+}
+
+/// `None` where single precision cannot factor the stiffness.
+fn events(
+    scene: &Scene,
+    method: Method,
+    resolution: Resolution,
+    speeds: usize,
+    range: (f64, f64),
+) -> Result<Option<Events>, SpectrumError> {
+    let plate = Plate::new(scene, resolution);
+    let below = |critical: &[NamedCriticalSpeed]| -> Vec<f64> {
+        let speeds = critical.iter().map(|c| c.speed_rad_per_s);
+        speeds.take_while(|speed| *speed <= range.1).collect()
+    };
+    let strategy = match method {
+        Method::CriticalSpeeds => {
+            return Ok(Some(Events {
+                critical: below(&SpectralModel::critical_speeds(&plate)?),
+                onsets: Vec::new(),
+            }));
+        }
+        Method::CriticalSpeedsSingle => {
+            let critical = critical_speeds_single(&GyroscopicSystem::of_plate(&plate));
+            return Ok(critical.map(|mut critical| {
+                critical.retain(|speed| *speed <= range.1);
+                Events {
+                    critical,
+                    onsets: Vec::new(),
+                }
+            }));
+        }
+        Method::Reduced => Strategy::Reduced,
+        Method::Dense => Strategy::Dense,
+    };
+    let model = SpectralModel::new(plate, range, strategy)?;
+    let StabilityChart { instabilities, .. } = chart(&model, range, speeds, &|_, _| ())?;
+    let flutter = instabilities
+        .iter()
+        .filter(|band| band.kind == InstabilityKind::Flutter);
+    Ok(Some(Events {
+        critical: below(&model.critical),
+        onsets: flutter.map(|band| band.from).collect(),
+    }))
+}
+
+impl Events {
+    /// Largest relative distance of a true event from the nearest one found.
+    fn error(&self, truth: &Events) -> f64 {
+        let worst = |found: &[f64], truth: &[f64]| {
+            let nearest = |t: &f64| {
+                let distances = found.iter().map(|f| (f / t - 1.0).abs());
+                distances.fold(1.0, f64::min)
+            };
+            truth.iter().map(nearest).fold(0.0, f64::max)
+        };
+        let critical = worst(&self.critical, &truth.critical);
+        if self.onsets.is_empty() {
+            return critical;
+        }
+        critical.max(worst(&self.onsets, &truth.onsets))
+    }
+}
+
+/// The symmetric eigenproblem of the critical speeds in 24 bits.
+fn critical_speeds_single(system: &GyroscopicSystem) -> Option<Vec<f64>> {
+    let order = system.order();
+    let single = |m: &Mat<f64>| Mat::from_fn(order, order, |i, k| m[(i, k)] as f32);
+    // One unit of frequency for both keeps the numbers far from overflow.
+    let scale = system.stiffness.norm_l2() / (order as f64).sqrt();
+    let factor = single(&(faer::Scale(1.0 / scale) * &system.stiffness))
+        .llt(Side::Lower)
+        .ok()?;
+    let lower = factor.L();
+    let mut whitened = single(&(faer::Scale(-1.0) * &system.spin));
+    let solve = faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+    solve(lower, whitened.as_mut(), faer::Par::Seq);
+    let mut whitened = whitened.transpose().to_owned();
+    solve(lower, whitened.as_mut(), faer::Par::Seq);
+    let values = whitened.self_adjoint_eigenvalues(Side::Lower).ok()?;
+    let mut speeds: Vec<f64> = values
+        .into_iter()
+        .filter(|inverse_square| *inverse_square > 0.0)
+        .map(|inverse_square| (scale / f64::from(inverse_square)).sqrt())
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    Some(speeds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn setting(method: Method, seconds: f64, error: f64) -> Setting {
+        Setting {
+            method,
+            max_diameters: 8,
+            radial_functions: 5,
+            functions: 85,
+            speeds: 51,
+            seconds,
+            error,
+            on_front: false,
+        }
+    }
+
+    #[test]
+    fn the_front_is_what_nothing_beats_twice() {
+        let mut settings = [
+            setting(Method::Reduced, 1.0, 1e-2),
+            setting(Method::Reduced, 2.0, 1e-3),
+            setting(Method::Dense, 3.0, 2e-3),
+            setting(Method::CriticalSpeeds, 0.1, 1e-5),
+        ];
+        mark_front(&mut settings);
+        assert_eq!(settings.map(|s| s.on_front), [true, true, false, false]);
+        assert_eq!(recommended(&settings, 5e-3).unwrap().seconds, 2.0);
+        assert!(recommended(&settings, 1e-4).is_none());
+    }
+}

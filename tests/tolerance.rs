@@ -1,0 +1,135 @@
+//! Goal: a tolerance is a promise, and the estimate that it is checked by is one too.
+//!
+//! Pads of 1e4 to 1e9 N/m on blades with bores of 0.1 to 0.8, one or two of them, of many
+//! sizes and places: 30 saws. The truth is a basis of 1176 functions, half as large again
+//! as the largest that the program takes.
+
+mod common;
+
+use common::Worst;
+use rayon::prelude::*;
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{Accuracy, GuideFile, Scene};
+use sawflutter::spectrum::SpectralModel;
+use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind};
+
+const TRUTH: Resolution = Resolution {
+    max_diameters: 42,
+    radial_functions: 14,
+};
+
+struct Saw {
+    what: String,
+    scene: Scene,
+}
+
+fn saws() -> Vec<Saw> {
+    let mut saws = Vec::new();
+    for (i, stiffness_n_per_m) in [1e4, 1e5, 1e6, 1e7, 1e8, 1e9].into_iter().enumerate() {
+        for (k, bore) in [0.1, 0.28, 0.45, 0.6, 0.8].into_iter().enumerate() {
+            let mut file = Scene::paper().file;
+            let rim_m = 0.5 * file.blade.outer_diameter_m;
+            let width_m = rim_m * (1.0 - bore);
+            // Irrational multiples spread places and sizes.
+            let spread = |step: f64| (step * (5 * i + k) as f64).fract();
+            let pad = |angle_deg: f64, place: f64| GuideFile {
+                radius_m: rim_m - width_m * place,
+                angle_deg,
+                radial_length_m: width_m * (0.2 + 0.5 * spread(0.37)),
+                tangential_length_m: rim_m * (0.1 + 0.4 * spread(0.61)),
+                stiffness_n_per_m,
+                damping_n_s_per_m: 0.0,
+            };
+            file.blade.inner_diameter_m = bore * file.blade.outer_diameter_m;
+            file.sweep = None;
+            file.operating_rpm = None;
+            file.guides = vec![pad(-55.0, 0.25 + 0.5 * spread(0.23))];
+            if (i + k) % 3 == 0 {
+                file.guides.push(pad(70.0 + 3.0 * (5 * i + k) as f64, 0.6));
+            }
+            saws.push(Saw {
+                what: format!("{stiffness_n_per_m:e} N/m, bore {bore}"),
+                scene: Scene::try_from(file).unwrap(),
+            });
+        }
+    }
+    saws
+}
+
+/// The true error of every tolerance, against its estimate and against the promise.
+#[test]
+fn estimates_and_promises_hold_on_thirty_saws() {
+    let tolerances = [1e-2, 1e-3, 1e-4];
+    let rows: Vec<[(f64, f64); 3]> = saws()
+        .par_iter()
+        .map(|saw| {
+            let truth = SpectralModel::critical_speeds(&Plate::new(&saw.scene, TRUTH)).unwrap();
+            tolerances.map(|tolerance| {
+                let chosen = ChosenBasis::new(&saw.scene, tolerance).unwrap();
+                let within = chosen
+                    .critical
+                    .iter()
+                    .filter(|c| c.speed_rad_per_s <= chosen.range.1);
+                let errors = within
+                    .zip(&truth)
+                    .map(|(c, t)| (c.speed_rad_per_s / t.speed_rad_per_s - 1.0).abs());
+                (
+                    errors.reduce(f64::max).expect("a critical speed"),
+                    chosen.estimated_relative_error,
+                )
+            })
+        })
+        .collect();
+    let mut ratios = Worst::default();
+    let mut promises = Worst::default();
+    let mut short = 0;
+    for (saw, row) in saws().iter().zip(&rows) {
+        let [draft, design, reference] =
+            row.map(|(error, estimate)| format!("{error:.1e} of {estimate:.1e}"));
+        println!("{}: {draft}, {design}, {reference}", saw.what);
+        for ((true_error, estimate), tolerance) in row.iter().zip(tolerances) {
+            ratios.add(true_error / estimate, || {
+                format!("{}, {tolerance}", saw.what)
+            });
+            if *estimate <= tolerance {
+                promises.add(true_error / tolerance, || {
+                    format!("{}, {tolerance}", saw.what)
+                });
+            } else {
+                short += 1;
+            }
+        }
+    }
+    println!("{short} of {} tolerances are out of reach", 3 * rows.len());
+    ratios.assert_at_most("true error over its estimate", 3.0);
+    promises.assert_at_most("true error over its tolerance", 1.0);
+    assert!(promises.count > 60, "too much is out of reach: {short}");
+}
+
+/// Flutter onsets keep the promise too.
+#[test]
+fn onsets_keep_the_tolerance() {
+    let onsets = |tolerance: f64| -> Vec<f64> {
+        let scene = Scene {
+            tolerance: Some(tolerance),
+            accuracy: Accuracy::Design,
+            ..Scene::paper()
+        };
+        let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+        let bands = analysis.chart.instabilities.into_iter();
+        bands
+            .filter(|b| b.kind == InstabilityKind::Flutter)
+            .map(|b| b.from)
+            .collect()
+    };
+    let truth = onsets(1e-5);
+    for tolerance in [1e-2, 1e-3] {
+        let found = onsets(tolerance);
+        assert_eq!(found.len(), truth.len(), "{tolerance}");
+        let mut worst = Worst::default();
+        for (found, truth) in found.iter().zip(&truth) {
+            worst.add((found / truth - 1.0).abs(), || format!("{truth} rad/s"));
+        }
+        worst.assert_at_most(&format!("onsets at {tolerance}"), tolerance);
+    }
+}

@@ -1,0 +1,53 @@
+//! Goal: a silent slow-down fails. Times depend on the machine; how many eigenproblems of
+//! which size a chart takes does not.
+//!
+//! The bounds are what the chart of the paper's saw took when they were written, and a fifth.
+
+mod common;
+
+use sawflutter::report::Report;
+use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::stability::Analysis;
+
+fn report(accuracy: Accuracy) -> Report {
+    let scene = Scene {
+        accuracy,
+        ..Scene::paper()
+    };
+    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    Report::new(&scene, &analysis).unwrap()
+}
+
+#[test]
+fn a_chart_takes_no_more_work_than_it_took() {
+    let work = report(Accuracy::Design).work;
+    println!("{work:?}");
+    assert!(work.full_solves <= 10, "{work:?}");
+    assert!(work.reduced_solves <= 60, "{work:?}");
+    assert!(work.refined_pairs <= 60, "{work:?}");
+    assert!(work.local_solves <= 700, "{work:?}");
+    assert!(work.full_solves > 0 && work.local_solves > 0, "{work:?}");
+}
+
+/// More functions, the same eigenproblems: only the few of the whole basis grow.
+#[test]
+fn work_hardly_depends_on_the_accuracy() {
+    let [draft, reference] = [Accuracy::Draft, Accuracy::Reference].map(|a| report(a).work);
+    println!("{draft:?} {reference:?}");
+    assert!(reference.full_solves <= draft.full_solves + 4);
+    assert!(reference.local_solves <= 2 * draft.local_solves);
+    assert!(reference.reduced_solves <= 2 * draft.reduced_solves);
+}
+
+/// Counts, like results, are those of the work and not of the threads that do it.
+#[test]
+fn the_report_does_not_depend_on_the_threads() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| report(Accuracy::Draft))
+    };
+    assert!(on(1) == on(2));
+}
