@@ -12,6 +12,8 @@ use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 pub const OPERATING_LIMIT: f64 = 0.85;
 /// Speeds of a chart, before those that its events add.
 const CHART_SPEEDS: usize = 51;
+/// The same for a free blade, of which a speed costs next to nothing.
+const FREE_CHART_SPEEDS: usize = 101;
 
 /// Everything about the stability of one saw.
 #[derive(Debug)]
@@ -44,7 +46,11 @@ impl Analysis {
         let (range, estimated_relative_error) = (basis.range, Some(basis.estimated_relative_error));
         let model =
             SpectralModel::with_critical(basis.plate, basis.critical, range, Strategy::Reduced)?;
-        let chart = chart(&model, range, CHART_SPEEDS, progress)?;
+        let count = match model.plate.is_axisymmetric() {
+            true => FREE_CHART_SPEEDS,
+            false => CHART_SPEEDS,
+        };
+        let chart = chart(&model, range, count, progress)?;
         let mut flutter = chart
             .instabilities
             .iter()

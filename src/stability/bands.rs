@@ -81,8 +81,15 @@ pub fn chart(
     }
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    let search = campbell::even_speeds(range, SEARCH_SPEEDS);
-    let (instabilities, certificate) = bands(model, &with_critical_speeds(model, range, search))?;
+    // A free blade has no bands to search for, and is only held against the Krein index.
+    let search = match model.plate.is_axisymmetric() {
+        true => speeds,
+        false => {
+            let even = campbell::even_speeds(range, SEARCH_SPEEDS);
+            with_critical_speeds(model, range, even)
+        }
+    };
+    let (instabilities, certificate) = bands(model, &search)?;
     let between = inside(&instabilities, &samples);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     Ok(StabilityChart {
