@@ -71,7 +71,8 @@ impl Common {
         OutputFolder::open(&out.unwrap_or_else(|| "sawflutter-out".into()))
     }
 
-    /// Writes the files, removes those of an earlier run that have become stale, and prints the report, in words or as JSON.
+    /// Writes the files, removes `stale` ones of an earlier run, and prints the report, in
+    /// words or as JSON.
     pub fn print(
         &self,
         folder: &OutputFolder,
