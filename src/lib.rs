@@ -3,7 +3,7 @@
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`]. [`spline`] stands beside [`system`]: it imports [`scene`] and
+//! [`report`] → [`figure`]. [`check`] stands after [`stability`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone.
 //!
 //! ```
@@ -20,6 +20,7 @@
 #![warn(missing_docs)]
 
 pub mod campbell;
+pub mod check;
 pub mod figure;
 pub mod plate;
 pub mod report;

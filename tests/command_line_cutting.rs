@@ -155,3 +155,42 @@ fn a_scene_without_the_forces_is_refused() {
         assert_eq!(names(&folder), Vec::<String>::new(), "{expected}");
     }
 }
+
+/// The exit code is the verdict, for scripts that read nothing else.
+#[test]
+fn a_check_passes_fails_or_is_refused() {
+    let cases: [(&[&str], i32, &str); 6] = [
+        (
+            &["--operating-rpm", "1200"],
+            0,
+            "pass  lowest critical speed",
+        ),
+        (
+            &["--operating-rpm", "1400"],
+            1,
+            "FAIL  lowest critical speed",
+        ),
+        (
+            &["--operating-rpm", "1200", "--min-critical-rpm", "1600"],
+            1,
+            "FAIL",
+        ),
+        (
+            &["--operating-rpm", "1200", "--min-flutter-rpm", "2300"],
+            1,
+            "FAIL  flutter speed",
+        ),
+        (&["--operating-rpm", "-3"], 2, "--operating-rpm is -3"),
+        (&["--margin", "2"], 2, "--margin is 2"),
+    ];
+    for (arguments, code, expected) in cases {
+        let output = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+            .args(["check", "--accuracy", "draft"])
+            .args(arguments)
+            .output()
+            .unwrap();
+        let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+        assert!(said.contains(expected), "{arguments:?}: {said}");
+    }
+}

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use common::{Worst, of_diameters, reference_model, relative_error};
+use sawflutter::check::{Check, Limits};
 use sawflutter::scene::{InPlane, Mount, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::SpectralModel;
 use serde::Deserialize;
@@ -181,4 +182,21 @@ fn critical_speeds_of_the_blade_free_in_its_plane() {
     let expected = reference().in_plane_free.critical_rpm_by_n;
     assert_eq!(expected.len(), 2);
     compare_critical(InPlane::Free, &expected).assert_at_most("collar saw, free", 1e-5);
+}
+
+/// A newton on the rim of the blade at rest, by the same independent code.
+#[test]
+fn the_rim_is_as_stiff_as_the_reference_says() {
+    let text = std::fs::read_to_string(common::path("tests/reference/collar_saw.json")).unwrap();
+    let reference: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let expected = reference["rim_point_stiffness_n_per_m_at_rest"]
+        .as_f64()
+        .unwrap();
+    let check = Check::new(&saw(InPlane::Fixed), &Limits::at(rad_per_s(3000.0))).unwrap();
+    let error = check.rim_stiffness_at_rest_n_per_m / expected - 1.0;
+    assert!(error.abs() < 0.01, "{error}");
+    // Centrifugal tension stiffens the rim of a blade far below its critical speed less than
+    // the gyration of the standing deflection softens it.
+    assert!(check.rim_stiffness_n_per_m < check.rim_stiffness_at_rest_n_per_m);
+    assert!(check.passed(), "{:?}", check.failures());
 }

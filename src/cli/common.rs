@@ -10,19 +10,27 @@ use sawflutter::scene::{Accuracy, Scene};
 
 use super::output::OutputFolder;
 
+/// The saw to look at, and how finely.
 #[derive(Args, Default)]
-pub struct Common {
+pub struct Input {
     /// Scene to look at; without it, the built-in guided spline saw
     scene: Option<PathBuf>,
-    /// Folder for the files [default: sawflutter-out]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
     /// Relative error allowed of critical speeds and onsets, 1e-6 to 0.1, instead of a name
     #[arg(long, value_name = "SHARE", conflicts_with = "accuracy")]
     tolerance: Option<f64>,
+}
+
+/// Of commands that write files.
+#[derive(Args, Default)]
+pub struct Common {
+    #[command(flatten)]
+    input: Input,
+    /// Folder for the files [default: sawflutter-out]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     json: bool,
@@ -38,7 +46,7 @@ enum AccuracyName {
 /// A file by name.
 pub type NamedFile = (&'static str, Vec<u8>);
 
-impl Common {
+impl Input {
     /// The scene asked for.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let mut scene = match &self.scene {
@@ -63,6 +71,13 @@ impl Common {
             scene = Scene::try_from(file).context("--tolerance was refused")?;
         }
         Ok(scene)
+    }
+}
+
+impl Common {
+    /// The scene asked for.
+    pub fn scene(&self) -> anyhow::Result<Scene> {
+        self.input.scene()
     }
 
     /// The folder asked for, seen to take files.

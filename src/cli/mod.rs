@@ -1,6 +1,7 @@
 //! The command line: arguments → library calls → output, and no physics.
 
 mod analyze;
+mod check;
 mod common;
 mod cut;
 mod export;
@@ -32,6 +33,9 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
+    /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
+    #[command(after_help = check::EXAMPLES)]
+    Check(check::Arguments),
     /// Measure what digits cost: time against true error; tradeoff.png
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
@@ -47,13 +51,15 @@ Examples:
   sawflutter                              chart the built-in guided spline saw
   sawflutter analyze my-saw.json          chart your own saw
   sawflutter cut                          is it stable in the wood?
+  sawflutter check --operating-rpm 1250   does it keep the 85 % rule? for scripts
   sawflutter runup                        what does it do on the way up?
   sawflutter schema > scene.schema.json   let your editor complete scene keys
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
 
-/// Runs the command that the arguments name; without one, `analyze`.
-pub fn run() -> anyhow::Result<()> {
+/// Runs the command that the arguments name; without one, `analyze`. False is a check
+/// that was not passed.
+pub fn run() -> anyhow::Result<bool> {
     match Arguments::parse().command {
         None => analyze::run(&analyze::Arguments::default()),
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
@@ -61,8 +67,10 @@ pub fn run() -> anyhow::Result<()> {
         Some(Command::Runup(arguments)) => runup::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
+        Some(Command::Check(arguments)) => return check::run(&arguments),
         Some(Command::Schema) => schema::run(),
     }
+    .map(|()| true)
 }
 
 /// A reader that has seen enough, like `head`, is no failure.

@@ -1,0 +1,193 @@
+//! Pass or fail: a saw against limits that its designer sets.
+//!
+//! ```
+//! use sawflutter::check::{Check, Limits};
+//! use sawflutter::scene::{Accuracy, Scene, rad_per_s};
+//!
+//! let scene = Scene { accuracy: Accuracy::Draft, ..Scene::paper() };
+//! let limits = Limits {
+//!     min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+//!     ..Limits::at(rad_per_s(1250.0))
+//! };
+//! let check = Check::new(&scene, &limits)?;
+//! assert!(check.passed(), "{:?}", check.failures());
+//! # Ok::<(), sawflutter::spectrum::SpectrumError>(())
+//! ```
+
+use faer::Col;
+use faer::linalg::solvers::Solve;
+
+use crate::plate::Plate;
+use crate::scene::{Scene, SpeedRange, rpm};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, InstabilityKind, OPERATING_LIMIT};
+use crate::system::GyroscopicSystem;
+
+/// What a saw has to keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Speed at which it is run.
+    pub operating_rad_per_s: f64,
+    /// Largest share of the lowest critical speed that the operating speed may be.
+    pub margin: f64,
+    /// Least flutter speed.
+    pub min_flutter_rad_per_s: Option<f64>,
+    /// Least first critical speed.
+    pub min_critical_rad_per_s: Option<f64>,
+}
+
+impl Limits {
+    /// The usual 85 % rule at an operating speed, and nothing else.
+    pub fn at(operating_rad_per_s: f64) -> Self {
+        Limits {
+            operating_rad_per_s,
+            margin: OPERATING_LIMIT,
+            min_flutter_rad_per_s: None,
+            min_critical_rad_per_s: None,
+        }
+    }
+}
+
+/// One limit and what was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Criterion {
+    /// What is compared, in words.
+    pub name: &'static str,
+    /// What was found, in rad/s; `None` where there is no such speed within the sweep.
+    pub found: Option<f64>,
+    /// What was asked, in rad/s.
+    pub asked: f64,
+    /// Whether it is kept.
+    pub passed: bool,
+}
+
+/// A saw held against limits.
+#[derive(Debug)]
+pub struct Check {
+    /// Every limit.
+    pub criteria: Vec<Criterion>,
+    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m.
+    pub rim_stiffness_at_rest_n_per_m: f64,
+    /// The same at the operating speed; negative where a force moves the rim against itself.
+    pub rim_stiffness_n_per_m: f64,
+    /// What the speeds were taken from.
+    pub analysis: Analysis,
+}
+
+/// The sweep reaches past the speeds asked for by this factor, so that a band that begins
+/// there is seen to.
+const BEYOND: f64 = 1.02;
+
+impl Check {
+    /// Analyses a saw as far as the limits ask, and compares.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the saw cannot be analysed that far.
+    pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, SpectrumError> {
+        let asked = [
+            Some(limits.operating_rad_per_s / limits.margin),
+            limits.min_flutter_rad_per_s,
+            limits.min_critical_rad_per_s,
+        ];
+        let farthest = asked.into_iter().flatten().fold(0.0, f64::max);
+        let swept = Scene {
+            sweep: Some(SpeedRange {
+                from_rad_per_s: 0.0,
+                to_rad_per_s: BEYOND * farthest,
+            }),
+            ..scene.clone()
+        };
+        let analysis = Analysis::new(&swept, &|_, _| ())?;
+        let angle = scene.cut.as_ref().map_or(0.0, |cut| cut.angle_rad);
+        let plate = &analysis.model.plate;
+        Ok(Check {
+            criteria: criteria(&analysis, limits, scene.flutter_threshold_per_s),
+            rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
+            rim_stiffness_n_per_m: rim_stiffness_n_per_m(plate, angle, limits.operating_rad_per_s),
+            analysis,
+        })
+    }
+
+    /// Whether every limit is kept.
+    pub fn passed(&self) -> bool {
+        self.criteria.iter().all(|criterion| criterion.passed)
+    }
+
+    /// The limits that are not kept, with their numbers in rpm: for assertions.
+    pub fn failures(&self) -> Vec<String> {
+        let failed = self.criteria.iter().filter(|criterion| !criterion.passed);
+        failed.map(Criterion::to_string).collect()
+    }
+}
+
+impl std::fmt::Display for Criterion {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let found = self
+            .found
+            .map_or("none".into(), |w| format!("{:.1}", rpm(w)));
+        write!(
+            formatter,
+            "{}: {found} rpm, asked {:.1} rpm",
+            self.name,
+            rpm(self.asked)
+        )
+    }
+}
+
+fn criteria(analysis: &Analysis, limits: &Limits, threshold_per_s: f64) -> Vec<Criterion> {
+    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
+    let operating = limits.operating_rad_per_s;
+    let at_least = |name, found: Option<f64>, asked: f64| Criterion {
+        name,
+        found,
+        asked,
+        // A speed that is not reached within the sweep is beyond all that is asked.
+        passed: found.is_none_or(|found| found >= asked),
+    };
+    let mut criteria = vec![at_least(
+        "lowest critical speed, operating speed over margin",
+        lowest,
+        operating / limits.margin,
+    )];
+    let strong = analysis.chart.instabilities.iter().filter(|band| {
+        band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold_per_s
+    });
+    let inside = strong
+        .filter(|band| (band.from..=band.to).contains(&operating))
+        .map(|band| band.from)
+        .reduce(f64::min);
+    criteria.push(Criterion {
+        name: "instability at the operating speed, from",
+        found: inside,
+        asked: operating,
+        passed: inside.is_none(),
+    });
+    if let Some(asked) = limits.min_critical_rad_per_s {
+        criteria.push(at_least("lowest critical speed", lowest, asked));
+    }
+    if let Some(asked) = limits.min_flutter_rad_per_s {
+        criteria.push(at_least("flutter speed", analysis.flutter_speed, asked));
+    }
+    criteria
+}
+
+/// 1/(φᵀ K(Ω)⁻¹ φ) with φ the functions at the rim: force over deflection of a point that
+/// stands in space, the saw turning under it. Zero where rigid motions are free.
+fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {
+    let values = plate.functions_at(plate.blade.outer_radius_m, angle_rad);
+    let point = Col::from_fn(values.len(), |i| values[i]);
+    let system = GyroscopicSystem::of_plate(plate);
+    if !system.free_rigid.is_empty() {
+        return 0.0;
+    }
+    let answer = system
+        .stiffness_at(speed_rad_per_s)
+        .partial_piv_lu()
+        .solve(&point);
+    let stiffness = 1.0 / (point.transpose() * answer);
+    if stiffness.is_finite() {
+        stiffness
+    } else {
+        0.0
+    }
+}

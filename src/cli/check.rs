@@ -1,0 +1,128 @@
+//! `sawflutter check`.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use sawflutter::check::{Check, Limits};
+use sawflutter::scene::{rad_per_s, rpm};
+use serde_json::json;
+
+use super::common::Input;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter check my-saw.json --operating-rpm 2400
+  sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
+  sawflutter check --operating-rpm 1250 --json | jq .passed
+
+Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: Input,
+    /// Speed at which the saw is run; the scene's by default
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    operating_rpm: Option<f64>,
+    /// Largest share of the lowest critical speed that the operating speed may be
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.85,
+        allow_negative_numbers = true
+    )]
+    margin: f64,
+    /// Least flutter speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    min_flutter_rpm: Option<f64>,
+    /// Least first critical speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    min_critical_rpm: Option<f64>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Holds a saw against limits; whether it keeps them all.
+pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
+    let scene = arguments.input.scene()?;
+    let operating = match arguments.operating_rpm {
+        Some(rpm) => rad_per_s(speed("--operating-rpm", rpm)?),
+        None => scene.operating_rad_per_s.context(
+            "--operating-rpm is missing, but must say how fast the saw is run; give it, or operating_rpm in the scene",
+        )?,
+    };
+    if !(arguments.margin > 0.0 && arguments.margin <= 1.0) {
+        bail!(
+            "--margin is {}, but must be above 0 and at most 1; the usual rule is 0.85",
+            arguments.margin
+        );
+    }
+    let asked =
+        |name, value: Option<f64>| value.map(|rpm| speed(name, rpm).map(rad_per_s)).transpose();
+    let limits = Limits {
+        margin: arguments.margin,
+        min_flutter_rad_per_s: asked("--min-flutter-rpm", arguments.min_flutter_rpm)?,
+        min_critical_rad_per_s: asked("--min-critical-rpm", arguments.min_critical_rpm)?,
+        ..Limits::at(operating)
+    };
+    let check = Check::new(&scene, &limits)?;
+    let mut stdout = std::io::stdout().lock();
+    if arguments.json {
+        writeln!(stdout, "{}", serde_json::to_string_pretty(&json(&check))?)?;
+    } else {
+        write!(stdout, "{}", summary(&check))?;
+    }
+    Ok(check.passed())
+}
+
+/// Faster than any saw, and far from overflow.
+const MAX_RPM: f64 = 1e9;
+
+fn speed(name: &str, rpm: f64) -> anyhow::Result<f64> {
+    if rpm > 0.0 && rpm <= MAX_RPM {
+        return Ok(rpm);
+    }
+    bail!(
+        "{name} is {rpm}, but must be above 0 and at most {MAX_RPM:e}; give it in revolutions per minute"
+    )
+}
+
+fn summary(check: &Check) -> String {
+    let mut text = String::new();
+    for criterion in &check.criteria {
+        let word = if criterion.passed { "pass" } else { "FAIL" };
+        let _ = writeln!(text, "{word}  {criterion}");
+    }
+    let _ = writeln!(
+        text,
+        "rim stiffness at a point: {:.1} N/mm at rest, {:.1} N/mm at the operating speed",
+        1e-3 * check.rim_stiffness_at_rest_n_per_m,
+        1e-3 * check.rim_stiffness_n_per_m
+    );
+    text
+}
+
+fn json(check: &Check) -> serde_json::Value {
+    let criteria: Vec<_> = check
+        .criteria
+        .iter()
+        .map(|criterion| {
+            json!({
+                "name": criterion.name,
+                "found_rpm": criterion.found.map(rpm),
+                "asked_rpm": rpm(criterion.asked),
+                "passed": criterion.passed,
+            })
+        })
+        .collect();
+    json!({
+        "passed": check.passed(),
+        "criteria": criteria,
+        "rim_stiffness_at_rest_n_per_m": check.rim_stiffness_at_rest_n_per_m,
+        "rim_stiffness_n_per_m": check.rim_stiffness_n_per_m,
+        "estimated_relative_error": check.analysis.estimated_relative_error,
+    })
+}
