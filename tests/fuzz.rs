@@ -29,7 +29,7 @@ const SCENE_BYTES: usize = 160;
 
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
-const ANALYZED: usize = 24;
+const ANALYZED: usize = 8;
 
 /// Valid scenes among the first `count` drawn ones.
 fn scenes(count: usize) -> Vec<Scene> {

@@ -163,7 +163,7 @@ fn the_free_blade_is_never_unstable() {
     assert!(chart.instabilities.is_empty(), "{:?}", chart.instabilities);
     assert_eq!(analysis.first_merge, None);
     assert_eq!(analysis.flutter_speed, None);
-    assert!(chart.certificate.speeds_checked > 100);
+    assert!(chart.certificate.speeds_checked > 50);
     assert_eq!(chart.certificate.violations, Vec::<f64>::new());
     let modes = chart.campbell.samples.iter().flat_map(|s| &s.modes);
     let mut reflected = 0;
