@@ -4,9 +4,10 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::figure;
-use sawflutter::report::Report;
+use sawflutter::report::{CutReport, Report, RunUpReport};
 use sawflutter::scene::Scene;
 use sawflutter::stability::Analysis;
+use sawflutter::transient::{Cutting, RunningUp};
 
 fn main() -> anyhow::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -33,6 +34,21 @@ fn main() -> anyhow::Result<()> {
         write("campbell.svg", figure::campbell_svg(&report)?.as_bytes())?;
         if let Some(png) = figure::root_loci_png(&report)? {
             write("root-loci.png", &png)?;
+        }
+        if let Some(cut) = &scene.cut {
+            let cutting = Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?;
+            let report = CutReport::new(&scene, &cutting);
+            write("cut.png", &figure::cut_png(&report)?)?;
+            write("cut-map.png", &figure::cut_map_png(&report)?)?;
+            if let Some(png) = figure::spline_orbit_png(&report)? {
+                write("spline-orbit.png", &png)?;
+            }
+        }
+        if let Some(runup) = &scene.runup {
+            let found = RunningUp::new(&scene, runup, &|_, _| ())?;
+            let report = RunUpReport::new(&scene, runup, &found)?;
+            write("runup.png", &figure::runup_png(&report)?)?;
+            write("response-map.png", &figure::response_map_png(&report)?)?;
         }
         println!("{name}");
     }

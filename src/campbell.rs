@@ -8,7 +8,7 @@
 use faer::{Col, c64};
 use rayon::prelude::*;
 
-use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError};
+use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError};
 
 /// Told how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -46,16 +46,43 @@ pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Memory that the modes of a chart may take. A saw needs a tenth of it at most.
+const MEMORY_BUDGET_MB: usize = 1024;
+
+/// What the modes of a chart will take, judged by their number at the last speed, where
+/// there are most.
+fn check_memory(model: &SpectralModel, speeds: &[f64]) -> Result<(), SpectrumError> {
+    let Some(&last) = speeds.last() else {
+        return Ok(());
+    };
+    let modes = model.modes(last)?.len();
+    // A shape and, at most as long, its projected coordinates; a share of each harmonic.
+    let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
+    let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
+    let one = size_of::<DescribedMode>() + shape + shares;
+    let needed_mb = (speeds.len() * modes * one) >> 20;
+    if needed_mb > MEMORY_BUDGET_MB {
+        return Err(SpectrumError::TooLarge {
+            needed_mb,
+            allowed_mb: MEMORY_BUDGET_MB,
+            modes,
+            speeds: speeds.len(),
+        });
+    }
+    Ok(())
+}
+
 /// Computes the modes at every speed, in parallel; the order of the result, and
 /// every bit in it, is that of the speeds.
 ///
 /// # Errors
-/// [`SpectrumError`] of the lowest speed that fails.
+/// [`SpectrumError`] of the lowest speed that fails; [`SpectrumError::TooLarge`].
 pub fn sample(
     model: &SpectralModel,
     speeds: &[f64],
     progress: Progress<'_>,
 ) -> Result<Vec<SpeedSample>, SpectrumError> {
+    check_memory(model, speeds)?;
     let done = std::sync::atomic::AtomicUsize::new(0);
     let samples: Vec<Result<SpeedSample, SpectrumError>> = speeds
         .par_iter()

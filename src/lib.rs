@@ -3,7 +3,8 @@
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`].
+//! [`report`] → [`figure`]. [`spline`] stands beside [`system`]: it imports [`scene`] and
+//! [`plate`] alone.
 //!
 //! ```
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
@@ -24,6 +25,7 @@ pub mod plate;
 pub mod report;
 pub mod scene;
 pub mod spectrum;
+pub mod spline;
 pub mod stability;
 pub mod system;
 pub mod transient;

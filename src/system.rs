@@ -3,7 +3,7 @@
 //! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ] q = 0, mass matrix one,
 //! K₀ = K_b + K_g + K_e. Terms that the scene does not name are absent.
 
-use faer::{Mat, MatRef, Scale};
+use faer::{Col, Mat, MatRef, Scale};
 
 use crate::plate::{HarmonicBlock, Plate};
 
@@ -21,6 +21,11 @@ pub struct GyroscopicSystem {
     pub damping: Option<Mat<f64>>,
     /// K_circ = η K_b G, in 1/s: material damping turns with the blade.
     pub circulatory: Option<Mat<f64>>,
+    /// Rigid motions z that nothing holds, orthonormal: K(Ω) z = 0 at every speed.
+    pub free_rigid: Vec<Col<f64>>,
+    /// What free rigid motions add to K_σ − N for a wave that stands still, see
+    /// [`GyroscopicSystem::standing_spin`]; dimensionless.
+    pub drift: Option<Mat<f64>>,
 }
 
 impl GyroscopicSystem {
@@ -37,13 +42,16 @@ impl GyroscopicSystem {
                 None => guides.clone(),
             });
         }
+        system.find_free_rigid_motions(plate, 0);
         system
     }
 
     /// The part of n nodal diameters, which nothing couples to others when the
     /// plate is axisymmetric.
     pub fn of_harmonic(plate: &Plate, n: usize) -> Self {
-        Self::of_harmonics(plate, n..=n)
+        let mut system = Self::of_harmonics(plate, n..=n);
+        system.find_free_rigid_motions(plate, plate.offset(n));
+        system
     }
 
     fn of_harmonics(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Self {
@@ -74,6 +82,8 @@ impl GyroscopicSystem {
             gyroscopic,
             damping: None,
             circulatory: None,
+            free_rigid: Vec::new(),
+            drift: None,
         };
         system.add_blade_damping(plate);
         system
@@ -96,6 +106,83 @@ impl GyroscopicSystem {
             total[(i, i)] += air;
         }
         self.damping = Some(total);
+    }
+
+    /// Heave and tilt without stiffness. `first` is the index of the first unknown in the
+    /// basis of the plate.
+    fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
+        if !plate.basis.has_rigid_motions() {
+            return;
+        }
+        let tilt = plate.offset(1);
+        let rigid: Vec<usize> = [0, tilt, tilt + plate.basis.count()]
+            .into_iter()
+            .filter_map(|index| index.checked_sub(first))
+            .filter(|index| *index < self.order())
+            .collect();
+        if rigid.is_empty() {
+            return;
+        }
+        let held = nalgebra::DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
+            self.stiffness[(rigid[i], rigid[j])]
+        });
+        let eigen = held.symmetric_eigen();
+        let stiffest = eigen.eigenvalues.amax();
+        let largest = self.stiffness.norm_max();
+        for k in (0..rigid.len()).filter(|&k| eigen.eigenvalues[k] <= ROUNDING * stiffest) {
+            let mut z = Col::zeros(self.order());
+            for (i, &index) in rigid.iter().enumerate() {
+                z[index] = eigen.eigenvectors[(i, k)];
+            }
+            if (&self.stiffness * &z).norm_max() <= ROUNDING * largest {
+                self.free_rigid.push(z);
+            }
+        }
+        if !self.free_rigid.is_empty() {
+            self.drift = self.drift_of_free_motions();
+        }
+    }
+
+    /// 4 GᵀZ₀Z₀ᵀG, Z₀ the free rigid motions that G does not couple with each other.
+    fn drift_of_free_motions(&self) -> Option<Mat<f64>> {
+        let turned: Vec<Col<f64>> = self
+            .free_rigid
+            .iter()
+            .map(|z| &self.gyroscopic * z)
+            .collect();
+        let count = turned.len();
+        // ĜᵀĜ, Ĝ = ZᵀGZ
+        let coupled = nalgebra::DMatrix::from_fn(count, count, |i, j| {
+            self.free_rigid[i].transpose() * &turned[j]
+        });
+        let eigen = (coupled.transpose() * coupled).symmetric_eigen();
+        let mut drift: Option<Mat<f64>> = None;
+        for k in (0..count).filter(|&k| eigen.eigenvalues[k] <= ROUNDING) {
+            let mut g = Col::<f64>::zeros(self.order());
+            for (i, column) in turned.iter().enumerate() {
+                g += Scale(eigen.eigenvectors[(i, k)]) * column;
+            }
+            if g.norm_max() > ROUNDING {
+                let order = self.order();
+                *drift.get_or_insert_with(|| Mat::zeros(order, order)) +=
+                    Scale(4.0) * &g * g.transpose();
+            }
+        }
+        drift
+    }
+
+    /// What K₀ + Ω²(…) has to be for a wave to stand still: K_σ − N, and 4GᵀzzᵀG for a rigid
+    /// motion z that nothing holds. Its momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every
+    /// motion that oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and
+    /// 2ΩG times that drift is a force which grows with q, as that of a spring.
+    ///
+    /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until
+    /// the other's momentum vanishes.
+    pub fn standing_spin(&self) -> Mat<f64> {
+        match &self.drift {
+            Some(drift) => &self.spin + drift,
+            None => self.spin.clone(),
+        }
     }
 
     /// Number of unknowns.
@@ -128,6 +215,7 @@ impl GyroscopicSystem {
 
     /// Galerkin projection on the orthonormal columns of V: symmetric stays
     /// symmetric and skew stays skew, so Krein's theory holds for the small system too.
+    /// V must span the free rigid motions.
     pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
         self.times(basis).onto(basis)
     }
@@ -141,6 +229,8 @@ impl GyroscopicSystem {
             gyroscopic: times(&self.gyroscopic),
             damping: self.damping.as_ref().map(times),
             circulatory: self.circulatory.as_ref().map(times),
+            free_rigid: self.free_rigid.clone(),
+            drift: self.drift.as_ref().map(times),
         }
     }
 
@@ -153,6 +243,12 @@ impl GyroscopicSystem {
             gyroscopic: skew(onto(&self.gyroscopic)),
             damping: self.damping.as_ref().map(|c| symmetric(onto(c))),
             circulatory: self.circulatory.as_ref().map(onto),
+            free_rigid: self
+                .free_rigid
+                .iter()
+                .map(|z| basis.transpose() * z)
+                .collect(),
+            drift: self.drift.as_ref().map(|d| symmetric(onto(d))),
         }
     }
 
@@ -175,9 +271,14 @@ impl GyroscopicSystem {
             gyroscopic: sum(|s| Some(&s.gyroscopic))?,
             damping: sum(|s| s.damping.as_ref()),
             circulatory: sum(|s| s.circulatory.as_ref()),
+            free_rigid: Vec::new(),
+            drift: sum(|s| s.drift.as_ref()),
         })
     }
 }
+
+/// Share of the largest number below which a number is rounding.
+const ROUNDING: f64 = 1e-12;
 
 fn put(matrix: &mut Mat<f64>, offset: usize, block: &nalgebra::DMatrix<f64>) {
     for j in 0..block.nrows() {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
 use faer::{Col, Mat, Side};
-use sawflutter::plate::{EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
+use sawflutter::plate::{BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
 use sawflutter::scene::{Blade, Scene, rad_per_s};
 use sawflutter::spectrum::companion_eigenpairs;
 use sawflutter::system::GyroscopicSystem;
@@ -74,31 +74,57 @@ fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
 
 /// For w = x, x and y, y the geometric stiffness is h ∫ σ_xx, h ∫ σ_xy, h ∫ σ_yy: the
 /// virial of the tractions, whatever the stress inside.
+fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], tolerance: f64) {
+    let [x, y] = [plate.offset(1), plate.offset(1) + plate.basis.count()];
+    let blade = &plate.blade;
+    // ∫ ρh x² dA, the inertia of the unit tilt w = x.
+    let inertia = blade.mass_per_area_kg_per_m2()
+        * 0.25
+        * PI
+        * (blade.outer_radius_m.powi(4) - blade.inner_radius_m.powi(4));
+    let expected = virial.map(|moment| moment / inertia);
+    let found = [stiffness[(x, x)], stiffness[(y, y)], stiffness[(x, y)]];
+    let scale = expected.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
+    for (found, expected) in found.into_iter().zip(expected) {
+        let error = (found - expected).abs() / scale;
+        assert!(error < tolerance, "{found} {expected} {error:e}");
+    }
+    for i in 0..stiffness.nrows() {
+        let coupling = stiffness[(i, 0)].abs() / stiffness.norm_l2();
+        assert!(coupling <= tolerance, "heave and {i}: {coupling:e}");
+    }
+}
+
 #[test]
 fn tilts_feel_the_virial_of_the_forces_and_heave_nothing() {
     for ratio in [200.0 / 710.0, 0.02, 0.9, 0.95] {
         let plate = plate_of(with_bore(ratio), 6, 6);
         let (_, stiffness) = stiffness_under(&plate, &UNEVEN);
-        let [x, y] = [plate.offset(1), plate.offset(1) + 6];
-        let blade = &plate.blade;
-        // ∫ ρh x² dA, the inertia of the unit tilt w = x.
-        let inertia = blade.mass_per_area_kg_per_m2()
-            * 0.25
-            * PI
-            * (blade.outer_radius_m.powi(4) - blade.inner_radius_m.powi(4));
-        let expected = virial(blade, &UNEVEN).map(|moment| moment / inertia);
-        let found = [stiffness[(x, x)], stiffness[(y, y)], stiffness[(x, y)]];
-        let scale = expected.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
-        for (found, expected) in found.into_iter().zip(expected) {
-            let error = (found - expected).abs() / scale;
-            assert!(error < 1e-10, "a/b = {ratio}: {found} {expected} {error:e}");
-        }
-        for i in 0..stiffness.nrows() {
-            assert!(
-                stiffness[(i, 0)].abs() <= 1e-10 * stiffness.norm_l2(),
-                "{ratio} {i}"
-            );
-        }
+        assert_virial(&plate, &stiffness, virial(&plate.blade, &UNEVEN), 1e-10);
+    }
+}
+
+/// Forces at the bore add their own virial; what they leave of the reaction is a
+/// constant traction and a pure shear, which have none.
+#[test]
+fn tilts_feel_the_virial_of_forces_at_the_bore_too() {
+    let reaction = UNEVEN.map(|load| BoreForce {
+        angle_rad: 2.0 * load.angle_rad + 0.4,
+        radial_n: 3.0 * load.tangential_n,
+        tangential_n: -2.0 * load.radial_n,
+    });
+    let as_rim_forces = reaction.map(|force| RimForce {
+        angle_rad: force.angle_rad,
+        radial_n: force.radial_n,
+        tangential_n: force.tangential_n,
+    });
+    for ratio in [200.0 / 710.0, 0.02, 0.9, 0.95] {
+        let plate = plate_of(with_bore(ratio), 6, 6);
+        let stress = EdgeStress::with_reaction(&plate.blade, &UNEVEN, &reaction, 12);
+        let at_rim = virial(&plate.blade, &UNEVEN);
+        let at_bore = virial(&plate.blade, &as_rim_forces).map(|moment| ratio * moment);
+        let both = [0, 1, 2].map(|k| at_rim[k] + at_bore[k]);
+        assert_virial(&plate, &edge_stiffness(&plate, &stress), both, 1e-10);
     }
 }
 

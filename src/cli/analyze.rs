@@ -41,15 +41,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
-    if !files.iter().any(|(name, _)| name.starts_with("root-loci")) {
-        folder.remove("root-loci.png")?;
-        folder.remove("root-loci.svg")?;
-    }
+    // An earlier run may have left the loci of another saw.
+    let fluttered = files.iter().any(|(name, _)| name.starts_with("root-loci"));
+    let stale: &[&str] = if fluttered {
+        &[]
+    } else {
+        &["root-loci.png", "root-loci.svg"]
+    };
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, &json, || summary(&report))
+        .print(&folder, &files, stale, &json, || summary(&report))
 }
 
 /// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.

@@ -71,17 +71,17 @@ impl Common {
         OutputFolder::open(&out.unwrap_or_else(|| "sawflutter-out".into()))
     }
 
-    /// Writes the files and prints the report, in words or as JSON.
+    /// Writes the files, removes `stale` ones of an earlier run, and prints the report, in
+    /// words or as JSON.
     pub fn print(
         &self,
         folder: &OutputFolder,
         files: &[NamedFile],
+        stale: &[&str],
         json: &str,
         summary: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
-        for (name, content) in files {
-            folder.write(name, content)?;
-        }
+        folder.write_together(files, stale)?;
         let mut stdout = std::io::stdout().lock();
         if self.json {
             writeln!(stdout, "{json}")?;

@@ -26,7 +26,7 @@ pub struct Arguments {
     #[command(flatten)]
     common: Common,
     /// Speed to cut at, in place of the scene's; may be given more than once
-    #[arg(long, value_name = "RPM")]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     rpm: Vec<f64>,
 }
 
@@ -53,10 +53,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = CutReport::new(&scene, &cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
+    let mut stale: &[&str] = &[];
+    match figure::spline_orbit_png(&report)?.zip(figure::spline_orbit_svg(&report)?) {
+        Some((png, svg)) => files.extend([
+            ("spline-orbit.png", png),
+            ("spline-orbit.svg", svg.into_bytes()),
+        ]),
+        None => stale = &["spline-orbit.png", "spline-orbit.svg"],
+    }
     files.push(("cut.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, &json, || summary(&report))
+        .print(&folder, &files, stale, &json, || summary(&report))
 }
 
 fn figures(report: &CutReport) -> Result<Vec<NamedFile>, figure::FigureError> {
@@ -104,7 +112,7 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         text,
         "  eigenvalues   {:>9.3} 1/s {:>10}",
         run.growth_per_s,
-        hertz(run.frequency_hz)
+        hertz(run.frequency_hz.filter(|_| run.growth_per_s > 0.0))
     )?;
     if let (Some(verdict), Some(growth)) = (run.transient_verdict, run.transient_growth_per_s) {
         writeln!(
@@ -127,10 +135,19 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
     )?;
     writeln!(
         text,
-        "  without the forces {:>4.3} 1/s: {}",
+        "  without them  {:>9.3} 1/s             {}",
         run.idle_growth_per_s,
         word(run.idle_verdict)
     )?;
+    if let Some(spline) = &run.spline {
+        writeln!(
+            text,
+            "  spline's own reaction {:.3} 1/s: {}; it changes K_e by {:.0} %",
+            spline.growth_per_s,
+            word(spline.verdict),
+            1e2 * spline.stiffness_change
+        )?;
+    }
     writeln!(
         text,
         "  largest deflection at the probe: {:.2} mm in the cut, {:.2} mm after it",

@@ -66,6 +66,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         ("spin.npy", npy(&system.spin)),
         ("gyroscopic.npy", npy(&system.gyroscopic)),
     ];
+    let mut stale = Vec::new();
     for (name, matrix) in [
         ("damping.npy", &system.damping),
         ("circulatory.npy", &system.circulatory),
@@ -73,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         match matrix {
             Some(matrix) => files.push((name, npy(matrix))),
             // What an earlier run left of another saw would be taken for this one's.
-            None => folder.remove(name)?,
+            None => stale.push(name),
         }
     }
     let about = json!({
@@ -87,7 +88,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     });
     let json = serde_json::to_string_pretty(&about)?;
     files.push(("matrices.json", json.clone().into_bytes()));
-    arguments.common.print(&folder, &files, &json, || {
+    arguments.common.print(&folder, &files, &stale, &json, || {
         format!(
             "{} functions: n up to {}, {} radial functions each\n{}\n",
             plate.degrees_of_freedom(),

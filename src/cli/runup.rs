@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     files.push(("runup.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, &json, || summary(&report))
+        .print(&folder, &files, &[], &json, || summary(&report))
 }
 
 fn figures(report: &RunUpReport) -> Result<Vec<NamedFile>, figure::FigureError> {

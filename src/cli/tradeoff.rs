@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     ];
     arguments
         .common
-        .print(&folder, &files, &json, || summary(&settings))
+        .print(&folder, &files, &[], &json, || summary(&settings))
 }
 
 fn summary(settings: &[Setting]) -> String {

@@ -27,7 +27,7 @@ pub fn cut_svg(report: &CutReport) -> Result<String, FigureError> {
     render::svg(&sheet(report))
 }
 
-fn sheet(report: &CutReport) -> Sheet {
+pub(super) fn sheet(report: &CutReport) -> Sheet {
     let rows = report.runs.len().div_ceil(2).max(1);
     let mut sheet = Sheet::new(WIDTH, (60.0 + ROW * rows as f64) as u32);
     heading::draw(

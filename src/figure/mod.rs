@@ -10,6 +10,8 @@ mod canvas;
 mod clip;
 mod cut;
 mod cut_map;
+#[cfg(test)]
+mod cutting_tests;
 mod declutter;
 mod heading;
 mod heat;
@@ -20,6 +22,7 @@ mod root_loci;
 mod runup;
 #[cfg(test)]
 mod sample;
+mod spline_orbit;
 mod style;
 #[cfg(test)]
 mod tidy;
@@ -31,6 +34,7 @@ pub use cut_map::{cut_map_png, cut_map_svg};
 pub use response_map::{response_map_png, response_map_svg};
 pub use root_loci::{root_loci_png, root_loci_svg};
 pub use runup::{runup_png, runup_svg};
+pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
 pub use tradeoff::tradeoff_png;
 
 /// Whether any term of the equation of motion takes energy out of the saw.

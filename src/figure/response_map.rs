@@ -41,7 +41,7 @@ pub fn response_map_svg(report: &RunUpReport) -> Result<String, FigureError> {
     render::svg(&sheet(report))
 }
 
-fn sheet(report: &RunUpReport) -> Sheet {
+pub(super) fn sheet(report: &RunUpReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = "Response at the probe over speed and frequency";
     heading::draw(&mut sheet, title, &report.scene.name);

@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::declutter::{Wish, push_apart};
 use super::style::{
-    AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
+    ALARM, AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width,
 };
 use super::{FigureError, heading, render};
@@ -34,7 +34,7 @@ pub fn runup_svg(report: &RunUpReport) -> Result<String, FigureError> {
     render::svg(&sheet(report))
 }
 
-fn sheet(report: &RunUpReport) -> Sheet {
+pub(super) fn sheet(report: &RunUpReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = format!(
         "Deflection at the probe in a run-up at {:.1} rpm/s",
@@ -72,7 +72,16 @@ fn sheet(report: &RunUpReport) -> Sheet {
     let name = "rotation speed Ω\u{2003}[rpm]";
     sheet.text([centre, PANEL.bottom + 42.0], letters, name);
     label_critical_speeds(&mut sheet, report, &speed);
-    draw_record(&mut sheet, report, &speed, &deflection);
+    let lost_at = report
+        .rpm
+        .iter()
+        .zip(&report.deflection_m)
+        .find(|(_, w)| 1e3 * w.abs() > believable_mm)
+        .map(|(rpm, _)| *rpm);
+    draw_record(&mut sheet, report, (&speed, &deflection), lost_at);
+    if let Some(lost_at) = lost_at {
+        draw_end_of_model(&mut sheet, speed.at(lost_at));
+    }
     draw_key(&mut sheet);
     sheet
 }
@@ -99,10 +108,16 @@ fn draw_bands(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) {
 
 /// Thousands of samples fall on one pixel: a stroke from the least to the greatest of each
 /// shows what a line through all of them would.
-fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection: &Axis) {
+fn draw_record(
+    sheet: &mut Sheet,
+    report: &RunUpReport,
+    (speed, deflection): (&Axis, &Axis),
+    until_rpm: Option<f64>,
+) {
     let columns = (PANEL.right - PANEL.left) as usize;
     let mut extremes = vec![None::<[f64; 2]>; columns + 1];
-    for (rpm, w) in report.rpm.iter().zip(&report.deflection_m) {
+    let record = report.rpm.iter().zip(&report.deflection_m);
+    for (rpm, w) in record.take_while(|(rpm, _)| until_rpm.is_none_or(|until| **rpm <= until)) {
         let column = (speed.at(*rpm) - PANEL.left).clamp(0.0, columns as f64) as usize;
         let millimetres = 1e3 * w;
         extremes[column] = Some(extremes[column].map_or([millimetres; 2], |[low, high]| {
@@ -127,6 +142,21 @@ fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection
     for part in clip(&places, &PANEL) {
         sheet.line(part, Stroke::solid(FORWARD, 0.75 * CURVE));
     }
+}
+
+/// What follows is growth upon growth, of which a linear model knows the rate alone.
+fn draw_end_of_model(sheet: &mut Sheet, x: f64) {
+    let line = [[x, PANEL.top], [x, PANEL.bottom]];
+    sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
+    let text =
+        format!("more than {BELIEVABLE_THICKNESSES} thicknesses: the linear model ends here");
+    let length = text_width(&text, LABEL_SIZE, Weight::Regular) + 16.0;
+    let (anchor, x) = match PANEL.right - x < length {
+        true => (Anchor::End, x - 8.0),
+        false => (Anchor::Start, x + 8.0),
+    };
+    let letters = Lettering::regular(LABEL_SIZE, ALARM, anchor);
+    sheet.text([x, PANEL.bottom - 10.0], letters, &text);
 }
 
 fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) {

@@ -11,7 +11,7 @@ mod quadrature;
 mod radial;
 mod stress;
 
-pub use edge_load::{EdgeStress, HarmonicStress, RimForce, edge_stiffness};
+pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;
@@ -127,8 +127,13 @@ impl Plate {
     /// The same plate under dead forces at its rim.
     pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
         let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
+        self.with_edge_stiffness(edge_stiffness(self, &stress))
+    }
+
+    /// The same plate with a given K_e, in 1/s².
+    pub fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
         Plate {
-            edge_stiffness: Some(edge_stiffness(self, &stress)),
+            edge_stiffness: Some(edge_stiffness),
             ..self.clone()
         }
     }

@@ -18,6 +18,8 @@ use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
+/// Relative rounding from which a frequency is not to be trusted to six digits.
+const LEAST_DIGITS: f64 = 1e-6;
 /// Two critical speeds closer than this, of one name, are a double one.
 const DOUBLE: f64 = 1e-9;
 
@@ -72,7 +74,7 @@ impl Report {
             },
             root_loci: root_loci(analysis),
             sensitivities: Vec::new(),
-            warnings: warnings(scene, analysis),
+            warnings: warnings(scene, analysis, &at_rest),
         })
     }
 }
@@ -349,7 +351,7 @@ fn reached(scene: &Scene, analysis: &Analysis) -> bool {
 }
 
 /// Limits of the model that this scene comes near to.
-fn warnings(scene: &Scene, analysis: &Analysis) -> Vec<String> {
+fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
     let plate = &analysis.model.plate;
     let blade = &plate.blade;
     let mut warnings = Vec::new();
@@ -367,6 +369,14 @@ fn warnings(scene: &Scene, analysis: &Analysis) -> Vec<String> {
         warnings.push(format!(
             "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
             blade.thickness_m / width
+        ));
+    }
+    let rounded = |m: &&DescribedMode| analysis.model.relative_rounding(&m.mode) > LEAST_DIGITS;
+    if let Some(slow) = at_rest.iter().rfind(rounded) {
+        warnings.push(format!(
+            "the frequencies of this scene are so far apart that rounding leaves fewer than \
+             six digits of those up to {:.3e} Hz",
+            slow.mode.frequency_rad_per_s() / TAU
         ));
     }
     let certificate = &analysis.chart.certificate;
@@ -389,7 +399,7 @@ fn warnings(scene: &Scene, analysis: &Analysis) -> Vec<String> {
             .model
             .parts
             .iter()
-            .any(|p| !p.free_rigid.is_empty())
+            .any(|p| !p.full.free_rigid.is_empty())
     {
         warnings.push(
             "nothing holds the blade against some rigid motion; it is left out of the modes"

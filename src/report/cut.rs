@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use super::SplineEntry;
 use crate::scene::{Scene, SceneFile, rpm};
 use crate::transient::{Cutting, CuttingRun, Growth, ToothPassing, VerdictMap};
 
@@ -59,7 +60,7 @@ pub struct CutRunEntry {
     pub transient_verdict: Option<Verdict>,
     /// Growth rate fitted on the deflection in the cut.
     pub transient_growth_per_s: Option<f64>,
-    /// Frequency of the growth fitted on the deflection.
+    /// Frequency of the growth fitted on the deflection, where it is unstable.
     pub transient_frequency_hz: Option<f64>,
     /// Whether both verdicts are the same, and growth rates within 2 % where there is
     /// growth.
@@ -88,6 +89,8 @@ pub struct CutRunEntry {
     pub deflection_m: Vec<f64>,
     /// Verdict over guide angle and load.
     pub map: VerdictMapEntry,
+    /// The cut with the reaction of the simulated spline teeth, when the scene asks for it.
+    pub spline: Option<SplineEntry>,
 }
 
 /// A cut with the force that its power allows.
@@ -169,14 +172,9 @@ impl CutRunEntry {
             history,
             passing,
             map,
+            spline,
         } = computed;
-        let of = |growth: f64| {
-            if growth >= scene.flutter_threshold_per_s && growth > 0.0 {
-                Verdict::Unstable
-            } else {
-                Verdict::Stable
-            }
-        };
+        let of = |growth: f64| Verdict::of(scene, growth);
         let run = history.run;
         let verdict = of(history.in_cut.growth_per_s);
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
@@ -207,6 +205,7 @@ impl CutRunEntry {
             transient_growth_per_s: history.fitted.map(|fitted| fitted.growth_per_s),
             transient_frequency_hz: history
                 .fitted
+                .filter(|fitted| of(fitted.growth_per_s) == Verdict::Unstable)
                 .map(|fitted| hertz(fitted.frequency_rad_per_s)),
             dominant_frequency_hz: dominant.map(hertz),
             idle_verdict: of(history.idle.growth_per_s),
@@ -226,6 +225,7 @@ impl CutRunEntry {
             time_s: history.time_s.clone(),
             deflection_m: history.deflection_m.clone(),
             map: VerdictMapEntry::new(scene, map),
+            spline: spline.as_ref().map(|found| SplineEntry::new(scene, found)),
         }
     }
 }
@@ -250,7 +250,7 @@ fn close(verdict: Verdict, fitted: Growth, eigenvalue: Growth) -> bool {
         || (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs() <= AGREEMENT
 }
 
-fn hertz(rad_per_s: f64) -> f64 {
+pub(super) fn hertz(rad_per_s: f64) -> f64 {
     rad_per_s / TAU
 }
 
@@ -303,6 +303,16 @@ fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
         ));
     }
     warnings
+}
+
+impl Verdict {
+    pub(super) fn of(scene: &Scene, growth_per_s: f64) -> Self {
+        if growth_per_s >= scene.flutter_threshold_per_s && growth_per_s > 0.0 {
+            Verdict::Unstable
+        } else {
+            Verdict::Stable
+        }
+    }
 }
 
 impl std::fmt::Display for Verdict {

@@ -5,6 +5,7 @@ mod build;
 mod csv;
 mod cut;
 mod runup;
+mod spline;
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,7 @@ pub use self::cut::{
     ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
 };
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
+pub use self::spline::SplineEntry;
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::InstabilityKind;

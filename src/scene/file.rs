@@ -6,6 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::SplineFile;
 use super::cut::CutFile;
 use super::runup::{ProbeFile, RunUpFile};
 
@@ -28,6 +29,9 @@ pub struct SceneFile {
     /// Damping. None by default, as in the classical analysis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingFile>,
+    /// Contact between bore and splined arbor. Not simulated by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spline: Option<SplineFile>,
     /// Speed at which the saw is run, held against the 85 % rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,

@@ -6,6 +6,7 @@ mod cut;
 mod file;
 mod read;
 mod runup;
+mod spline;
 mod validate;
 
 pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
@@ -15,6 +16,7 @@ pub use file::{
 };
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
+pub use spline::{Spline, SplineFile};
 pub use validate::{Blade, Bore, Damping, Guide, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.

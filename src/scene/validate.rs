@@ -1,12 +1,12 @@
 //! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
 //! and radians, ready to compute with.
 
-use super::check::{MAX_GUIDE, MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_GUIDE, MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
 use super::runup::{Probe, RunUp};
 use super::{
-    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, SweepFile,
-    rad_per_s,
+    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, Spline,
+    SweepFile, rad_per_s,
 };
 
 /// A validated saw.
@@ -20,6 +20,8 @@ pub struct Scene {
     pub guides: Vec<Guide>,
     /// Damping, if any number of it is not zero.
     pub damping: Option<Damping>,
+    /// Contact between bore and arbor, if its motion is asked for.
+    pub spline: Option<Spline>,
     /// Speeds asked for; `None` leaves the choice to the program.
     pub sweep: Option<SpeedRange>,
     /// Speed at which the saw is run.
@@ -143,6 +145,11 @@ impl TryFrom<SceneFile> for Scene {
 
     fn try_from(file: SceneFile) -> Result<Self, SceneError> {
         let blade = blade(&file)?;
+        if file.guides.len() > MAX_GUIDES {
+            let remedy = "join pads that lie side by side";
+            let (count, allowed) = (file.guides.len(), format!("at most {MAX_GUIDES} pads"));
+            return Err(refuse("guides", count as f64, allowed, remedy));
+        }
         let guides = file
             .guides
             .iter()
@@ -164,6 +171,7 @@ impl TryFrom<SceneFile> for Scene {
                 .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
                 .collect(),
             damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
+            spline: Spline::of(&file, &blade)?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
             operating_rad_per_s: file
                 .operating_rpm

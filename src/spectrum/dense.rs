@@ -8,6 +8,7 @@ use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::SpectrumError;
+use super::deflation::Deflation;
 
 /// λ, in 1/s, and q with (λ² + λD + K) q = 0.
 pub type Eigenpair = (c64, Col<c64>);
@@ -59,7 +60,22 @@ pub(super) fn companion(
     Ok((state, scale))
 }
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates.
+/// The companion matrix on what is left beside the rigid motions that nothing holds.
+pub(super) fn deflated_companion(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<(Mat<f64>, f64, Option<Deflation>), SpectrumError> {
+    let (state, scale) = companion(system, speed_rad_per_s)?;
+    let deflation = Deflation::new(system, speed_rad_per_s, scale);
+    let state = match &deflation {
+        Some(Deflation { kept, .. }) => kept.transpose() * state * kept,
+        None => state,
+    };
+    Ok((state, scale, deflation))
+}
+
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
+/// each rigid motion that nothing holds there is one, with λ = 0 exactly.
 ///
 /// # Errors
 /// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
@@ -67,16 +83,24 @@ pub fn companion_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
-    let (state, scale) = companion(system, speed_rad_per_s)?;
-    let order = state.nrows();
+    let (state, scale, deflation) = deflated_companion(system, speed_rad_per_s)?;
+    let size = system.order();
     let eigen = Eigen::new_from_real(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
-        order,
+        order: state.nrows(),
         rpm: rpm(speed_rad_per_s),
     })?;
-    let pairs = (0..order)
-        .map(|i| (eigen.S()[i] * scale, eigen.U().col(i).subrows(0, order / 2)))
-        .filter(|(lambda, _)| lambda.im >= 0.0)
-        .map(|(lambda, q)| (lambda, unit(q)))
+    let displacement = |i: usize| match &deflation {
+        Some(deflation) => deflation.displacement(eigen.S()[i], &eigen.U().col(i).to_owned()),
+        None => eigen.U().col(i).subrows(0, size).to_owned(),
+    };
+    let free = deflation.iter().flat_map(|_| &system.free_rigid).map(|z| {
+        let z = Col::from_fn(size, |i| c64::new(z[i], 0.0));
+        (c64::new(0.0, 0.0), z)
+    });
+    let pairs = (0..state.nrows())
+        .filter(|&i| eigen.S()[i].im >= 0.0)
+        .map(|i| (eigen.S()[i] * scale, unit(displacement(i).as_ref())))
+        .chain(free)
         .collect();
     Ok(by_magnitude(pairs))
 }

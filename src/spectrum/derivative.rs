@@ -6,7 +6,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::mode::split;
+use super::mode::real_times;
 
 /// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
 pub fn with_speed(
@@ -54,23 +54,36 @@ fn change_of_residual(
     lambda: c64,
     x: &Col<c64>,
 ) -> Col<c64> {
-    Scale(lambda) * apply(&change.velocity_at(speed), x) + apply(&change.stiffness_at(speed), x)
+    let mut changed = Scale(lambda) * real_times(&change.velocity_at(speed), x)
+        + real_times(&change.stiffness_at(speed), x);
+    if let (true, Some(drift)) = (stands_still(lambda), &change.drift) {
+        changed += Scale(c64::new(speed * speed, 0.0)) * real_times(drift, x);
+    }
+    changed
+}
+
+/// Then x is singular for K₀ + Ω² [`GyroscopicSystem::standing_spin`].
+fn stands_still(lambda: c64) -> bool {
+    lambda == c64::new(0.0, 0.0)
 }
 
 /// (∂L/∂Ω)x.
 fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
-    let gyroscopic = apply(&system.gyroscopic, x);
-    let spin = apply(&system.spin, x);
+    let gyroscopic = real_times(&system.gyroscopic, x);
+    let spin = real_times(&system.spin, x);
     let mut slope = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed, 0.0)) * spin;
     if let Some(circulatory) = &system.circulatory {
-        slope += apply(circulatory, x);
+        slope += real_times(circulatory, x);
+    }
+    if let (true, Some(drift)) = (stands_still(lambda), &system.drift) {
+        slope += Scale(c64::new(2.0 * speed, 0.0)) * real_times(drift, x);
     }
     slope
 }
 
 /// (∂L/∂λ)x = (2λ + D)x.
 fn with_lambda(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
-    Scale(2.0 * lambda) * x + apply(&system.velocity_at(speed), x)
+    Scale(2.0 * lambda) * x + real_times(&system.velocity_at(speed), x)
 }
 
 /// y by inverse iteration on L(λ)ᴴ. An undamped oscillation needs none: there L is
@@ -102,10 +115,4 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
         y = Scale(c64::new(1.0 / norm, 0.0)) * solved;
     }
     y
-}
-
-fn apply(matrix: &Mat<f64>, x: &Col<c64>) -> Col<c64> {
-    let (re, im) = split(x);
-    let (re, im) = (matrix * re, matrix * im);
-    Col::from_fn(x.nrows(), |i| c64::new(re[i], im[i]))
 }

@@ -23,7 +23,6 @@ pub struct LowModel<'a> {
     /// Critical speeds and their standing waves.
     standing: Vec<(f64, Col<f64>)>,
     height_rad_per_s: f64,
-    has_free_rigid_motions: bool,
     counters: &'a WorkCounters,
 }
 
@@ -48,7 +47,6 @@ impl<'a> LowModel<'a> {
         system: &'a GyroscopicSystem,
         standing: Vec<(f64, Col<f64>)>,
         height_rad_per_s: f64,
-        has_free_rigid_motions: bool,
         counters: &'a WorkCounters,
     ) -> Self {
         LowModel {
@@ -56,7 +54,6 @@ impl<'a> LowModel<'a> {
             local: None,
             standing,
             height_rad_per_s,
-            has_free_rigid_motions,
             counters,
         }
     }
@@ -82,13 +79,7 @@ impl<'a> LowModel<'a> {
             .filter(low)
             .map(|pair| State::new(self.system, speed_rad_per_s, pair.clone()))
             .collect();
-        let modes = classify(
-            self.system,
-            speed_rad_per_s,
-            0,
-            self.has_free_rigid_motions,
-            pairs,
-        );
+        let modes = classify(self.system, speed_rad_per_s, 0, pairs);
         Ok(LowModes {
             speed_rad_per_s,
             modes,
@@ -100,6 +91,11 @@ impl<'a> LowModel<'a> {
     /// waves between them: few states, whose error falls with the fourth power of the
     /// distance and vanishes at both ends and where a wave stands.
     pub fn between(&self, ends: [&LowModes; 2]) -> Self {
+        // Without the momentum of free rigid motions, which depends on the speed, two ends
+        // do not span what is between.
+        if !self.system.free_rigid.is_empty() {
+            return self.whole();
+        }
         let [from, to] = ends.map(|end| end.speed_rad_per_s);
         let mut states: Vec<State> = Vec::new();
         let inside = |(speed, _): &&(f64, Col<f64>)| (from..=to).contains(speed);

@@ -1,5 +1,6 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
+mod deflation;
 mod dense;
 pub mod derivative;
 mod growth;
@@ -16,7 +17,7 @@ mod shift_invert;
 mod state;
 
 pub use dense::{companion_eigenpairs, time_scale};
-pub use growth::{fastest_growing, fastest_growing_of, has_free_rigid_motions};
+pub use growth::{fastest_growing, fastest_growing_of};
 pub use low::{LowModel, LowModes};
 pub use mode::{Mode, ModeKind, split};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};
@@ -58,6 +59,20 @@ pub enum SpectrumError {
         order: usize,
         /// Rotation speed.
         rpm: f64,
+    },
+    /// The modes of all speeds of a chart would not fit into the memory allowed.
+    #[error(
+        "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; end the sweep earlier or ask for a coarser accuracy"
+    )]
+    TooLarge {
+        /// Memory needed.
+        needed_mb: usize,
+        /// Memory allowed.
+        allowed_mb: usize,
+        /// Modes at the last speed.
+        modes: usize,
+        /// Speeds.
+        speeds: usize,
     },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(

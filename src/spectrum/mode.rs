@@ -27,6 +27,18 @@ pub enum ModeKind {
     Damped,
 }
 
+impl ModeKind {
+    /// What a mode of this kind takes of the Krein index, which is the number of negative
+    /// eigenvalues of K(Ω): k_real + 2 k_flutter + 2 k_negative.
+    pub fn krein_index(self) -> usize {
+        match self {
+            ModeKind::Divergent => 1,
+            ModeKind::Flutter | ModeKind::Negative => 2,
+            _ => 0,
+        }
+    }
+}
+
 /// A mode of one independent part of the blade.
 #[derive(Debug, Clone)]
 pub struct Mode {
@@ -79,21 +91,28 @@ impl Mode {
     }
 }
 
+/// |λ| below which a mode of a blade with free rigid motions is one of them.
+pub fn rigid_noise(system: &GyroscopicSystem) -> f64 {
+    if system.free_rigid.is_empty() {
+        return 0.0;
+    }
+    RIGID_NOISE * time_scale(&system.stiffness)
+}
+
 /// Sorts the eigenpairs of a part into kinds. The decaying partner of a divergent
 /// mode is dropped: it belongs to the same ±ω pair.
 pub fn classify(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     part: usize,
-    has_free_rigid_motions: bool,
     pairs: Vec<Eigenpair>,
 ) -> Vec<Mode> {
-    let rigid_noise = has_free_rigid_motions.then(|| RIGID_NOISE * time_scale(&system.stiffness));
+    let rigid_noise = rigid_noise(system);
     pairs
         .into_iter()
         .filter_map(|(lambda, q)| {
             let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
-            let rigid = rigid_noise.is_some_and(|noise| lambda.norm() < noise);
+            let rigid = lambda.norm() < rigid_noise;
             let mut mode = Mode {
                 lambda,
                 kind: ModeKind::Damped,
@@ -159,13 +178,14 @@ fn set_action(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
 
 /// qᴴ A q for a real matrix.
 pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
+    q.adjoint() * real_times(matrix, q)
+}
+
+/// A q for a real matrix.
+pub fn real_times(matrix: &Mat<f64>, q: &Col<c64>) -> Col<c64> {
     let (re, im) = split(q);
-    let (a_re, a_im) = (matrix * &re, matrix * &im);
-    let dot = |x: &Col<f64>, y: &Col<f64>| x.transpose() * y;
-    c64::new(
-        dot(&re, &a_re) + dot(&im, &a_im),
-        dot(&re, &a_im) - dot(&im, &a_re),
-    )
+    let (re, im) = (matrix * re, matrix * im);
+    Col::from_fn(matrix.nrows(), |i| c64::new(re[i], im[i]))
 }
 
 /// Real and imaginary parts.

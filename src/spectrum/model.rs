@@ -178,8 +178,7 @@ impl SpectralModel {
         self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
         let mut pairs = few.eigenpairs(speed)?;
         pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
-        let free_rigid = !part.free_rigid.is_empty();
-        let mut modes = classify(&projection.reduced, speed, 0, free_rigid, pairs);
+        let mut modes = classify(&projection.reduced, speed, 0, pairs);
         modes.retain(|m| m.kind != ModeKind::Rigid);
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
@@ -194,14 +193,7 @@ impl SpectralModel {
         for (index, part) in self.parts.iter().enumerate() {
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
             let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
-            let free_rigid = !part.free_rigid.is_empty();
-            modes.extend(classify(
-                &part.full,
-                speed_rad_per_s,
-                index,
-                free_rigid,
-                pairs,
-            ));
+            modes.extend(classify(&part.full, speed_rad_per_s, index, pairs));
         }
         Ok(modes)
     }
@@ -217,6 +209,14 @@ impl SpectralModel {
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
+    /// What rounding may change a frequency at rest by, relative to it: a backward stable
+    /// solver changes ω² by ε times the largest one.
+    pub fn relative_rounding(&self, mode: &Mode) -> f64 {
+        let system = &self.parts[mode.part].at(0.0).reduced;
+        let square = mode.frequency_rad_per_s().powi(2);
+        0.5 * f64::EPSILON * system.stiffness.norm_l2() / square
+    }
+
     fn solve(
         &self,
         speed_rad_per_s: f64,
@@ -230,8 +230,7 @@ impl SpectralModel {
             let system = &part.at(speed_rad_per_s).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
-            let free_rigid = !part.free_rigid.is_empty();
-            modes.extend(classify(system, speed, index, free_rigid, pairs));
+            modes.extend(classify(system, speed, index, pairs));
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
@@ -256,12 +255,10 @@ impl SpectralModel {
                 (&part.full, own.collect(), self.complete_to_rad_per_s)
             }
         };
-        let free_rigid = !part.free_rigid.is_empty();
         Some(LowModel::new(
             system,
             standing,
             height_rad_per_s,
-            free_rigid,
             &self.counters,
         ))
     }

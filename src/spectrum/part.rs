@@ -1,11 +1,11 @@
 //! Independent parts of the blade, their critical speeds and what holds them.
 
-use faer::{Col, MatRef, c64};
+use faer::{Col, c64};
 
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
-use super::mode::{MatrixNorms, Mode, ModeKind, split};
+use super::mode::{MatrixNorms, Mode, ModeKind, real_times};
 use super::name::ModeName;
 use super::projection::Projection;
 use super::{SpectrumError, critical_speeds};
@@ -24,8 +24,6 @@ pub struct Part {
     pub low: Option<(Projection, f64)>,
     /// Norms of its matrices.
     pub(super) norms: MatrixNorms,
-    /// Rigid motions that nothing holds.
-    pub free_rigid: Vec<Col<f64>>,
 }
 
 /// A standing wave at its critical speed.
@@ -47,26 +45,19 @@ impl Part {
     /// The independent parts of a plate.
     pub(crate) fn of(plate: &Plate) -> Vec<Part> {
         if !plate.is_axisymmetric() {
-            return vec![Part::new(plate, GyroscopicSystem::of_plate(plate), 0)];
+            return vec![Part::new(GyroscopicSystem::of_plate(plate), 0)];
         }
         (0..=plate.max_diameters())
-            .map(|n| {
-                Part::new(
-                    plate,
-                    GyroscopicSystem::of_harmonic(plate, n),
-                    plate.offset(n),
-                )
-            })
+            .map(|n| Part::new(GyroscopicSystem::of_harmonic(plate, n), plate.offset(n)))
             .collect()
     }
 
-    fn new(plate: &Plate, full: GyroscopicSystem, first: usize) -> Self {
+    fn new(full: GyroscopicSystem, first: usize) -> Self {
         Part {
             first,
             chart: vec![Projection::whole(&full)],
             low: None,
             norms: MatrixNorms::new(&full),
-            free_rigid: free_rigid_motions(plate, &full, first),
             full,
         }
     }
@@ -78,7 +69,7 @@ impl Part {
 
     /// Coordinates in this part of a mode of a speed.
     pub fn lifted(&self, speed_rad_per_s: f64, coordinates: &Col<c64>) -> Col<c64> {
-        lift(self.at(speed_rad_per_s).basis.as_ref(), coordinates)
+        real_times(&self.at(speed_rad_per_s).basis, coordinates)
     }
 
     /// The projection for a speed; the last one also beyond the range.
@@ -97,50 +88,13 @@ pub(crate) fn frequency_scale(plate: &Plate) -> f64 {
     5.0 * specific.sqrt() / blade.outer_radius_m.powi(2)
 }
 
-/// Directions of heave and tilt without stiffness, of unit length.
-fn free_rigid_motions(plate: &Plate, system: &GyroscopicSystem, first: usize) -> Vec<Col<f64>> {
-    if !plate.basis.has_rigid_motions() {
-        return Vec::new();
-    }
-    let order = system.order();
-    let size = plate.basis.count();
-    let tilts = [plate.offset(1), plate.offset(1) + size];
-    let rigid: Vec<usize> = [0]
-        .into_iter()
-        .chain(tilts)
-        .filter_map(|index| index.checked_sub(first))
-        .filter(|index| *index < order)
-        .collect();
-    if rigid.is_empty() {
-        return Vec::new();
-    }
-    let held = nalgebra::DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
-        system.stiffness[(rigid[i], rigid[j])]
-    });
-    let eigen = held.symmetric_eigen();
-    let stiffest = eigen
-        .eigenvalues
-        .iter()
-        .fold(0.0_f64, |top, value| top.max(value.abs()));
-    (0..rigid.len())
-        .filter(|&k| eigen.eigenvalues[k].abs() <= 1e-12 * stiffest)
-        .map(|k| {
-            let mut direction = Col::zeros(order);
-            for (i, &index) in rigid.iter().enumerate() {
-                direction[index] = eigen.eigenvectors[(i, k)];
-            }
-            direction
-        })
-        .collect()
-}
-
 pub(super) fn named_critical_speeds(
     plate: &Plate,
     parts: &[Part],
 ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
     let mut named = Vec::new();
     for (index, part) in parts.iter().enumerate() {
-        for critical in critical_speeds(&part.full, &part.free_rigid)? {
+        for critical in critical_speeds(&part.full)? {
             let mut shape = Col::zeros(plate.degrees_of_freedom());
             for i in 0..critical.shape.nrows() {
                 shape[part.first + i] = c64::new(critical.shape[i], 0.0);
@@ -165,11 +119,4 @@ pub(super) fn named_critical_speeds(
     }
     named.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     Ok(named)
-}
-
-/// V q.
-pub(super) fn lift(basis: MatRef<'_, f64>, q: &Col<c64>) -> Col<c64> {
-    let (re, im) = split(q);
-    let (re, im) = (basis * re, basis * im);
-    Col::from_fn(basis.nrows(), |i| c64::new(re[i], im[i]))
 }

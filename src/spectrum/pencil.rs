@@ -19,27 +19,25 @@ pub struct CriticalSpeed {
 
 /// Every critical speed of a part of the blade, ascending.
 ///
-/// With A = K_b + K_g = LLᵀ and B = N − K_σ the values 1/Ω² are the positive
+/// With A = K_b + K_g = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
+/// [`GyroscopicSystem::standing_spin`]) the values 1/Ω² are the positive
 /// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
-/// most accurate. `free_rigid` are the rigid motions that no guide holds. A and B
-/// both vanish on them, so stiffening them makes A definite and moves nothing else.
+/// most accurate. A and B both vanish on the rigid motions that no guide holds, so
+/// stiffening them makes A definite and moves nothing else.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
-pub fn critical_speeds(
-    system: &GyroscopicSystem,
-    free_rigid: &[Col<f64>],
-) -> Result<Vec<CriticalSpeed>, SpectrumError> {
+pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
     let order = system.order();
     let mut stiffness = system.stiffness.clone();
     let mean = stiffness.norm_l2() / (order as f64).sqrt();
-    for z in free_rigid {
+    for z in &system.free_rigid {
         stiffness += Scale(mean) * z * z.transpose();
     }
     let unstable = || SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(|_| unstable())?;
     let lower = factor.L();
-    let mut whitened = Scale(-1.0) * &system.spin;
+    let mut whitened = Scale(-1.0) * system.standing_spin();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let mut whitened = whitened.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);

@@ -204,7 +204,7 @@ impl Builder<'_> {
         let mut count = CHART_MODES + index;
         loop {
             let pairs = self.lowest(speed, count);
-            let modes = classify(self.system, speed, 0, false, pairs.clone());
+            let modes = classify(self.system, speed, 0, pairs.clone());
             let negative = |kind| match kind {
                 ModeKind::Negative | ModeKind::Flutter => 2,
                 ModeKind::Divergent => 1,
@@ -253,7 +253,8 @@ impl Builder<'_> {
         };
         let inside = |c: &&NamedCriticalSpeed| (from..=to).contains(&c.speed_rad_per_s);
         let standing = self.critical.iter().filter(inside);
-        let mut vectors: Vec<Col<f64>> = standing.map(|c| Scale(KEPT_WHOLE) * &c.shape).collect();
+        let kept = standing.map(|c| &c.shape).chain(&self.system.free_rigid);
+        let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
         for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
             if lambda.norm() <= SNAPSHOT_MARGIN * height {
                 let (re, im) = split(q);
@@ -315,7 +316,8 @@ impl Builder<'_> {
                     let wrong = !last_round
                         && self.frequency_error(&piece, middle, self.window, &pairs)
                             > DRAWN_TOLERANCE * self.window;
-                    if !wrong && self.system.is_conservative() {
+                    if !wrong && self.system.is_conservative() && self.system.free_rigid.is_empty()
+                    {
                         piece.drawn = self.drawn(&piece, pair, (middle, pairs));
                     }
                     (piece, wrong.then_some(middle))

@@ -14,7 +14,7 @@ use faer::{Col, Mat, Scale, c64};
 use crate::system::GyroscopicSystem;
 
 use super::dense::{Eigenpair, by_magnitude, unit};
-use super::mode::split;
+use super::mode::{rigid_noise, split};
 
 /// (A − σ)⁻¹ in units of σ: eigenvalues σ/(λ − σ).
 struct ShiftedInverse {
@@ -86,7 +86,9 @@ pub fn lowest_eigenpairs(
     loop {
         let finished = krylov.extend(&operator, steps) < steps || steps == most;
         let found = krylov.eigenpairs(wanted, shift_per_s, finished);
-        if let Some(pairs) = found {
+        if let Some(mut pairs) = found {
+            // Free rigid motions are known exactly; these are their rounded doubles.
+            pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
             return pairs;
         }
         steps = (steps + MORE_STEPS).min(most);

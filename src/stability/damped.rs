@@ -224,7 +224,7 @@ fn stretch(
         let (guess, part) = interpolated(speed);
         Ok(nearest(model, speed, guess, part)?.map_or(guess, |m| m.lambda))
     };
-    let (found, value) = maximise((from, to), closed, |speed| Ok(at(speed)?.re))?;
+    let (found, value) = maximise((from, to), [closed; 2], |speed| Ok(at(speed)?.re))?;
     let best = points
         .iter()
         .max_by(|x, y| x.growth().total_cmp(&y.growth()));

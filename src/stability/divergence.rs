@@ -26,16 +26,18 @@ pub(super) fn divergence(
             && (last || !unstable(&stations[index + 1]))
             && unstable(station)
         {
-            let (from, begins) = edge(model, stations, events, first.checked_sub(1), first);
-            let (to, ends) = edge(model, stations, events, (!last).then_some(index + 1), index);
+            let begins = edge(model, stations, events, first.checked_sub(1), first);
+            let ends = edge(model, stations, events, (!last).then_some(index + 1), index);
+            let ((from, begins), (to, ends)) = (begins, ends);
+            let zero_at_ends = [begins, ends].map(|edge| edge == Edge::Critical);
             let growth =
                 |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
-            let (peak, square) = refine::maximise((from, to), begins && ends, growth)?;
+            let (peak, square) = refine::maximise((from, to), zero_at_ends, growth)?;
             bands.push(Instability {
                 kind: InstabilityKind::Divergence,
                 from,
                 to,
-                closed: begins && ends,
+                closed: begins != Edge::Range && ends != Edge::Range,
                 peak,
                 peak_growth_per_s: square.sqrt(),
                 frequency: 0.0,
@@ -79,6 +81,17 @@ pub(super) fn close_pairs(
     Ok(bands)
 }
 
+/// What a stretch of divergence begins or ends at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Edge {
+    /// A critical speed: λ passes through zero.
+    Critical,
+    /// The meeting of two real λ, which go on as flutter: neither is zero.
+    Meeting,
+    /// The range ends inside.
+    Range,
+}
+
 /// Where divergence begins or ends between a stable and an unstable station: at the
 /// critical speed or the meeting of two real λ between them, or at the end of the range.
 fn edge(
@@ -87,10 +100,10 @@ fn edge(
     events: &[Vec<Event>],
     stable: Option<usize>,
     unstable: usize,
-) -> (f64, bool) {
+) -> (f64, Edge) {
     let inner = stations[unstable].speed_rad_per_s;
     let Some(stable) = stable else {
-        return (inner, false);
+        return (inner, Edge::Range);
     };
     let outer = stations[stable].speed_rad_per_s;
     let (low, high) = (inner.min(outer), inner.max(outer));
@@ -98,7 +111,7 @@ fn edge(
     let mut meetings = events[stable.min(unstable)]
         .iter()
         .filter_map(|event| match event {
-            Event::Begin(edge) | Event::End(edge) if edge.real => Some(edge.speed_rad_per_s),
+            Event::Begin(at) | Event::End(at) if at.real => Some(at.speed_rad_per_s),
             _ => None,
         });
     let meeting = if stable < unstable {
@@ -107,7 +120,12 @@ fn edge(
         meetings.next()
     };
     let critical = critical.find(|c| (low..=high).contains(c));
-    (critical.or(meeting).unwrap_or(inner), true)
+    match (critical, meeting) {
+        (Some(speed), _) => (speed, Edge::Critical),
+        (None, Some(speed)) => (speed, Edge::Meeting),
+        // The events between the two were too close to tell apart.
+        (None, None) => (inner, Edge::Meeting),
+    }
 }
 
 fn standing_waves(model: &SpectralModel, from: f64, to: f64) -> Vec<String> {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::bands::{Instability, InstabilityKind};
-use super::finder::{Event, Finder};
+use super::finder::{Edge, Event, Finder};
 use super::refine;
 use super::station::Station;
 use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
@@ -19,41 +19,73 @@ pub(super) fn flutter(
         return Ok(Vec::new());
     };
     // Pairs merged at the current speed, by frequency, with where they began.
-    let begun = first.speed_rad_per_s;
-    let mut open: Vec<(f64, bool)> = first.merged().map(|_| (begun, false)).collect();
-    let mut ranges: Vec<(f64, f64, bool)> = Vec::new();
+    let begun = End::of_range(first.speed_rad_per_s);
+    let mut open: Vec<End> = first.merged().map(|_| begun).collect();
+    let mut ranges: Vec<(End, End)> = Vec::new();
     for events in events {
         for event in events {
             match event {
                 Event::Begin(edge) => {
-                    open.insert(edge.index.min(open.len()), (edge.speed_rad_per_s, true));
+                    open.insert(edge.index.min(open.len()), End::of_pair(edge));
                 }
                 Event::End(edge) if edge.index < open.len() => {
-                    let (from, begins) = open.remove(edge.index);
-                    ranges.push((from, edge.speed_rad_per_s, begins));
+                    ranges.push((open.remove(edge.index), End::of_pair(edge)));
                 }
                 Event::End(_) => {}
-                Event::Band(from, to) => ranges.push((from, to, true)),
+                Event::Band(from, to) => ranges.push((End::merging(from), End::merging(to))),
             }
         }
     }
-    ranges.extend(
-        open.iter()
-            .map(|(from, _)| (*from, last.speed_rad_per_s, false)),
-    );
+    let end = End::of_range(last.speed_rad_per_s);
+    ranges.extend(open.iter().map(|begin| (*begin, end)));
     ranges
         .into_par_iter()
-        .map(|(from, to, closed)| band(model, finder, from, to, closed))
+        .map(|ends| band(model, finder, ends))
         .collect()
+}
+
+/// Where a band begins or ends.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    speed: f64,
+    /// The range does not end inside the band.
+    closed: bool,
+    /// Two waves merge: growth begins at zero. Where two real λ meet it does not.
+    at_zero: bool,
+}
+
+impl End {
+    fn merging(speed: f64) -> Self {
+        End {
+            speed,
+            closed: true,
+            at_zero: true,
+        }
+    }
+
+    fn of_pair(edge: Edge) -> Self {
+        End {
+            at_zero: !edge.real,
+            ..End::merging(edge.speed_rad_per_s)
+        }
+    }
+
+    fn of_range(speed: f64) -> Self {
+        End {
+            speed,
+            closed: false,
+            at_zero: false,
+        }
+    }
 }
 
 fn band(
     model: &SpectralModel,
     finder: &Finder<'_>,
-    from: f64,
-    to: f64,
-    closed: bool,
+    (begin, end): (End, End),
 ) -> Result<Instability, SpectrumError> {
+    let (from, to) = (begin.speed, end.speed);
+    let zero_at_ends = [begin.at_zero, end.at_zero];
     let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
     let mut frequencies = [0.0; 2];
     for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
@@ -76,7 +108,7 @@ fn band(
             .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
         Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
     };
-    let (peak, _) = refine::maximise((from, to), closed, |speed| Ok(pair(speed)?.0.powi(2)))?;
+    let (peak, _) = refine::maximise((from, to), zero_at_ends, |speed| Ok(pair(speed)?.0.powi(2)))?;
     let (mut peak_growth_per_s, frequency) = pair(peak)?;
     if let Some(sharp) = finder.pair(peak, frequency)? {
         peak_growth_per_s = (-sharp.discriminant(peak)).max(0.0).sqrt();
@@ -85,7 +117,7 @@ fn band(
         kind: InstabilityKind::Flutter,
         from,
         to,
-        closed,
+        closed: begin.closed && end.closed,
         peak,
         peak_growth_per_s,
         frequency,

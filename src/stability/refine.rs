@@ -306,19 +306,19 @@ fn sharpened_passage(
 }
 
 /// Speed and value of the largest f on [from, to], by a coarse look and then
-/// successive parabolas: squared growth is nearly a parabola across a band. At the ends of a
-/// `closed` band f is zero, and not looked at: there the modes cannot be told apart.
+/// successive parabolas: squared growth is nearly a parabola across a band. At an end where
+/// f is known to be zero it is not looked at: there the modes cannot be told apart.
 pub fn maximise(
     (from, to): (f64, f64),
-    closed: bool,
+    zero_at_ends: [bool; 2],
     mut f: impl FnMut(f64) -> Result<f64, SpectrumError>,
 ) -> Result<(f64, f64), SpectrumError> {
     const LOOKS: usize = 4;
     let mut points = Vec::new();
     for k in 0..=LOOKS {
         let speed = from + (to - from) * k as f64 / LOOKS as f64;
-        let end = k == 0 || k == LOOKS;
-        points.push((speed, if end && closed { 0.0 } else { f(speed)? }));
+        let zero = (k == 0 && zero_at_ends[0]) || (k == LOOKS && zero_at_ends[1]);
+        points.push((speed, if zero { 0.0 } else { f(speed)? }));
     }
     for _ in 0..12 {
         points.sort_by(|x, y| x.0.total_cmp(&y.0));
@@ -366,8 +366,15 @@ mod tests {
 
     #[test]
     fn the_maximum_of_a_skew_hump_is_found() {
-        let (speed, value) = maximise((0.0, 2.0), false, |x| Ok(x * (-x * x).exp())).unwrap();
+        let (speed, value) = maximise((0.0, 2.0), [false; 2], |x| Ok(x * (-x * x).exp())).unwrap();
         assert!((speed - 0.5_f64.sqrt()).abs() < 1e-4, "{speed}");
         assert!(value > 0.42888);
+    }
+
+    /// Divergence that ends where two real λ meet is fastest there, not zero.
+    #[test]
+    fn the_maximum_may_be_at_an_end_that_is_not_zero() {
+        let (speed, value) = maximise((1.0, 2.0), [true, false], |x| Ok(x - 1.0)).unwrap();
+        assert_eq!((speed, value), (2.0, 1.0));
     }
 }

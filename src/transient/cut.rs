@@ -69,7 +69,7 @@ const SAMPLE_S: f64 = 1e-3;
 const MAX_SAMPLES: f64 = 20_000.0;
 
 /// The forces of the teeth in the plane of the blade.
-fn rim_forces(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<RimForce> {
+pub(super) fn rim_forces(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<RimForce> {
     cut.tooth_angles_rad()
         .map(|angle_rad| RimForce {
             angle_rad,

@@ -8,6 +8,7 @@
 
 mod cut;
 mod newmark;
+mod on_spline;
 mod propagator;
 mod reduced;
 mod response;
@@ -19,6 +20,7 @@ mod verdict_map;
 
 pub use cut::{CutHistory, Growth, cut_history, in_cut_plate};
 pub use newmark::{Motion, Newmark};
+pub use on_spline::{OnSpline, on_spline};
 pub use propagator::{Propagator, State};
 pub use reduced::ReducedBlade;
 pub use response::{ResponseMap, response_map};
@@ -29,6 +31,7 @@ pub use teeth::{ToothPassing, tooth_passing};
 pub use verdict_map::{VerdictMap, verdict_map};
 
 use crate::spectrum::SpectrumError;
+use crate::spline::SplineError;
 
 /// Why a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -36,6 +39,9 @@ pub enum TransientError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The blade could not be followed on its arbor.
+    #[error(transparent)]
+    Spline(#[from] SplineError),
     /// Growth beyond what a double holds.
     #[error(
         "the deflection at {rpm:.0} rpm outgrows every number within {time_s:.3} s; shorten the time, or lower the speed"

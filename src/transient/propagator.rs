@@ -145,6 +145,8 @@ mod tests {
             gyroscopic: Mat::zeros(1, 1),
             damping: (damping > 0.0).then(|| mat![[damping]]),
             circulatory: None,
+            free_rigid: Vec::new(),
+            drift: None,
         }
     }
 

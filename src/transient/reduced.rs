@@ -4,7 +4,7 @@
 //! blade where no low mode bends is then carried by the right stiffness all the same.
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, Scale};
+use faer::{Col, Mat, MatRef, Scale};
 
 use crate::plate::Plate;
 use crate::spectrum::{frequency_scale, lowest_eigenpairs, orthonormal, split};
@@ -47,6 +47,7 @@ impl ReducedBlade {
             speed_rad_per_s,
         } in snapshots
         {
+            vectors.extend(system.free_rigid.iter().cloned());
             for (_, q) in lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) {
                 let (re, im) = split(&q);
                 vectors.extend([re, im]);
@@ -94,6 +95,11 @@ impl ReducedBlade {
             }
         }
         ReducedBlade { basis }
+    }
+
+    /// V, orthonormal.
+    pub fn basis(&self) -> MatRef<'_, f64> {
+        self.basis.as_ref()
     }
 
     /// Number of motions.

@@ -1,14 +1,15 @@
 //! The whole story of a cut, and of a run-up: what the commands compute.
 
 use crate::campbell::Progress;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Cut, CutRun, RunUp, Scene};
+use crate::plate::Plate;
+use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange};
 use crate::spectrum::Mode;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, ChosenBasis};
 
 use super::{
-    BandGrowth, CutHistory, ResponseMap, RunUpHistory, ToothPassing, TransientError, VerdictMap,
-    band_growths, cut_history, response_map, run_up, tooth_passing, verdict_map,
+    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, ToothPassing, TransientError,
+    VerdictMap, band_growths, cut_history, on_spline, response_map, run_up, tooth_passing,
+    verdict_map,
 };
 
 /// A cut at some speeds.
@@ -31,6 +32,8 @@ pub struct CuttingRun {
     pub passing: ToothPassing,
     /// Growth over guide angle and load.
     pub map: VerdictMap,
+    /// The reaction of the spline teeth, when the scene asks for it.
+    pub spline: Option<OnSpline>,
 }
 
 /// Positions of the teeth within a pitch: from 8 to 16 the growth rate changes by 0.03 %.
@@ -51,7 +54,7 @@ impl Cutting {
         runs: &[CutRun],
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
-        let plate = Plate::new(scene, Resolution::of(scene.accuracy));
+        let plate = chosen_plate(scene, runs)?;
         let turns = even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1).map(f64::to_radians);
         let turns: Vec<f64> = turns.collect();
         let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
@@ -64,6 +67,7 @@ impl Cutting {
                 Ok(CuttingRun {
                     history: cut_history(&plate, cut, run, &scene.probe)?,
                     passing: tooth_passing(&plate, cut, run, &scene.probe, STAGES)?,
+                    spline: on_spline(scene, &plate, cut, run)?,
                     map: verdict_map(&plate, cut, run, (&turns, &levels), &of)?,
                 })
             })
@@ -74,6 +78,23 @@ impl Cutting {
             runs,
         })
     }
+}
+
+/// The plate on a basis that meets the scene's tolerance up to the fastest cut.
+fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError> {
+    let fastest = runs
+        .iter()
+        .map(|run| run.speed_rad_per_s)
+        .fold(0.0, f64::max);
+    let to_rad_per_s = scene.sweep.map_or(0.0, |sweep| sweep.to_rad_per_s);
+    let swept = Scene {
+        sweep: Some(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: to_rad_per_s.max(fastest),
+        }),
+        ..scene.clone()
+    };
+    Ok(ChosenBasis::new(&swept, scene.tolerance())?.plate)
 }
 
 /// A run-up.

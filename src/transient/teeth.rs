@@ -9,7 +9,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::plate::Plate;
 use crate::scene::{Cut, CutRun, Probe};
-use crate::spectrum::{fastest_growing, has_free_rigid_motions};
+use crate::spectrum::fastest_growing;
 use crate::system::GyroscopicSystem;
 
 use super::cut::{finite, in_cut_plate, lateral_load};
@@ -54,9 +54,11 @@ pub fn tooth_passing(
         speed_rad_per_s: speed,
     });
     let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load]);
-    let idle = blade.system(&systems[0]);
     let no_edge = Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
     let edge = cutting.edge_stiffness.as_ref().unwrap_or(&no_edge);
+    // What nothing holds is what nothing holds in the cut.
+    let mut idle = blade.system(&systems[1]);
+    idle.stiffness -= blade.matrix(edge);
     let turns: Vec<f64> = (0..stages)
         .map(|stage| ((stage as f64 + 0.5) / stages as f64 - 0.5) * cut.pitch_rad)
         .collect();
@@ -85,9 +87,8 @@ pub fn tooth_passing(
         .zip(&turns)
         .map(|(edge, turn)| stage(edge, *turn))
         .collect::<Result<Vec<_>, _>>()?;
-    let free_rigid = has_free_rigid_motions(&cutting);
     let growth = |edge: &Mat<f64>| -> Result<f64, TransientError> {
-        let fastest = fastest_growing(&with(edge), speed, free_rigid)?;
+        let fastest = fastest_growing(&with(edge), speed)?;
         Ok(fastest.map_or(0.0, |lambda| lambda.re))
     };
     let steps = (run.duration_s / step_s).ceil() as usize;

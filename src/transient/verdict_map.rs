@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Cut, CutRun};
-use crate::spectrum::{fastest_growing, has_free_rigid_motions};
+use crate::spectrum::fastest_growing;
 use crate::system::GyroscopicSystem;
 
 use super::TransientError;
@@ -73,12 +73,13 @@ pub fn verdict_map(
         })
         .collect();
     let blade = ReducedBlade::new(plate, &snapshots, MODES, &[lateral_load(plate, cut, 0.0)]);
-    let reduced = blade.system(&idle);
+    // What nothing holds is what nothing holds in the cut.
+    let mut reduced = blade.system(&GyroscopicSystem::of_plate(&cutting));
+    reduced.stiffness -= blade.matrix(edge);
     let edges: Vec<Mat<f64>> = turns_rad
         .par_iter()
         .map(|turn| blade.turned(plate, *turn).matrix(edge))
         .collect();
-    let free_rigid = has_free_rigid_motions(&cutting);
     let done = AtomicUsize::new(0);
     let of = turns_rad.len() * load_levels.len();
     let growth_per_s = load_levels
@@ -89,7 +90,7 @@ pub fn verdict_map(
                 .map(|edge| {
                     let mut system = reduced.clone();
                     system.stiffness += Scale(*level) * edge;
-                    let fastest = fastest_growing(&system, speed, free_rigid)?;
+                    let fastest = fastest_growing(&system, speed)?;
                     progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
                     Ok(fastest.map_or(0.0, |lambda| lambda.re))
                 })

@@ -1,4 +1,4 @@
-//! Forces at the rim and their Fourier coefficients.
+//! Forces at the edges and their Fourier coefficients.
 
 use std::f64::consts::PI;
 
@@ -15,27 +15,68 @@ pub struct RimForce {
     pub tangential_n: f64,
 }
 
-/// Factors of [cos mθ, sin mθ] of the traction on the rim.
+/// A force on the blade at a point of the bore r = a, fixed in place and direction in space.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BoreForce {
+    /// Where: θ, positive in the direction of rotation.
+    pub angle_rad: f64,
+    /// Component along the radius, positive outwards.
+    pub radial_n: f64,
+    /// Component along the bore, positive in the direction of rotation.
+    pub tangential_n: f64,
+}
+
+/// Factors of [cos mθ, sin mθ] of the stresses on an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HarmonicTraction {
-    /// σ_rr(b).
+    /// σ_rr.
     pub radial_pa: [f64; 2],
-    /// σ_rθ(b).
+    /// σ_rθ.
     pub shear_pa: [f64; 2],
 }
 
-/// Order m of the traction Σ F/(bh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(bh) and the same
-/// with sin, and half of it for m = 0.
-pub fn harmonic_traction(blade: &Blade, loads: &[RimForce], order: usize) -> HarmonicTraction {
-    let mean = if order == 0 { 0.5 } else { 1.0 };
-    let per_newton = mean / (PI * blade.outer_radius_m * blade.thickness_m);
-    let mut sum = HarmonicTraction::default();
-    for load in loads {
-        let (sin, cos) = (order as f64 * load.angle_rad).sin_cos();
-        for (part, wave) in [cos, sin].into_iter().enumerate() {
-            sum.radial_pa[part] += per_newton * load.radial_n * wave;
-            sum.shear_pa[part] += per_newton * load.tangential_n * wave;
-        }
+impl HarmonicTraction {
+    /// Of order m at the rim, where the outward normal is +r.
+    pub fn at_rim(blade: &Blade, loads: &[RimForce], order: usize) -> Self {
+        let forces = loads
+            .iter()
+            .map(|load| (load.angle_rad, load.radial_n, load.tangential_n));
+        Self::of_forces(blade.outer_radius_m * blade.thickness_m, forces, order)
     }
-    sum
+
+    /// Of order m at the bore, where the outward normal is −r: a force outwards presses.
+    pub fn at_bore(blade: &Blade, reaction: &[BoreForce], order: usize) -> Self {
+        let forces = reaction
+            .iter()
+            .map(|force| (force.angle_rad, -force.radial_n, -force.tangential_n));
+        Self::of_forces(blade.inner_radius_m * blade.thickness_m, forces, order)
+    }
+
+    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and the
+    /// same with sin, and half of it for m = 0.
+    fn of_forces(
+        area_per_angle_m2: f64,
+        forces: impl Iterator<Item = (f64, f64, f64)>,
+        order: usize,
+    ) -> Self {
+        let mean = if order == 0 { 0.5 } else { 1.0 };
+        let per_newton = mean / (PI * area_per_angle_m2);
+        let mut sum = HarmonicTraction::default();
+        for (angle_rad, radial_n, tangential_n) in forces {
+            let (sin, cos) = (order as f64 * angle_rad).sin_cos();
+            for (part, wave) in [cos, sin].into_iter().enumerate() {
+                sum.radial_pa[part] += per_newton * radial_n * wave;
+                sum.shear_pa[part] += per_newton * tangential_n * wave;
+            }
+        }
+        sum
+    }
+
+    /// [σ_rr, σ_rθ] of the two fields (cos, cos, sin) and (sin, sin, −cos) of
+    /// (σ_rr, σ_θθ, σ_rθ).
+    pub fn fields(&self) -> [[f64; 2]; 2] {
+        let [radial_cos, radial_sin] = self.radial_pa;
+        let [shear_cos, shear_sin] = self.shear_pa;
+        [[radial_cos, shear_sin], [radial_sin, -shear_cos]]
+    }
 }

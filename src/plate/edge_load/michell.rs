@@ -65,14 +65,15 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The harmonic of order m under the rim traction σ_rr = p cos mθ,
-    /// σ_rθ = t sin mθ. For m = 0, where sin mθ is absent, t is a uniform shear
-    /// σ_rθ(b); its torque, and the net force of m = 1, are reacted at the bore.
-    pub fn new(blade: &Blade, order: usize, p: f64, t: f64) -> Self {
+    /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and
+    /// q cos mθ, s sin mθ at the bore. For m = 0, where sin mθ is absent, t and s are
+    /// uniform shears. What the bore lacks to balance the torque of m = 0 and the net
+    /// force of m = 1 is added there, as uniform shear and as traction of one direction.
+    pub fn new(blade: &Blade, order: usize, rim: [f64; 2], bore: [f64; 2]) -> Self {
         let terms = match order {
-            0 => ring_and_torsion(blade, p, t),
-            1 => net_force(blade, p, t),
-            _ => self_balanced(blade, order as f64, p, t),
+            0 => ring_and_torsion(blade, rim, bore),
+            1 => net_force(blade, rim, bore),
+            _ => self_balanced(blade, order as f64, rim, bore),
         };
         Profile { terms }
     }
@@ -90,14 +91,15 @@ impl Profile {
     }
 }
 
-/// Lamé's ring, σ = p (1 ∓ a²/r²)/(1 − a²/b²), and pure shear t b²/r².
-/// Stress function A r² + B ln r + C θ.
-fn ring_and_torsion(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
+/// Lamé's ring, σ_rr = u − v a²/r² with u − v k² = p and u − v = q, k = a/b, and pure
+/// shear t b²/r². Stress function A r² + B ln r + C θ. The shear at the bore follows
+/// from that at the rim, whatever part of it is known beforehand.
+fn ring_and_torsion(blade: &Blade, [p, t]: [f64; 2], [q, _]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let uniform = p * b / (b - a) * b / (b + a);
+    let inverse = (p - q) * b / (b - a) * b / (b + a);
     vec![
-        Term::new([1.0, 1.0, 0.0], b, 0.0).times(uniform),
-        Term::new([-1.0, 1.0, 0.0], a, -2.0).times(uniform),
+        Term::new([1.0, 1.0, 0.0], b, 0.0).times(q + inverse),
+        Term::new([-1.0, 1.0, 0.0], a, -2.0).times(inverse),
         Term::new([0.0, 0.0, 1.0], b, -2.0).times(t),
     ]
 }
@@ -106,17 +108,19 @@ fn ring_and_torsion(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
 ///
 /// Every circle transmits the same net force F = πhc, c = b(p − t). The share of
 /// r ln r makes the displacement single-valued (Timoshenko & Goodier, section 43,
-/// b₁′ = −a₁(1−ν)/4); only there does Poisson's ratio enter. At the bore the constant
-/// traction −F/(2πah) means σ_rr = c/2a, σ_rθ = −c/2a. On each edge the two
-/// conditions differ by the balance of forces alone, so one from each remains:
-/// A − B k³ = p − (3+ν) c/4b and A k − B = −(1+ν) c/4a, k = a/b.
-fn net_force(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
+/// b₁′ = −a₁(1−ν)/4); only there does Poisson's ratio enter. At the bore q and s transmit
+/// a(q − s); the rest c′ = c − a(q − s) is a constant traction, σ_rr = c′/2a,
+/// σ_rθ = −c′/2a. On each edge the two conditions differ by the balance of forces alone,
+/// so one from each remains: A − B k³ = p − (3+ν) c/4b and
+/// A k − B = q + c′/2a − (3+ν) c/4a, k = a/b.
+fn net_force(blade: &Blade, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let nu = blade.material.poisson_ratio;
     let k = a / b;
     let force_at_rim = p - t;
     let rim = p - 0.25 * (3.0 + nu) * force_at_rim;
-    let bore = -0.25 * (1.0 + nu) * force_at_rim / k;
+    // q + c′/2a = (q + s)/2 + c/2a.
+    let bore = 0.5 * (q + s) - 0.25 * (1.0 + nu) * force_at_rim / k;
     let cubic = (rim - bore * k.powi(3)) / ((1.0 - k) * (1.0 + k) * (1.0 + k * k));
     let inverse = cubic * k - bore;
     let point_force = [0.25 * (3.0 + nu), -0.25 * (1.0 - nu), -0.25 * (1.0 - nu)];
@@ -135,7 +139,7 @@ fn net_force(blade: &Blade, p: f64, t: f64) -> Vec<Term> {
 ///
 /// On a narrow ring the powers grow alike and digits are lost: K_e keeps its virial
 /// to 1e-14 up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
-fn self_balanced(blade: &Blade, m: f64, p: f64, t: f64) -> Vec<Term> {
+fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let terms = [
         Term::new([-1.0, 1.0, 1.0], b, m - 2.0),
@@ -150,7 +154,7 @@ fn self_balanced(blade: &Blade, m: f64, p: f64, t: f64) -> Vec<Term> {
     // Independent powers: singular only for numbers that are not finite.
     let amplitudes = Matrix4::from_columns(&tractions)
         .lu()
-        .solve(&Vector4::new(p, t, 0.0, 0.0))
+        .solve(&Vector4::new(p, t, q, s))
         .unwrap_or_else(|| Vector4::repeat(f64::NAN));
     terms
         .iter()

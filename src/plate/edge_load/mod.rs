@@ -1,4 +1,4 @@
-//! Membrane stress of dead forces at the rim, and the stiffness it gives.
+//! Membrane stress of dead forces at the edges, and the stiffness it gives.
 //!
 //! The blade turns in a frame fixed in space, where it is axisymmetric and where the
 //! forces stand still: their plane stress is steady, whatever the speed. It is found
@@ -19,11 +19,12 @@ mod force;
 mod michell;
 mod stiffness;
 
-pub use force::RimForce;
+pub use force::{BoreForce, RimForce};
 pub use stiffness::edge_stiffness;
 
 use crate::scene::Blade;
 
+use force::HarmonicTraction;
 use michell::Profile;
 
 /// Factors of cos mθ and sin mθ of the three stresses at one radius, in Pa.
@@ -41,6 +42,7 @@ pub struct HarmonicStress {
 ///
 /// The bore takes the reaction: the net torque T as a uniform shear traction
 /// T/(2πa²h), the net force F as the traction −F/(2πah), of one direction all around.
+/// Forces given at the bore take their part of it, and the assumed tractions what is left.
 /// The same holds at a collar, whose grip on the higher harmonics is left out.
 #[derive(Debug, Clone)]
 pub struct EdgeStress {
@@ -53,15 +55,22 @@ impl EdgeStress {
     /// Solves the orders 0 … `max_order`; 2 n_max of them make
     /// [`edge_stiffness`] exact. Forces that are not finite give stresses that are not.
     pub fn new(blade: &Blade, loads: &[RimForce], max_order: usize) -> Self {
+        Self::with_reaction(blade, loads, &[], max_order)
+    }
+
+    /// The same with known forces at the bore, which replace the assumed reaction as far
+    /// as they balance the loads: all of it, if they are in equilibrium with them.
+    pub fn with_reaction(
+        blade: &Blade,
+        loads: &[RimForce],
+        reaction: &[BoreForce],
+        max_order: usize,
+    ) -> Self {
         let harmonics = (0..=max_order)
             .map(|m| {
-                let traction = force::harmonic_traction(blade, loads, m);
-                let [radial_cos, radial_sin] = traction.radial_pa;
-                let [shear_cos, shear_sin] = traction.shear_pa;
-                [
-                    Profile::new(blade, m, radial_cos, shear_sin),
-                    Profile::new(blade, m, radial_sin, -shear_cos),
-                ]
+                let rim = HarmonicTraction::at_rim(blade, loads, m).fields();
+                let bore = HarmonicTraction::at_bore(blade, reaction, m).fields();
+                [0, 1].map(|field| Profile::new(blade, m, rim[field], bore[field]))
             })
             .collect();
         EdgeStress { harmonics }

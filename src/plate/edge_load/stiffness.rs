@@ -183,7 +183,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Resolution, RimForce};
+    use crate::plate::{BoreForce, Resolution, RimForce};
     use crate::scene::{Bore, InPlane, Scene};
 
     /// Twice the points change no integral of the largest basis.
@@ -208,7 +208,12 @@ mod tests {
                 radial_n: 90.0,
                 tangential_n: 1000.0,
             };
-            let stress = EdgeStress::new(&plate.blade, &[load], 48);
+            let reaction = BoreForce {
+                angle_rad: 1.9,
+                radial_n: -300.0,
+                tangential_n: 2000.0,
+            };
+            let stress = EdgeStress::with_reaction(&plate.blade, &[load], &[reaction], 48);
             let points = sufficient_points(12, 48);
             let [usual, dense] = [points, 2 * points].map(|points| {
                 RadialIntegrals::of_orders(&Sample::on_blade(&plate, points), &stress, 48)

@@ -23,6 +23,19 @@ pub const LOADS: [RimForce; 3] = [
         tangential_n: 250.0,
     },
 ];
+/// At the bore, in no balance with the loads.
+const REACTION: [BoreForce; 2] = [
+    BoreForce {
+        angle_rad: 1.4,
+        radial_n: 300.0,
+        tangential_n: 2000.0,
+    },
+    BoreForce {
+        angle_rad: -0.7,
+        radial_n: -500.0,
+        tangential_n: 900.0,
+    },
+];
 const ORDERS: [usize; 8] = [0, 1, 2, 3, 5, 12, 31, 48];
 
 pub fn blade_with(ratio: f64) -> Blade {
@@ -47,12 +60,14 @@ fn derivatives(f: impl Fn(f64) -> f64, x: f64, step: f64) -> [f64; 2] {
 
 /// Calls `check` with order, radius and a step that resolves r^m, all over the blade.
 fn everywhere(blade: &Blade, mut check: impl FnMut(&EdgeStress, usize, f64, f64)) {
-    let stress = EdgeStress::new(blade, &LOADS, 48);
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    for order in ORDERS {
-        for share in [0.05, 0.4, 0.7, 0.95] {
-            let r = a + share * (b - a);
-            check(&stress, order, r, 3e-3 * r / (order as f64 + 2.0));
+    for reaction in [&[][..], &REACTION] {
+        let stress = EdgeStress::with_reaction(blade, &LOADS, reaction, 48);
+        for order in ORDERS {
+            for share in [0.05, 0.4, 0.7, 0.95] {
+                let r = a + share * (b - a);
+                check(&stress, order, r, 3e-3 * r / (order as f64 + 2.0));
+            }
         }
     }
 }
@@ -123,7 +138,7 @@ fn the_net_force_leaves_the_displacement_single_valued() {
     for poisson_ratio in [-0.5, 0.0, 0.29, 0.49] {
         for mut blade in blades() {
             blade.material.poisson_ratio = poisson_ratio;
-            let stress = EdgeStress::new(&blade, &LOADS, 1);
+            let stress = EdgeStress::with_reaction(&blade, &LOADS, &REACTION, 1);
             // Times E: ε_rr, ε_θθ, γ of (cos, cos, sin) and of (sin, sin, −cos).
             let strain = |r: f64, part: usize| {
                 let s = stress.harmonic(1, r);
@@ -198,6 +213,54 @@ fn the_edges_carry_the_loads_and_the_reaction() {
             };
             assert_close(bore.radial_pa, radial, tolerance);
             assert_close(bore.shear_pa, shear, tolerance);
+        }
+    }
+}
+
+/// The same with forces at the bore: beyond m = 1 their own Fourier coefficients; in
+/// m = 1 these and the rest of the net force, half of it as pressure, half as shear.
+#[test]
+fn the_bore_carries_the_forces_given_there() {
+    for blade in blades() {
+        let (a, h) = (blade.inner_radius_m, blade.thickness_m);
+        let given = EdgeStress::with_reaction(&blade, &LOADS, &REACTION, 48);
+        let assumed = EdgeStress::new(&blade, &LOADS, 48);
+        let sum = |f: &dyn Fn(&BoreForce) -> f64| REACTION.iter().map(f).sum::<f64>();
+        for order in ORDERS {
+            let m = order as f64;
+            let (with, without) = (given.harmonic(order, a), assumed.harmonic(order, a));
+            let tolerance = 1e-11 * size(&with).max(size(&without));
+            let norm = PI * a * h * if order == 0 { 2.0 } else { 1.0 };
+            let coefficients = |f: &dyn Fn(&BoreForce) -> f64| {
+                [
+                    -sum(&|l| f(l) * (m * l.angle_rad).cos()) / norm,
+                    -sum(&|l| f(l) * (m * l.angle_rad).sin()) / norm,
+                ]
+            };
+            let [q, s] = [
+                coefficients(&|l| l.radial_n),
+                coefficients(&|l| l.tangential_n),
+            ];
+            let added = |now: [f64; 2], before: [f64; 2]| [now[0] - before[0], now[1] - before[1]];
+            let radial = added(with.radial_pa, without.radial_pa);
+            let shear = added(with.shear_pa, without.shear_pa);
+            let (expected_radial, expected_shear) = match order {
+                0 => (q, [0.0; 2]),
+                1 => {
+                    let even = [0.5 * (q[0] + s[1]), 0.5 * (q[1] - s[0])];
+                    (even, [-even[1], even[0]])
+                }
+                _ => (q, s),
+            };
+            assert_close(radial, expected_radial, tolerance);
+            assert_close(shear, expected_shear, tolerance);
+        }
+        let rim = blade.outer_radius_m;
+        for order in ORDERS {
+            let (with, without) = (given.harmonic(order, rim), assumed.harmonic(order, rim));
+            let tolerance = 1e-11 * size(&with).max(size(&without));
+            assert_close(with.radial_pa, without.radial_pa, tolerance);
+            assert_close(with.shear_pa, without.shear_pa, tolerance);
         }
     }
 }

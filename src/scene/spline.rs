@@ -1,0 +1,205 @@
+//! The splined bore: what its teeth are like and how they touch the arbor's.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{positive, within};
+use super::{Blade, Mount, SceneError, SceneFile};
+
+/// Contact between the splined bore and the arbor; with it the motion of the blade in
+/// its own plane is simulated.
+///
+/// The paper states the clearance. It gives neither the number of spline teeth nor
+/// their shape, and for the contact two numbers whose units do not fit its formula
+/// F = K x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Taken in metres,
+/// 2.2e5 N/m^{3/2} lets the weight of the paper's blade alone sink millimetres into a
+/// tooth. In millimetres, the usual unit of the program the paper used, they are
+/// 6.96e9 N/m^{3/2} and 4.74e3 N/(m/s)^{3/2}. So neither has a default here.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SplineFile {
+    /// Number of spline teeth.
+    pub teeth: u32,
+    /// Angle of a flank to the radius through it: 0 for straight-sided teeth, 30 for the
+    /// usual involute spline.
+    pub pressure_angle_deg: f64,
+    /// K of the contact force K x^{3/2} at a flank that is pressed in by x.
+    pub contact_stiffness_n_per_m_3_2: f64,
+    /// C of the contact force C ẋ^{3/2} at a flank that is pressed in at the speed ẋ.
+    pub contact_damping_n_s_3_2_per_m_3_2: f64,
+    /// Gap between a flank and its mate when the blade is centred.
+    #[serde(default = "papers_clearance_m")]
+    pub clearance_m: f64,
+    /// Where the flanks touch; by default at the bore.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch_radius_m: Option<f64>,
+    /// Direction in which the blade's weight acts, from the cut (θ = 0), positive with the
+    /// rotation. Without it the weight does not act in the plane of the blade.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight_angle_deg: Option<f64>,
+}
+
+/// Section 2 of the paper: "the clearance between the spline arbor and the matching
+/// spline of the disk is 0.25 mm".
+fn papers_clearance_m() -> f64 {
+    0.25e-3
+}
+
+/// Validated contact between bore and arbor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spline {
+    /// Number of spline teeth.
+    pub teeth: usize,
+    /// Angle of a flank to the radius through it.
+    pub pressure_angle_rad: f64,
+    /// K of the contact force K x^{3/2}.
+    pub contact_stiffness_n_per_m_3_2: f64,
+    /// C of the contact force C ẋ^{3/2}.
+    pub contact_damping_n_s_3_2_per_m_3_2: f64,
+    /// Gap at every flank of the centred blade.
+    pub clearance_m: f64,
+    /// Where the flanks touch.
+    pub pitch_radius_m: f64,
+    /// Direction of the weight, if it acts in the plane of the blade.
+    pub weight_angle_rad: Option<f64>,
+}
+
+/// Teeth are simulated one by one; no spline has more.
+const MAX_TEETH: u32 = 200;
+/// Beyond it a flank is rather a stop in the radius than a tooth that drives.
+const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
+/// A contact stiffer or more viscous than this is rigid to all digits of a double.
+const MAX_CONTACT: f64 = 1e18;
+
+impl Spline {
+    pub(super) fn of(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
+        let Some(typed) = &file.spline else {
+            return Ok(None);
+        };
+        let refuse = |key: &str, value: String, allowed: String, remedy| {
+            let key = key.to_owned();
+            Err(SceneError::Value {
+                key,
+                value,
+                allowed,
+                remedy,
+            })
+        };
+        if let Mount::Collar { .. } = file.mount {
+            let allowed = "spline when the scene has a spline block".to_owned();
+            let remedy = "a collar holds the blade in its plane; leave one of the two out";
+            return refuse("mount.kind", "collar".to_owned(), allowed, remedy);
+        }
+        if !(1..=MAX_TEETH).contains(&typed.teeth) {
+            let allowed = format!("between 1 and {MAX_TEETH}");
+            let remedy = "count the teeth of the spline, not those that cut";
+            return refuse("spline.teeth", typed.teeth.to_string(), allowed, remedy);
+        }
+        Self::measured(typed, blade).map(Some)
+    }
+
+    fn measured(typed: &SplineFile, blade: &Blade) -> Result<Self, SceneError> {
+        let bore = blade.inner_radius_m;
+        let typed_radius = typed.pitch_radius_m.unwrap_or(bore);
+        Ok(Spline {
+            teeth: typed.teeth as usize,
+            pressure_angle_rad: within(
+                "spline.pressure_angle_deg",
+                typed.pressure_angle_deg,
+                (0.0, MAX_PRESSURE_ANGLE_DEG),
+            )?
+            .to_radians(),
+            contact_stiffness_n_per_m_3_2: positive(
+                "spline.contact_stiffness_n_per_m_3_2",
+                typed.contact_stiffness_n_per_m_3_2,
+            )?,
+            contact_damping_n_s_3_2_per_m_3_2: within(
+                "spline.contact_damping_n_s_3_2_per_m_3_2",
+                typed.contact_damping_n_s_3_2_per_m_3_2,
+                (0.0, MAX_CONTACT),
+            )?,
+            // A gap wider than the bore's radius would let the arbor fall out of it.
+            clearance_m: within("spline.clearance_m", typed.clearance_m, (0.0, bore))?,
+            pitch_radius_m: within(
+                "spline.pitch_radius_m",
+                typed_radius,
+                (0.5 * bore, blade.outer_radius_m),
+            )?,
+            weight_angle_rad: typed
+                .weight_angle_deg
+                .map(|angle| within("spline.weight_angle_deg", angle, (-3600.0, 3600.0)))
+                .transpose()?
+                .map(f64::to_radians),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{InPlane, Scene};
+
+    fn with(change: impl FnOnce(&mut SceneFile, &mut SplineFile)) -> Result<Scene, SceneError> {
+        let mut file = Scene::paper().file;
+        let mut spline = SplineFile {
+            teeth: 20,
+            pressure_angle_deg: 30.0,
+            contact_stiffness_n_per_m_3_2: 7e9,
+            contact_damping_n_s_3_2_per_m_3_2: 0.0,
+            clearance_m: papers_clearance_m(),
+            pitch_radius_m: None,
+            weight_angle_deg: None,
+        };
+        change(&mut file, &mut spline);
+        file.spline = Some(spline);
+        Scene::try_from(file)
+    }
+
+    #[test]
+    fn refusals_name_the_key() {
+        let collar = Mount::Collar {
+            diameter_m: 0.3,
+            in_plane: InPlane::Free,
+        };
+        let cases: [(&str, Result<Scene, SceneError>); 7] = [
+            ("mount.kind", with(|file, _| file.mount = collar)),
+            ("spline.teeth", with(|_, s| s.teeth = 0)),
+            (
+                "spline.pressure_angle_deg",
+                with(|_, s| s.pressure_angle_deg = 90.0),
+            ),
+            (
+                "spline.contact_stiffness_n_per_m_3_2",
+                with(|_, s| s.contact_stiffness_n_per_m_3_2 = 0.0),
+            ),
+            (
+                "spline.contact_damping_n_s_3_2_per_m_3_2",
+                with(|_, s| s.contact_damping_n_s_3_2_per_m_3_2 = f64::NAN),
+            ),
+            ("spline.clearance_m", with(|_, s| s.clearance_m = 0.25)),
+            (
+                "spline.pitch_radius_m",
+                with(|_, s| s.pitch_radius_m = Some(100.0)),
+            ),
+        ];
+        for (expected, result) in cases {
+            match result {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_papers_clearance_and_the_bore_are_the_only_defaults() {
+        let typed = r#"{ "teeth": 20, "pressure_angle_deg": 0,
+            "contact_stiffness_n_per_m_3_2": 7e9, "contact_damping_n_s_3_2_per_m_3_2": 0 }"#;
+        let typed: SplineFile = serde_json::from_str(typed).unwrap();
+        let blade = Scene::paper().blade;
+        let spline = Spline::measured(&typed, &blade).unwrap();
+        assert_eq!(spline.clearance_m, 0.25e-3);
+        assert_eq!(spline.pitch_radius_m, blade.inner_radius_m);
+        assert_eq!(spline.weight_angle_rad, None);
+        assert!(serde_json::from_str::<SplineFile>(r#"{ "teeth": 20 }"#).is_err());
+    }
+}

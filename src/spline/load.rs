@@ -1,0 +1,42 @@
+//! Resultant of what acts on the blade in its plane.
+
+use std::f64::consts::PI;
+
+use crate::plate::RimForce;
+use crate::scene::Blade;
+
+/// Standard acceleration of free fall (CGPM 1901).
+const GRAVITY_M_PER_S2: f64 = 9.80665;
+
+/// Resultant of the loads at the centre of the blade, fixed in space.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlaneLoad {
+    /// F_x, F_y; x points to the cut, θ = 0.
+    pub force_n: [f64; 2],
+    /// About the axis, positive in the direction of rotation.
+    pub torque_n_m: f64,
+}
+
+impl PlaneLoad {
+    /// Forces at the rim, and the weight of the blade towards `weight_angle_rad`.
+    pub fn new(blade: &Blade, loads: &[RimForce], weight_angle_rad: Option<f64>) -> Self {
+        let mut sum = PlaneLoad::default();
+        if let Some(angle) = weight_angle_rad {
+            let weight = mass_kg(blade) * GRAVITY_M_PER_S2;
+            sum.force_n = [weight * angle.cos(), weight * angle.sin()];
+        }
+        for load in loads {
+            let (sin, cos) = load.angle_rad.sin_cos();
+            sum.force_n[0] += load.radial_n * cos - load.tangential_n * sin;
+            sum.force_n[1] += load.radial_n * sin + load.tangential_n * cos;
+            sum.torque_n_m += blade.outer_radius_m * load.tangential_n;
+        }
+        sum
+    }
+}
+
+/// Mass of the annulus.
+pub fn mass_kg(blade: &Blade) -> f64 {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    blade.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a)
+}

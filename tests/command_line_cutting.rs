@@ -1,0 +1,157 @@
+//! Goal: `cut` and `runup` keep their word to the person or script that runs them.
+//!
+//! Source: `--help`, the README, and the paper's verdicts (section 3.2).
+
+use std::path::PathBuf;
+use std::process::Output;
+
+use assert_cmd::Command;
+use sawflutter::report::{CutReport, RunUpReport, Verdict};
+use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
+use tempfile::TempDir;
+
+fn run(arguments: &[&str], folder: &TempDir) -> Output {
+    let out = folder.path().join("out");
+    Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+        .args(arguments)
+        .arg("--out")
+        .arg(out)
+        .output()
+        .unwrap()
+}
+
+fn names(folder: &TempDir) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
+        .map(|entries| {
+            entries
+                .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+                .collect()
+        })
+        .unwrap_or_default();
+    names.sort();
+    names
+}
+
+fn written(folder: &TempDir, file: &SceneFile) -> PathBuf {
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, serde_json::to_string(file).unwrap()).unwrap();
+    path
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
+    let folder = TempDir::new().unwrap();
+    let output = run(&["cut"], &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let expected = [
+        "cut-map.png",
+        "cut-map.svg",
+        "cut.json",
+        "cut.png",
+        "cut.svg",
+    ];
+    assert_eq!(names(&folder), expected);
+    let summary = text(&output.stdout);
+    assert!(
+        summary.contains("UNSTABLE") && summary.contains("agrees"),
+        "{summary}"
+    );
+    for line in summary.lines() {
+        assert!(
+            line.chars().count() <= 80 || line.starts_with("Written"),
+            "{line}"
+        );
+    }
+    let json = std::fs::read(folder.path().join("out/cut.json")).unwrap();
+    let report: CutReport = serde_json::from_slice(&json).unwrap();
+    let verdicts: Vec<(f64, Verdict, Option<bool>)> = report
+        .runs
+        .iter()
+        .map(|run| (run.rpm.round(), run.verdict, run.agree))
+        .collect();
+    let expected = [
+        (1800.0, Verdict::Stable, Some(true)),
+        (2800.0, Verdict::Unstable, Some(true)),
+    ];
+    assert_eq!(verdicts, expected);
+    // The JSON is for programs in other languages too: no number in it is not one.
+    assert!(!text(&json).contains("NaN"));
+}
+
+#[test]
+fn a_speed_of_ones_own_replaces_the_scenes() {
+    let folder = TempDir::new().unwrap();
+    let arguments = ["cut", "--rpm", "2800", "--accuracy", "draft", "--json"];
+    let output = run(&arguments, &folder);
+    let report: CutReport = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report.runs.len(), 1);
+    assert_eq!(report.scene.accuracy, Accuracy::Draft);
+}
+
+#[test]
+fn a_run_up_tells_of_every_band_it_passes() {
+    let folder = TempDir::new().unwrap();
+    let mut file = Scene::paper().file;
+    file.runup = Some(RunUpFile {
+        from_rpm: 1000.0,
+        to_rpm: 2000.0,
+        duration_s: 5.0,
+        force_n: 5.0,
+        angle_deg: 0.0,
+    });
+    let scene = written(&folder, &file);
+    let output = run(
+        &["runup", scene.to_str().unwrap(), "--accuracy", "draft"],
+        &folder,
+    );
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let expected = [
+        "response-map.png",
+        "response-map.svg",
+        "runup.json",
+        "runup.png",
+        "runup.svg",
+    ];
+    assert_eq!(names(&folder), expected);
+    let json = std::fs::read(folder.path().join("out/runup.json")).unwrap();
+    let report: RunUpReport = serde_json::from_slice(&json).unwrap();
+    // The divergence near 1540 rpm: 21 rpm wide, passed at 200 rpm/s.
+    let band = &report.bands[0];
+    assert!((band.time_s - (band.band.to_rpm - band.band.from_rpm) / 200.0).abs() < 1e-9);
+    let bound = band.band.peak_growth_per_s * band.time_s;
+    assert!(band.growth_exponent > 0.5 * bound && band.growth_exponent < bound);
+}
+
+/// What the scene lacks is named, with exit code 2 and nothing written.
+#[test]
+fn a_scene_without_the_forces_is_refused() {
+    let cases: [(&[&str], &str, fn(&mut SceneFile)); 5] = [
+        (&["cut"], "cut is missing", |file| file.cut = None),
+        (&["runup"], "runup is missing", |file| file.runup = None),
+        (&["cut", "--rpm", "-5"], "rpm is -5", |_| ()),
+        (&["cut"], "cut.speeds is missing", |file| {
+            file.operating_rpm = None;
+            file.cut.as_mut().unwrap().speeds.clear();
+        }),
+        (&["cut"], "cut.teeth_in_cut is missing", |file| {
+            file.cut.as_mut().unwrap().depth_m = None;
+        }),
+    ];
+    for (arguments, expected, change) in cases {
+        let folder = TempDir::new().unwrap();
+        let mut file = Scene::paper().file;
+        change(&mut file);
+        let scene = written(&folder, &file);
+        let mut arguments = arguments.to_vec();
+        arguments.insert(1, scene.to_str().unwrap());
+        let output = run(&arguments, &folder);
+        assert_eq!(output.status.code(), Some(2), "{expected}");
+        let error = text(&output.stderr);
+        assert!(error.contains(expected), "{expected}: {error}");
+        assert_eq!(names(&folder), Vec::<String>::new(), "{expected}");
+    }
+}

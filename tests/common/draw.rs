@@ -1,0 +1,201 @@
+//! Scenes from bytes, sound and absurd ones, for the fuzzers: the tests feed it drawn
+//! bytes, `fuzz/` those that libFuzzer thinks up.
+
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::report::Report;
+use sawflutter::scene::{
+    Accuracy, DampingFile, GuideFile, InPlane, Mount, Scene, SceneFile, SweepFile, rad_per_s,
+};
+use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::stability::{Analysis, chart};
+
+/// Reads numbers off bytes; behind the last byte come zeros.
+pub struct Bytes<'a>(pub &'a [u8]);
+
+impl Bytes<'_> {
+    fn next(&mut self) -> u8 {
+        let (first, rest) = self.0.split_first().unwrap_or((&0, &[]));
+        self.0 = rest;
+        *first
+    }
+
+    /// Between 0 and 1.
+    fn unit(&mut self) -> f64 {
+        f64::from(u16::from_le_bytes([self.next(), self.next()])) / 65535.0
+    }
+
+    fn one_in(&mut self, count: u8) -> bool {
+        self.next().is_multiple_of(count)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + self.unit() * (high - low)
+    }
+
+    /// Around a sound value, now and then many orders away from it or no number at all.
+    fn near(&mut self, value: f64) -> f64 {
+        if self.one_in(40) {
+            let absurd = [
+                0.0,
+                -value,
+                f64::NAN,
+                f64::INFINITY,
+                1e300,
+                5e-324,
+                1e-12,
+                1e15,
+            ];
+            return absurd[usize::from(self.next()) % absurd.len()];
+        }
+        let decades = if self.one_in(6) { 8.0 } else { 0.7 };
+        value * 10_f64.powf(self.between(-decades, decades))
+    }
+}
+
+fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
+    let point = bytes.one_in(5);
+    let side = |bytes: &mut Bytes<'_>| {
+        if point {
+            0.0
+        } else {
+            bytes.near(0.3 * outer_m)
+        }
+    };
+    GuideFile {
+        radius_m: bytes.between(0.0, 1.1) * outer_m,
+        angle_deg: bytes.between(-400.0, 400.0),
+        radial_length_m: side(bytes),
+        tangential_length_m: side(bytes),
+        stiffness_n_per_m: bytes.near(1e6),
+        damping_n_s_per_m: if bytes.one_in(6) {
+            bytes.near(10.0)
+        } else {
+            0.0
+        },
+    }
+}
+
+/// A scene; most are valid, some only nearly.
+pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
+    let mut file = Scene::paper().file;
+    file.measured = None;
+    // What belongs to the paper's own blade.
+    (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
+    file.guides.clear();
+    file.accuracy = Accuracy::Draft;
+    let outer = bytes.near(0.5);
+    let inner = outer * bytes.between(0.0, 1.02);
+    let blade = &mut file.blade;
+    blade.outer_diameter_m = outer;
+    blade.inner_diameter_m = inner;
+    blade.thickness_m = (outer - inner) * 10_f64.powf(bytes.between(-5.0, 0.0));
+    blade.material.youngs_modulus_pa = bytes.near(2e11);
+    blade.material.density_kg_per_m3 = bytes.near(7800.0);
+    blade.material.poisson_ratio = bytes.between(-1.0, 0.5);
+    if bytes.one_in(3) {
+        file.mount = Mount::Collar {
+            diameter_m: inner + bytes.between(0.0, 1.0) * (outer - inner),
+            in_plane: if bytes.one_in(2) {
+                InPlane::Fixed
+            } else {
+                InPlane::Free
+            },
+        };
+    }
+    for _ in 0..bytes.next() % 4 {
+        let pad = guide(bytes, 0.5 * outer);
+        file.guides.push(pad);
+    }
+    if bytes.one_in(5) {
+        file.damping = Some(DampingFile {
+            material_retardation_time_s: bytes.near(1e-6),
+            air_n_s_per_m3: bytes.near(1.0),
+        });
+    }
+    file.sweep = bytes.one_in(3).then(|| SweepFile {
+        from_rpm: if bytes.one_in(2) {
+            0.0
+        } else {
+            bytes.near(100.0)
+        },
+        to_rpm: bytes.near(2000.0),
+    });
+    file.operating_rpm = bytes.one_in(2).then(|| bytes.near(1000.0));
+    file.flutter_threshold_per_s = bytes.near(0.25);
+    file
+}
+
+/// A basis so small that thousands of scenes can be drawn.
+const SMALL: Resolution = Resolution {
+    max_diameters: 3,
+    radial_functions: 3,
+};
+
+/// Critical speeds, and all modes below and above the lowest. Whatever comes out is finite
+/// or an error.
+pub fn survives_two_speeds(scene: &Scene) {
+    let plate = Plate::new(scene, SMALL);
+    let Ok(critical) = SpectralModel::critical_speeds(&plate) else {
+        return;
+    };
+    let mut speeds = critical.iter().map(|c| c.speed_rad_per_s);
+    assert!(speeds.clone().all(|speed| speed.is_finite() && speed > 0.0));
+    let lowest = speeds.next().unwrap_or(rad_per_s(1000.0));
+    let Ok(model) = SpectralModel::new(plate, (0.0, lowest), Strategy::Dense) else {
+        return;
+    };
+    for speed in [0.0, 0.7 * lowest, 1.4 * lowest] {
+        let modes = model.all_modes(speed).unwrap_or_default();
+        for described in model.describe(speed, modes) {
+            let lambda = described.mode.lambda;
+            assert!(lambda.is_finite(), "{lambda}");
+            assert!(described.backward_error.is_finite());
+            assert!(described.shape.is_all_finite());
+        }
+    }
+}
+
+/// Bands over the lowest three critical speeds.
+pub fn survives_chart(scene: &Scene) {
+    let plate = Plate::new(scene, SMALL);
+    let Ok(critical) = SpectralModel::critical_speeds(&plate) else {
+        return;
+    };
+    let speeds = critical.iter().take(3).map(|c| 1.1 * c.speed_rad_per_s);
+    let top = speeds.last().unwrap_or(rad_per_s(1000.0));
+    let Ok(model) = SpectralModel::new(plate, (0.0, top), Strategy::Dense) else {
+        return;
+    };
+    let Ok(chart) = chart(&model, (0.0, top), 5, &|_, _| ()) else {
+        return;
+    };
+    for band in &chart.instabilities {
+        let numbers = [
+            band.from,
+            band.to,
+            band.peak,
+            band.peak_growth_per_s,
+            band.frequency,
+        ];
+        assert!(
+            numbers.iter().all(|x| x.is_finite()) && band.from <= band.to,
+            "{band:?}"
+        );
+    }
+}
+
+/// Everything that `sawflutter analyze` computes. JSON has no NaN: it would be written as
+/// null, which no number of a report may be.
+pub fn survives_analysis(scene: &Scene) -> bool {
+    let Ok(analysis) = Analysis::new(scene, &|_, _| ()) else {
+        return false;
+    };
+    let report = Report::new(scene, &analysis).expect("the modes at rest are in the chart");
+    let json = serde_json::to_string(&report).expect("a report is JSON");
+    let read: Report =
+        serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {json}"));
+    assert!(read == report);
+    let csv = String::from_utf8(report.campbell_csv().expect("CSV")).expect("UTF-8");
+    assert!(!csv.contains("NaN") && !csv.contains("inf"), "{csv}");
+    true
+}

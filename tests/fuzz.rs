@@ -1,0 +1,154 @@
+//! Goal: no scene makes the program panic, hang, or report what is no number.
+//!
+//! The stable-toolchain version of `fuzz/`: the same scenes from drawn bytes, the same in
+//! every run.
+
+#[path = "common/draw.rs"]
+mod draw;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use draw::Bytes;
+use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use rayon::prelude::*;
+use sawflutter::scene::{Scene, SceneFile};
+
+fn drawn(rng: &mut TestRng, length: usize) -> Vec<u8> {
+    let mut bytes = vec![0; length];
+    rng.fill_bytes(&mut bytes);
+    bytes
+}
+
+fn rng() -> TestRng {
+    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
+}
+
+/// Enough bytes for every number of a scene with three pads.
+const SCENE_BYTES: usize = 160;
+
+/// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
+const CHARTED: usize = 150;
+const ANALYZED: usize = 24;
+
+/// Valid scenes among the first `count` drawn ones.
+fn scenes(count: usize) -> Vec<Scene> {
+    let mut rng = rng();
+    let files = (0..count).map(|_| draw::scene_file(&mut Bytes(&drawn(&mut rng, SCENE_BYTES))));
+    files
+        .filter_map(|file| Scene::try_from(file).ok())
+        .collect()
+}
+
+/// Fails with the scene that brought it down.
+fn assert_survives(scene: &Scene, survives: impl Fn(&Scene)) {
+    if catch_unwind(AssertUnwindSafe(|| survives(scene))).is_err() {
+        panic!(
+            "brought down by {}",
+            serde_json::to_string(&scene.file).unwrap()
+        );
+    }
+}
+
+#[test]
+fn drawn_scenes_on_a_small_basis() {
+    let scenes = scenes(10_000);
+    println!("{} of 10000 are valid", scenes.len());
+    assert!(
+        scenes.len() > 3000,
+        "the draw tests nothing: {}",
+        scenes.len()
+    );
+    scenes
+        .par_iter()
+        .for_each(|scene| assert_survives(scene, draw::survives_two_speeds));
+    scenes[..CHARTED]
+        .par_iter()
+        .for_each(|scene| assert_survives(scene, draw::survives_chart));
+}
+
+#[test]
+fn drawn_scenes_analyzed_in_full() {
+    let done: Vec<bool> = scenes(20 * ANALYZED)
+        .par_iter()
+        .take(ANALYZED)
+        .map(|scene| {
+            let charted = std::sync::atomic::AtomicBool::new(false);
+            assert_survives(scene, |scene| {
+                charted.store(
+                    draw::survives_analysis(scene),
+                    std::sync::atomic::Ordering::Relaxed,
+                );
+            });
+            charted.into_inner()
+        })
+        .collect();
+    let charted = done.iter().filter(|done| **done).count();
+    println!(
+        "{charted} of {} are charted, the others refused",
+        done.len()
+    );
+    assert!(2 * charted > done.len());
+}
+
+/// The text of a scene, damaged: bytes exchanged, cut out, doubled; numbers exchanged for
+/// others. The reader refuses it or makes a scene of it.
+#[test]
+fn damaged_scene_files_are_read_or_refused() {
+    let texts: Vec<String> = ["paper", "free-blade", "collar-400mm", "two-pads"]
+        .iter()
+        .map(|name| {
+            let folder = env!("CARGO_MANIFEST_DIR");
+            std::fs::read_to_string(format!("{folder}/scenes/{name}.json")).unwrap()
+        })
+        .collect();
+    let tokens = [
+        "1e999", "-0", "null", "NaN", "{}", "[]", "\"\"", "true", "1e-400", "9e15", "}", ",", ":",
+    ];
+    let mut rng = rng();
+    let mut read = 0;
+    for _ in 0..30_000 {
+        let mut text = texts[rng.next_u32() as usize % texts.len()]
+            .clone()
+            .into_bytes();
+        for _ in 0..1 + rng.next_u32() % 4 {
+            let at = rng.next_u32() as usize % text.len();
+            let end = (at + rng.next_u32() as usize % 8).min(text.len());
+            let token = tokens[rng.next_u32() as usize % tokens.len()].as_bytes();
+            match rng.next_u32() % 4 {
+                0 => text[at] = (rng.next_u32() & 0xff) as u8,
+                1 => drop(text.drain(at..end)),
+                2 => drop(text.splice(at..end, token.iter().copied())),
+                _ => {
+                    let doubled = text[at..end].to_vec();
+                    text.splice(at..at, doubled);
+                }
+            }
+            if text.is_empty() {
+                break;
+            }
+        }
+        let text = String::from_utf8_lossy(&text);
+        if let Ok(scene) = Scene::from_json(&text) {
+            read += 1;
+            // What was read can be written and read again.
+            let again: SceneFile =
+                serde_json::from_str(&serde_json::to_string(&scene.file).unwrap()).unwrap();
+            assert_eq!(again, scene.file);
+        }
+    }
+    println!("{read} of 30000 are still scenes");
+    assert!((100..29_000).contains(&read), "{read}");
+}
+
+/// Deeply nested or endless text is refused before it takes the stack or the memory.
+#[test]
+fn hostile_texts_are_refused() {
+    for text in [
+        "[".repeat(200_000),
+        "{\"name\":".repeat(100_000),
+        "9".repeat(1 << 19),
+    ] {
+        assert!(Scene::from_json(&text).is_err());
+    }
+}

@@ -1,0 +1,168 @@
+//! The reaction assumed at the bore against that of simulated spline teeth.
+//!
+//! The paper's blade in the paper's cut (Table 3, four teeth of 42, 2800 rpm). The paper
+//! gives neither number nor shape of the spline teeth: 20 teeth, with flanks along the
+//! radius and at 30° to it, bracket what splines are like.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, Side};
+use sawflutter::plate::{Plate, Resolution, RimForce};
+use sawflutter::scene::{Scene, Spline, rad_per_s};
+use sawflutter::spectrum::companion_eigenpairs;
+use sawflutter::spline::{ReactionEffect, Run, SplineRun, reaction_effect, simulate};
+use sawflutter::system::GyroscopicSystem;
+
+/// K and C of the paper in millimetres, N/mm^{3/2} and N/(mm/s)^{3/2}, and in metres.
+const IN_MILLIMETRES: [f64; 2] = [6.957e9, 4743.0];
+const IN_METRES: [f64; 2] = [2.2e5, 0.15];
+
+fn paper_on_spline(degrees: f64, [stiffness, damping]: [f64; 2]) -> Scene {
+    let mut scene = Scene::paper();
+    scene.spline = Some(Spline {
+        teeth: 20,
+        pressure_angle_rad: degrees.to_radians(),
+        contact_stiffness_n_per_m_3_2: stiffness,
+        contact_damping_n_s_3_2_per_m_3_2: damping,
+        clearance_m: 0.25e-3,
+        pitch_radius_m: scene.blade.inner_radius_m,
+        weight_angle_rad: None,
+    });
+    scene
+}
+
+/// [tangential, radial] newtons a tooth, against the rotation and inwards.
+fn paper_cut([tangential_n, radial_n]: [f64; 2]) -> [RimForce; 4] {
+    [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
+        angle_rad: pitches * TAU / 42.0,
+        radial_n: -radial_n,
+        tangential_n: -tangential_n,
+    })
+}
+
+fn plate() -> Plate {
+    let resolution = Resolution {
+        max_diameters: 8,
+        radial_functions: 6,
+    };
+    Plate::new(&Scene::paper(), resolution)
+}
+
+/// The fastest growing eigenvalue: (1/s, Hz).
+fn fastest(plate: &Plate, edge: &Mat<f64>, rpm: f64) -> (f64, f64) {
+    let mut system = GyroscopicSystem::of_plate(plate);
+    system.stiffness += edge;
+    let lambda = companion_eigenpairs(&system, rad_per_s(rpm))
+        .unwrap()
+        .into_iter()
+        .map(|(lambda, _)| lambda)
+        .max_by(|x, y| x.re.total_cmp(&y.re))
+        .unwrap();
+    (lambda.re, lambda.im.abs() / TAU)
+}
+
+/// The modes of the guided blade at rest that a verdict is about.
+fn low_modes(plate: &Plate) -> Mat<f64> {
+    let stiffness = GyroscopicSystem::of_plate(plate).stiffness;
+    let modes = stiffness.self_adjoint_eigen(Side::Lower).unwrap();
+    modes.U().subcols(0, 16).to_owned()
+}
+
+fn in_the_cut(
+    scene: &Scene,
+    plate: &Plate,
+    cut: [f64; 2],
+    rpm: f64,
+) -> (SplineRun, ReactionEffect) {
+    let loads = paper_cut(cut);
+    let run = simulate(scene, &loads, rad_per_s(rpm), &Run::default()).unwrap();
+    let effect = reaction_effect(plate, &loads, &run.reaction);
+    (run, effect)
+}
+
+/// Straight flanks take the torque as a shear and the force as more of it on one side:
+/// little else than what is assumed. The flutter stays.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+fn straight_flanks_react_nearly_as_assumed() {
+    let plate = plate();
+    let scene = paper_on_spline(0.0, IN_MILLIMETRES);
+    let (_, effect) = in_the_cut(&scene, &plate, [1240.0, 88.0], 2800.0);
+    let change = effect.relative_change_on(low_modes(&plate).as_ref());
+    assert!(change > 0.01 && change < 0.15, "{change}");
+    let (assumed, _) = fastest(&plate, &effect.assumed, 2800.0);
+    let (simulated, hertz) = fastest(&plate, &effect.simulated, 2800.0);
+    assert!(
+        (simulated / assumed - 1.0).abs() < 0.05,
+        "{assumed} {simulated}"
+    );
+    assert!(hertz < 5.0, "{hertz}");
+}
+
+/// Flanks at 30° turn the drive into a pressure on the bore, tan 30° of it, which the
+/// assumed reaction knows nothing of. It decides the verdict.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+fn slanted_flanks_press_the_bore_and_change_the_verdict() {
+    let plate = plate();
+    let scene = paper_on_spline(30.0, IN_MILLIMETRES);
+    let (run, effect) = in_the_cut(&scene, &plate, [1240.0, 88.0], 2800.0);
+    let pressure: f64 = run.reaction.stations.iter().map(|f| f.radial_n).sum();
+    let drive: f64 = run.reaction.stations.iter().map(|f| f.tangential_n).sum();
+    // Only the driving flanks touch, so that every force has this slope.
+    let slope = pressure / drive;
+    assert!((slope - 30_f64.to_radians().tan()).abs() < 1e-12, "{slope}");
+    assert!(effect.relative_change_on(low_modes(&plate).as_ref()) > 0.3);
+    let (assumed, _) = fastest(&plate, &effect.assumed, 2800.0);
+    let (simulated, _) = fastest(&plate, &effect.simulated, 2800.0);
+    assert!(assumed > 1.0 && simulated < 1e-6, "{assumed} {simulated}");
+}
+
+/// Read in metres, the paper's K lets the cut press a tooth in by more than a centimetre,
+/// a hundred gaps; read in millimetres by some hundredths of a millimetre. As long as the
+/// drive keeps one flank of every tooth loaded, the mean reaction hardly cares.
+#[test]
+fn the_papers_stiffness_in_metres_is_too_soft_to_be_a_contact() {
+    let plate = plate();
+    let [soft, stiff] = [IN_METRES, IN_MILLIMETRES].map(|contact| {
+        let scene = paper_on_spline(0.0, contact);
+        in_the_cut(&scene, &plate, [1064.0, 75.0], 1800.0)
+    });
+    let deepest = |(run, _): &(SplineRun, _)| run.reaction.teeth.deepest_m;
+    assert!(deepest(&soft) > 10e-3, "{}", deepest(&soft));
+    assert!(deepest(&stiff) < 0.1e-3, "{}", deepest(&stiff));
+    let apart = (&soft.1.simulated - &stiff.1.simulated).norm_l2() / stiff.1.simulated.norm_l2();
+    assert!(apart < 1e-2, "{apart}");
+}
+
+/// The figures of the README.
+#[test]
+#[ignore = "prints figures; run it in release"]
+fn print_what_the_spline_changes() {
+    let plate = plate();
+    let modes = low_modes(&plate);
+    for (name, contact) in [("mm", IN_MILLIMETRES), ("m", IN_METRES)] {
+        for degrees in [0.0, 10.0, 20.0, 30.0] {
+            for (rpm, cut) in [(1800.0, [1064.0, 75.0]), (2800.0, [1240.0, 88.0])] {
+                let scene = paper_on_spline(degrees, contact);
+                let (run, effect) = in_the_cut(&scene, &plate, cut, rpm);
+                let teeth = &run.reaction.teeth;
+                println!(
+                    "{name}, {degrees}°, {rpm} rpm: {:?} teeth, up to {:.0} N, {:.3} mm; K_e {:.1} %, \
+                     low modes {:.1} %; assumed {:.3?} simulated {:.3?}; {} steps, defect {:.0e}, \
+                     unsteadiness {:.0e}",
+                    teeth.fewest..=teeth.most,
+                    teeth.peak_n,
+                    1e3 * teeth.deepest_m,
+                    100.0 * effect.relative_change(),
+                    100.0 * effect.relative_change_on(modes.as_ref()),
+                    fastest(&plate, &effect.assumed, rpm),
+                    fastest(&plate, &effect.simulated, rpm),
+                    run.steps,
+                    run.energy_defect,
+                    run.reaction.unsteadiness,
+                );
+            }
+        }
+    }
+}
