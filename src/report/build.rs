@@ -5,21 +5,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
+use super::branches::branches;
+use super::remarks::{reached, terms, warnings};
 use super::{
-    AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
+    AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
     InstabilityEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
     SensitivityEntry, ShapeEntry, WorkEntry,
 };
-use crate::campbell::Branch;
 use crate::plate::Plate;
-use crate::scene::{Bore, Scene, rpm};
+use crate::scene::{Scene, rpm};
 use crate::spectrum::{DescribedMode, Direction, SpectrumError, WorkCounters, in_words};
 use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
-/// Relative rounding from which a frequency is not to be trusted to six digits.
-const LEAST_DIGITS: f64 = 1e-6;
 /// Two critical speeds closer than this, of one name, are a double one.
 const DOUBLE: f64 = 1e-9;
 
@@ -116,31 +115,6 @@ impl From<&Sensitivity> for SensitivityEntry {
             frequency_hz: s.eigenvalues.iter().map(|l| l.im / TAU).collect(),
         }
     }
-}
-
-fn terms(plate: &Plate) -> Vec<String> {
-    let always = [
-        "bending K_b",
-        "centrifugal stress K_sigma",
-        "rotation N",
-        "gyroscopic G",
-    ];
-    let mut terms: Vec<String> = always.map(String::from).to_vec();
-    let mut add = |present: bool, name: &str| {
-        if present {
-            terms.push(name.to_owned());
-        }
-    };
-    add(plate.guide_stiffness.is_some(), "guide stiffness K_g");
-    add(plate.guide_damping.is_some(), "guide damping C");
-    let damping = plate.damping.as_ref();
-    add(
-        damping.is_some_and(|d| d.air_n_s_per_m3 > 0.0),
-        "air damping C",
-    );
-    let material = damping.is_some_and(|d| d.material_retardation_time_s > 0.0);
-    add(material, "material damping C and K_circ");
-    terms
 }
 
 fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
@@ -267,74 +241,6 @@ fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
     }
 }
 
-fn branches(analysis: &Analysis) -> Vec<BranchEntry> {
-    let mut entries: Vec<BranchEntry> = analysis
-        .chart
-        .campbell
-        .branches
-        .iter()
-        .map(|branch| branch_entry(analysis, branch))
-        .collect();
-    let start = |e: &BranchEntry| (e.rpm[0], e.frequency_hz[0]);
-    entries.sort_by(|x, y| {
-        let (x, y) = (start(x), start(y));
-        x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1))
-    });
-    entries
-}
-
-fn branch_entry(analysis: &Analysis, branch: &Branch) -> BranchEntry {
-    let campbell = &analysis.chart.campbell;
-    let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
-    let ((nodal_diameters, nodal_circles), direction) = branch_name(&modes);
-    let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
-    BranchEntry {
-        name: in_words(nodal_diameters, nodal_circles, direction),
-        nodal_diameters,
-        nodal_circles,
-        direction,
-        rpm: branch
-            .points
-            .iter()
-            .map(|&(s, _)| rpm(campbell.samples[s].speed_rad_per_s))
-            .collect(),
-        frequency_hz: list(|m| m.mode.frequency_rad_per_s() / TAU),
-        body_frequency_hz: list(|m| m.name.body_frequency_rad_per_s / TAU),
-        growth_per_s: list(|m| m.mode.growth_per_s()),
-        krein_sign: modes.iter().map(|m| m.mode.krein_sign()).collect(),
-        dominant_harmonics: modes
-            .iter()
-            .map(|m| {
-                let diameters =
-                    |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
-                [diameters(0), diameters(1)]
-            })
-            .collect(),
-    }
-}
-
-/// What most points of a branch are called; at rest waves stand, which names no direction.
-fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
-    let commonest = |names: Vec<(usize, usize, Direction)>| {
-        let count = |name: &(usize, usize, Direction)| names.iter().filter(|n| *n == name).count();
-        names.iter().copied().rev().max_by_key(count)
-    };
-    let named = |m: &&DescribedMode| {
-        (
-            m.name.diameters,
-            m.name.circles,
-            m.name.direction_on_blade(),
-        )
-    };
-    let names = modes
-        .iter()
-        .skip(usize::from(modes.len() > 1))
-        .map(named)
-        .collect();
-    let (diameters, circles, direction) = commonest(names).unwrap_or((0, 0, Direction::Standing));
-    ((diameters, circles), direction)
-}
-
 fn work(counters: &WorkCounters) -> WorkEntry {
     let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
     WorkEntry {
@@ -343,68 +249,4 @@ fn work(counters: &WorkCounters) -> WorkEntry {
         local_solves: count(&counters.local_solves),
         refined_pairs: count(&counters.refined_pairs),
     }
-}
-
-fn reached(scene: &Scene, analysis: &Analysis) -> bool {
-    let error = analysis.estimated_relative_error;
-    error.is_some_and(|error| error <= scene.tolerance())
-}
-
-/// Limits of the model that this scene comes near to.
-fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
-    let plate = &analysis.model.plate;
-    let blade = &plate.blade;
-    let mut warnings = Vec::new();
-    if let Some(error) = analysis.estimated_relative_error
-        && !reached(scene, analysis)
-    {
-        warnings.push(format!(
-            "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
-            scene.tolerance(),
-            plate.degrees_of_freedom()
-        ));
-    }
-    let width = blade.outer_radius_m - blade.inner_radius_m;
-    if blade.thickness_m > 0.1 * width {
-        warnings.push(format!(
-            "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
-            blade.thickness_m / width
-        ));
-    }
-    let rounded = |m: &&DescribedMode| analysis.model.relative_rounding(&m.mode) > LEAST_DIGITS;
-    if let Some(slow) = at_rest.iter().rfind(rounded) {
-        warnings.push(format!(
-            "the frequencies of this scene are so far apart that rounding leaves fewer than \
-             six digits of those up to {:.3e} Hz",
-            slow.mode.frequency_rad_per_s() / TAU
-        ));
-    }
-    let certificate = &analysis.chart.certificate;
-    if let Some(first) = certificate.violations.first() {
-        warnings.push(format!(
-            "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be missing",
-            certificate.violations.len(),
-            certificate.speeds_checked,
-            rpm(*first)
-        ));
-    }
-    if analysis.chart.certificate.gave_up {
-        warnings.push(format!(
-            "the search for bands stopped after {} speeds: bands may be missing; narrow the sweep",
-            certificate.speeds_checked
-        ));
-    }
-    if matches!(blade.bore, Bore::Free)
-        && analysis
-            .model
-            .parts
-            .iter()
-            .any(|p| !p.full.free_rigid.is_empty())
-    {
-        warnings.push(
-            "nothing holds the blade against some rigid motion; it is left out of the modes"
-                .to_owned(),
-        );
-    }
-    warnings
 }

@@ -1,9 +1,11 @@
 //! The report: everything found out about a saw, complete enough that every
 //! figure can be drawn from it alone.
 
+mod branches;
 mod build;
 mod csv;
 mod cut;
+mod remarks;
 mod runup;
 mod spline;
 

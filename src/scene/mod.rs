@@ -4,6 +4,7 @@
 mod check;
 mod cut;
 mod file;
+mod guide;
 mod read;
 mod runup;
 mod spline;
@@ -14,10 +15,11 @@ pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
+pub use guide::Guide;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
-pub use validate::{Blade, Bore, Damping, Guide, Scene, SpeedRange};
+pub use validate::{Blade, Bore, Damping, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.
 pub fn rad_per_s(rpm: f64) -> f64 {

@@ -1,12 +1,13 @@
 //! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
 //! and radians, ready to compute with.
 
-use super::check::{MAX_GUIDE, MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
+use super::guide::{Guide, guide};
 use super::runup::{Probe, RunUp};
 use super::{
-    Accuracy, DampingFile, GuideFile, InPlane, Material, Mount, SceneError, SceneFile, Spline,
-    SweepFile, rad_per_s,
+    Accuracy, DampingFile, InPlane, Material, Mount, SceneError, SceneFile, Spline, SweepFile,
+    rad_per_s,
 };
 
 /// A validated saw.
@@ -64,23 +65,6 @@ pub enum Bore {
     Clamped(InPlane),
 }
 
-/// A guide pad on the blade, in radians.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Guide {
-    /// Distance of the centre from the axis.
-    pub radius_m: f64,
-    /// Angle of the centre.
-    pub angle_rad: f64,
-    /// Side along the radius; zero for a point spring.
-    pub radial_length_m: f64,
-    /// Side across the radius; zero for a point spring.
-    pub tangential_length_m: f64,
-    /// Stiffness of the whole pad.
-    pub stiffness_n_per_m: f64,
-    /// Damping of the whole pad.
-    pub damping_n_s_per_m: f64,
-}
-
 /// Damping of the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damping {
@@ -123,20 +107,6 @@ impl Blade {
     /// Mass per area ρh, in kg/m².
     pub fn mass_per_area_kg_per_m2(&self) -> f64 {
         self.material.density_kg_per_m3 * self.thickness_m
-    }
-}
-
-impl Guide {
-    /// A pad without size acts at a point.
-    pub fn is_point(&self) -> bool {
-        self.radial_length_m == 0.0
-    }
-
-    /// Distances from the axis to the nearest and to the farthest point of the pad.
-    fn reach_m(&self) -> (f64, f64) {
-        let half = [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m];
-        let nearest = (self.radius_m - half[0]).max(0.0);
-        (nearest, (self.radius_m + half[0]).hypot(half[1]))
     }
 }
 
@@ -253,50 +223,6 @@ fn material(typed: &Material) -> Result<Material, SceneError> {
         poisson_ratio: nu,
         density_kg_per_m3: positive("blade.material.density_kg_per_m3", typed.density_kg_per_m3)?,
     })
-}
-
-fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
-    let of = |name: &str| format!("{key}.{name}");
-    let size = (0.0, SPAN.1);
-    let pad = Guide {
-        radius_m: within(&of("radius_m"), typed.radius_m, size)?,
-        angle_rad: within(&of("angle_deg"), typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
-        radial_length_m: within(&of("radial_length_m"), typed.radial_length_m, size)?,
-        tangential_length_m: within(&of("tangential_length_m"), typed.tangential_length_m, size)?,
-        stiffness_n_per_m: within(
-            &of("stiffness_n_per_m"),
-            typed.stiffness_n_per_m,
-            (0.0, MAX_GUIDE),
-        )?,
-        damping_n_s_per_m: within(
-            &of("damping_n_s_per_m"),
-            typed.damping_n_s_per_m,
-            (0.0, MAX_GUIDE),
-        )?,
-    };
-    if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
-        return Err(refuse(
-            &of("tangential_length_m"),
-            pad.tangential_length_m,
-            "zero exactly when radial_length_m is",
-            "give both sides of the pad, or zero for both to make it a point spring",
-        ));
-    }
-    let (nearest_m, farthest_m) = pad.reach_m();
-    let touches = if pad.is_point() {
-        (blade.inner_radius_m..=blade.outer_radius_m).contains(&pad.radius_m)
-    } else {
-        nearest_m < blade.outer_radius_m && farthest_m > blade.inner_radius_m
-    };
-    if !touches {
-        let allowed = format!(
-            "such that the pad lies on the blade, which reaches from r = {} to {} m",
-            blade.inner_radius_m, blade.outer_radius_m
-        );
-        let remedy = "this pad is wholly off the blade; move it, or leave it out";
-        return Err(refuse(&of("radius_m"), pad.radius_m, allowed, remedy));
-    }
-    Ok(pad)
 }
 
 fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {

@@ -3,6 +3,7 @@
 mod deflation;
 mod dense;
 pub mod derivative;
+mod free_reduction;
 mod growth;
 mod low;
 mod mode;

@@ -16,8 +16,8 @@ use super::mode::{Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::projection::{Projection, pairs_of};
-use super::reduction;
 use super::{SpectrumError, companion_eigenpairs};
+use super::{free_reduction, reduction};
 
 /// How the modes of a speed are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -103,7 +103,7 @@ impl SpectralModel {
             let scale = frequency_scale(&plate);
             for (index, part) in parts.iter_mut().enumerate() {
                 if plate.is_axisymmetric() {
-                    let basis = reduction::of_harmonic(&plate, index, range);
+                    let basis = free_reduction::of_harmonic(&plate, index, range);
                     part.chart = vec![Projection::new(&part.full, basis, range.1)];
                 } else {
                     let found =

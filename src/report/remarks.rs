@@ -1,0 +1,102 @@
+//! What a report says about itself: the terms that are in, and how far it can be trusted.
+
+use std::f64::consts::TAU;
+
+use crate::plate::Plate;
+use crate::scene::{Bore, Scene, rpm};
+use crate::spectrum::DescribedMode;
+use crate::stability::Analysis;
+
+/// Relative rounding from which a frequency is not to be trusted to six digits.
+const LEAST_DIGITS: f64 = 1e-6;
+
+/// Terms of the equation of motion that were assembled.
+pub fn terms(plate: &Plate) -> Vec<String> {
+    let always = [
+        "bending K_b",
+        "centrifugal stress K_sigma",
+        "rotation N",
+        "gyroscopic G",
+    ];
+    let mut terms: Vec<String> = always.map(String::from).to_vec();
+    let mut add = |present: bool, name: &str| {
+        if present {
+            terms.push(name.to_owned());
+        }
+    };
+    add(plate.guide_stiffness.is_some(), "guide stiffness K_g");
+    add(plate.guide_damping.is_some(), "guide damping C");
+    let damping = plate.damping.as_ref();
+    add(
+        damping.is_some_and(|d| d.air_n_s_per_m3 > 0.0),
+        "air damping C",
+    );
+    let material = damping.is_some_and(|d| d.material_retardation_time_s > 0.0);
+    add(material, "material damping C and K_circ");
+    terms
+}
+
+/// Whether the estimated error is within the tolerance asked for.
+pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
+    let error = analysis.estimated_relative_error;
+    error.is_some_and(|error| error <= scene.tolerance())
+}
+
+/// Limits of the model that this scene comes near to.
+pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
+    let plate = &analysis.model.plate;
+    let blade = &plate.blade;
+    let mut warnings = Vec::new();
+    if let Some(error) = analysis.estimated_relative_error
+        && !reached(scene, analysis)
+    {
+        warnings.push(format!(
+            "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
+            scene.tolerance(),
+            plate.degrees_of_freedom()
+        ));
+    }
+    let width = blade.outer_radius_m - blade.inner_radius_m;
+    if blade.thickness_m > 0.1 * width {
+        warnings.push(format!(
+            "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
+            blade.thickness_m / width
+        ));
+    }
+    let rounded = |m: &&DescribedMode| analysis.model.relative_rounding(&m.mode) > LEAST_DIGITS;
+    if let Some(slow) = at_rest.iter().rfind(rounded) {
+        warnings.push(format!(
+            "the frequencies of this scene are so far apart that rounding leaves fewer than \
+             six digits of those up to {:.3e} Hz",
+            slow.mode.frequency_rad_per_s() / TAU
+        ));
+    }
+    let certificate = &analysis.chart.certificate;
+    if let Some(first) = certificate.violations.first() {
+        warnings.push(format!(
+            "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be missing",
+            certificate.violations.len(),
+            certificate.speeds_checked,
+            rpm(*first)
+        ));
+    }
+    if analysis.chart.certificate.gave_up {
+        warnings.push(format!(
+            "the search for bands stopped after {} speeds: bands may be missing; narrow the sweep",
+            certificate.speeds_checked
+        ));
+    }
+    if matches!(blade.bore, Bore::Free)
+        && analysis
+            .model
+            .parts
+            .iter()
+            .any(|p| !p.full.free_rigid.is_empty())
+    {
+        warnings.push(
+            "nothing holds the blade against some rigid motion; it is left out of the modes"
+                .to_owned(),
+        );
+    }
+    warnings
+}
