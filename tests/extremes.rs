@@ -777,7 +777,8 @@ fn every_extreme_keeps_its_promise() {
         let line = format!("{}{:.1e} at {}", line_start(row), row.reached, row.place);
         println!("{line}");
         // A NaN misses.
-        if !(row.reached <= row.asked) {
+        let kept = row.reached <= row.asked;
+        if !kept {
             missed.push(line);
         }
     }

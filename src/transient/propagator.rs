@@ -156,9 +156,13 @@ mod tests {
         let omega: f64 = 7.0;
         let one = Col::from_fn(1, |_| 1.0);
         for step_s in [0.01, 0.5, 3.0] {
-            let propagator =
-                Propagator::new(&oscillator(omega.powi(2), 0.0), 0.0, &[one.clone()], step_s)
-                    .unwrap();
+            let propagator = Propagator::new(
+                &oscillator(omega.powi(2), 0.0),
+                0.0,
+                std::slice::from_ref(&one),
+                step_s,
+            )
+            .unwrap();
             let mut state = State::rest(1);
             for step in 0..4 {
                 let t = f64::from(step) * step_s;
