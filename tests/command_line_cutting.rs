@@ -129,7 +129,8 @@ fn a_run_up_tells_of_every_band_it_passes() {
 /// What the scene lacks is named, with exit code 2 and nothing written.
 #[test]
 fn a_scene_without_the_forces_is_refused() {
-    let cases: [(&[&str], &str, fn(&mut SceneFile)); 5] = [
+    type Case<'a> = (&'a [&'a str], &'a str, fn(&mut SceneFile));
+    let cases: [Case<'_>; 5] = [
         (&["cut"], "cut is missing", |file| file.cut = None),
         (&["runup"], "runup is missing", |file| file.runup = None),
         (&["cut", "--rpm", "-5"], "rpm is -5", |_| ()),

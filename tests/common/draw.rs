@@ -161,8 +161,8 @@ pub fn survives_chart(scene: &Scene) {
     let Ok(critical) = SpectralModel::critical_speeds(&plate) else {
         return;
     };
-    let speeds = critical.iter().take(3).map(|c| 1.1 * c.speed_rad_per_s);
-    let top = speeds.last().unwrap_or(rad_per_s(1000.0));
+    let mut speeds = critical.iter().take(3).map(|c| 1.1 * c.speed_rad_per_s);
+    let top = speeds.next_back().unwrap_or(rad_per_s(1000.0));
     let Ok(model) = SpectralModel::new(plate, (0.0, top), Strategy::Dense) else {
         return;
     };
