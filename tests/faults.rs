@@ -35,7 +35,9 @@ fn write_scene(folder: &Path, file: &SceneFile) -> PathBuf {
 }
 
 fn analyze(scene: &Path, out: &Path) -> Command {
-    let mut command = Command::new(PROGRAM);
+    // Where the tests run in the background, SIGINT is ignored, and what they start inherits it.
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT").arg(PROGRAM);
     command.arg("analyze").arg(scene).arg("--out").arg(out);
     command.stdout(Stdio::null()).stderr(Stdio::piped());
     command
