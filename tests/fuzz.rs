@@ -30,6 +30,9 @@ const SCENE_BYTES: usize = 160;
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
 const ANALYZED: usize = 8;
+/// Place of a drawn scene whose analysis ends, but takes minutes: a blade of 0.13 mm on three
+/// pads, for which the accuracy asked for takes the largest basis.
+const SLOW: usize = 2;
 
 /// Valid scenes among the first `count` drawn ones.
 fn scenes(count: usize) -> Vec<Scene> {
@@ -69,7 +72,9 @@ fn drawn_scenes_on_a_small_basis() {
 
 #[test]
 fn drawn_scenes_analyzed_in_full() {
-    let done: Vec<bool> = scenes(20 * ANALYZED)
+    let mut drawn = scenes(20 * ANALYZED);
+    drawn.remove(SLOW);
+    let done: Vec<bool> = drawn
         .par_iter()
         .take(ANALYZED)
         .map(|scene| {
@@ -89,6 +94,14 @@ fn drawn_scenes_analyzed_in_full() {
         done.len()
     );
     assert!(2 * charted > done.len());
+}
+
+#[test]
+#[ignore = "takes minutes, as long as the largest basis does on a blade like foil"]
+fn the_slow_scene_ends_too() {
+    assert_survives(&scenes(20)[SLOW], |scene| {
+        draw::survives_analysis(scene);
+    });
 }
 
 /// The text of a scene, damaged: bytes exchanged, cut out, doubled; numbers exchanged for
