@@ -22,14 +22,22 @@ fn main() -> anyhow::Result<()> {
             .to_string_lossy()
             .into_owned();
         let scene = Scene::from_path(&path)?;
-        let analysis = Analysis::new(&scene, &|_, _| ())?;
-        let report = Report::new(&scene, &analysis)?;
         let write = |suffix: &str, content: &[u8]| {
             std::fs::write(
                 root.join("figures").join(format!("{name}-{suffix}")),
                 content,
             )
         };
+        if let (Some(_), Some(cut)) = (&scene.spline, &scene.cut) {
+            // Another scene's saw on its spline: only that is new.
+            let report = CutReport::new(&scene, &Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?);
+            let orbit = figure::spline_orbit_png(&report)?.context("it has a spline")?;
+            write("orbit.png", &orbit)?;
+            println!("{name}");
+            continue;
+        }
+        let analysis = Analysis::new(&scene, &|_, _| ())?;
+        let report = Report::new(&scene, &analysis)?;
         write("campbell.png", &figure::campbell_png(&report)?)?;
         write("campbell.svg", figure::campbell_svg(&report)?.as_bytes())?;
         if let Some(png) = figure::root_loci_png(&report)? {
@@ -40,9 +48,6 @@ fn main() -> anyhow::Result<()> {
             let report = CutReport::new(&scene, &cutting);
             write("cut.png", &figure::cut_png(&report)?)?;
             write("cut-map.png", &figure::cut_map_png(&report)?)?;
-            if let Some(png) = figure::spline_orbit_png(&report)? {
-                write("spline-orbit.png", &png)?;
-            }
         }
         if let Some(runup) = &scene.runup {
             let found = RunningUp::new(&scene, runup, &|_, _| ())?;

@@ -30,8 +30,8 @@ const SCENE_BYTES: usize = 160;
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
 const ANALYZED: usize = 8;
-/// Place of a drawn scene whose analysis ends, but takes minutes: a blade of 0.13 mm on three
-/// pads, for which the accuracy asked for takes the largest basis.
+/// Place of a drawn scene whose analysis was not seen to end within five minutes: a blade of
+/// 0.13 mm on three pads, the weakest of 0.13 N/m.
 const SLOW: usize = 2;
 
 /// Valid scenes among the first `count` drawn ones.
@@ -97,8 +97,9 @@ fn drawn_scenes_analyzed_in_full() {
 }
 
 #[test]
-#[ignore = "takes minutes, as long as the largest basis does on a blade like foil"]
-fn the_slow_scene_ends_too() {
+#[ignore = "was not seen to end within five minutes"]
+fn the_slow_scene() {
+    println!("{}", serde_json::to_string(&scenes(20)[SLOW].file).unwrap());
     assert_survives(&scenes(20)[SLOW], |scene| {
         draw::survives_analysis(scene);
     });
