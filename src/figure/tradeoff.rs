@@ -4,13 +4,13 @@ use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
-    QUIET, STANDING, STRONG_CURVE, tint,
+    QUIET, STANDING, STRONG_CURVE, Weight, text_width, tint,
 };
 use super::{FigureError, heading, render};
 use crate::stability::{Method, Setting};
 
 const WIDTH: u32 = 900;
-const HEIGHT: u32 = 640;
+const HEIGHT: u32 = 660;
 const PANEL: Frame = Frame {
     left: 92.0,
     top: 100.0,
@@ -18,7 +18,14 @@ const PANEL: Frame = Frame {
     bottom: 560.0,
 };
 
-/// The measured settings of a saw as PNG, 900 × 640 pixels.
+const METHODS: [Method; 4] = [
+    Method::Reduced,
+    Method::Dense,
+    Method::CriticalSpeeds,
+    Method::CriticalSpeedsSingle,
+];
+
+/// The measured settings of a saw as PNG, 900 × 660 pixels.
 pub fn tradeoff_png(scene: &str, settings: &[Setting]) -> Result<Vec<u8>, FigureError> {
     render::png(&sheet(scene, settings))
 }
@@ -43,12 +50,8 @@ fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     );
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
-    for method in [
-        Method::Reduced,
-        Method::Dense,
-        Method::CriticalSpeeds,
-        Method::CriticalSpeedsSingle,
-    ] {
+    draw_key(&mut sheet);
+    for method in METHODS {
         let own: Vec<&Setting> = settings.iter().filter(|s| s.method == method).collect();
         draw_method(&mut sheet, method, &own, &error, &time);
     }
@@ -70,35 +73,31 @@ fn look(method: Method) -> (Colour, &'static str) {
 }
 
 fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis, time: &Axis) {
-    let (colour, name) = look(method);
+    let (colour, _) = look(method);
     for setting in own {
         let at = place(setting, error, time);
         sheet.disc(at, 4.0, colour);
-        let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::End);
-        // Single precision stands beside double at the same numbers of functions.
-        let named = setting.speeds == 51 || method == Method::CriticalSpeeds;
-        if named {
+        // The critical speeds alone stand at the same numbers, in the same order.
+        if setting.is_chart() && setting.speeds == 51 {
+            let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
             let label = format!("{}", setting.functions);
-            sheet.text([at[0] - 7.0, at[1] - 5.0], letters, &label);
+            sheet.text([at[0], at[1] - 11.0], letters, &label);
         }
     }
     let line = own.iter().filter(|s| s.speeds == 51 || !s.is_chart());
-    let line: Vec<[f64; 2]> = line.map(|s| place(s, error, time)).collect();
-    sheet.line(line.clone(), Stroke::solid(tint(colour, 0.6), CURVE));
-    // Each name beside the middle of its curve, above or below by which curve is.
-    let side: f64 = match method {
-        Method::CriticalSpeedsSingle => 22.0,
-        _ => -16.0,
-    };
-    let middle = if line.len() > 2 { line.len() / 2 } else { 0 };
-    if let Some([x, y]) = line.get(middle) {
-        let anchor = if side > 0.0 {
-            Anchor::End
-        } else {
-            Anchor::Start
-        };
-        let letters = Lettering::regular(LABEL_SIZE, colour, anchor);
-        sheet.text([x + 12.0 * -side.signum(), y + side], letters, name);
+    let line = line.map(|s| place(s, error, time));
+    sheet.line(line, Stroke::solid(tint(colour, 0.6), CURVE));
+}
+
+fn draw_key(sheet: &mut Sheet) {
+    let mut x = PANEL.left;
+    let y = f64::from(HEIGHT) - 22.0;
+    for method in METHODS {
+        let (colour, name) = look(method);
+        sheet.disc([x + 4.0, y - 4.0], 4.0, colour);
+        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
+        sheet.text([x + 14.0, y], letters, name);
+        x += 14.0 + text_width(name, LABEL_SIZE, Weight::Regular) + 26.0;
     }
 }
 
@@ -175,6 +174,35 @@ fn seconds(log: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Eight sizes of a chart and of the critical speeds, two charts on the whole basis.
+    #[test]
+    fn no_label_lies_on_another() {
+        let setting = |method, k: u32, seconds: f64| Setting {
+            method,
+            max_diameters: 6,
+            radial_functions: 4,
+            functions: 52 * (k as usize + 1),
+            speeds: 51,
+            seconds,
+            error: 1e-2 * 0.4_f64.powi(k as i32),
+            on_front: method == Method::Reduced,
+        };
+        let settings: Vec<Setting> = (0..8)
+            .flat_map(|k| {
+                let time = 1.6_f64.powi(k as i32);
+                let dense = (k < 2).then(|| setting(Method::Dense, k, 4.0 * time));
+                [
+                    setting(Method::Reduced, k, 0.1 * time),
+                    setting(Method::CriticalSpeeds, k, 1e-3 * time),
+                    setting(Method::CriticalSpeedsSingle, k, 9e-4 * time),
+                ]
+                .into_iter()
+                .chain(dense)
+            })
+            .collect();
+        super::super::tidy::assert_tidy(&sheet("A saw", &settings));
+    }
 
     #[test]
     fn ticks_are_written_in_percent_and_seconds() {

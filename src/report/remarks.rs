@@ -10,6 +10,9 @@ use crate::stability::Analysis;
 /// Relative rounding from which a frequency is not to be trusted to six digits.
 const LEAST_DIGITS: f64 = 1e-6;
 
+/// Stiffest pad of the saws that the error estimate was calibrated on.
+const CALIBRATED_N_PER_M: f64 = 1e9;
+
 /// Terms of the equation of motion that were assembled.
 pub fn terms(plate: &Plate) -> Vec<String> {
     let always = [
@@ -54,6 +57,15 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
             "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
             scene.tolerance(),
             plate.degrees_of_freedom()
+        ));
+    }
+    if scene
+        .guides
+        .iter()
+        .any(|guide| guide.stiffness_n_per_m > CALIBRATED_N_PER_M)
+    {
+        warnings.push(format!(
+            "a guide is stiffer than {CALIBRATED_N_PER_M:e} N/m: the estimated error is calibrated on softer ones and may be too small"
         ));
     }
     let width = blade.outer_radius_m - blade.inner_radius_m;
