@@ -71,7 +71,7 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
     let verdicts: Vec<(f64, Verdict, Option<bool>)> = report
         .runs
         .iter()
-        .map(|run| (run.rpm.round(), run.verdict, run.agree))
+        .map(|run| (run.rpm, run.verdict, run.agree))
         .collect();
     let expected = [
         (1800.0, Verdict::Stable, Some(true)),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::SplineEntry;
-use crate::scene::{Scene, SceneFile, rpm};
+use crate::scene::{Scene, SceneFile};
 use crate::transient::{Cutting, CuttingRun, Growth, ToothPassing, VerdictMap};
 
 /// `cut.json`.
@@ -188,7 +188,7 @@ impl CutRunEntry {
         };
         let growing = Some(history.in_cut).filter(|growth| growth.growth_per_s > 0.0);
         CutRunEntry {
-            rpm: rpm(run.speed_rad_per_s),
+            rpm: run.rpm,
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,

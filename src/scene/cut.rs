@@ -97,6 +97,8 @@ pub struct Cut {
 /// One speed of a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutRun {
+    /// Rotation speed, as typed.
+    pub rpm: f64,
     /// Rotation speed.
     pub speed_rad_per_s: f64,
     /// Force against the rotation on each tooth, given or from the power.
@@ -200,6 +202,7 @@ impl Cut {
             (1e-6, 1e3),
         )?;
         Ok(CutRun {
+            rpm,
             speed_rad_per_s,
             tangential_n,
             radial_n: number(
