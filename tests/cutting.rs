@@ -9,7 +9,8 @@ use sawflutter::scene::{Cut, CutRun, Guide, RunUp, Scene, SpeedRange, rad_per_s,
 use sawflutter::spectrum::{fastest_growing_of, lowest_eigenpairs, orthonormal, split};
 use sawflutter::system::GyroscopicSystem;
 use sawflutter::transient::{
-    Newmark, Propagator, State, cut_history, in_cut_plate, run_up, tooth_passing, verdict_map,
+    Newmark, Propagator, SawInCut, State, cut_history, in_cut_plate, run_up, tooth_passing,
+    verdict_map,
 };
 
 const SMALL: Resolution = Resolution {
@@ -137,12 +138,20 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let plate = paper_plate(DESIGN);
     let probe = Scene::paper().probe;
-    let quiet = cut_history(&plate, &paper_cut(), &run_at(1800.0), &probe).unwrap();
+    let quiet = cut_history(
+        &SawInCut::new(&plate, &paper_cut(), &run_at(1800.0)),
+        &probe,
+    )
+    .unwrap();
     assert_eq!(quiet.in_cut.growth_per_s, 0.0);
     let fitted = quiet.fitted.unwrap().growth_per_s;
     assert!(fitted.abs() < 1e-3, "{fitted:e}");
 
-    let loud = cut_history(&plate, &paper_cut(), &run_at(2800.0), &probe).unwrap();
+    let loud = cut_history(
+        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)),
+        &probe,
+    )
+    .unwrap();
     let growth = loud.in_cut.growth_per_s;
     let hertz = loud.in_cut.frequency_rad_per_s / TAU;
     assert!((growth - 6.0).abs() < 0.05, "{growth}");
@@ -168,7 +177,7 @@ fn few_motions_make_the_record_of_the_whole_basis() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
     let probe = Scene::paper().probe;
-    let history = cut_history(&plate, &cut, &run, &probe).unwrap();
+    let history = cut_history(&SawInCut::new(&plate, &cut, &run), &probe).unwrap();
     let system = GyroscopicSystem::of_plate(&in_cut_plate(&plate, &cut, &run));
     let point = |radius, angle| {
         let values = plate.functions_at(radius, angle);
@@ -199,15 +208,30 @@ fn few_motions_make_the_record_of_the_whole_basis() {
 fn passing_teeth_act_like_their_mean() {
     let plate = paper_plate(DESIGN);
     let probe = Scene::paper().probe;
-    let passing = tooth_passing(&plate, &paper_cut(), &run_at(2800.0), &probe, 8).unwrap();
+    let passing = tooth_passing(
+        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)),
+        &probe,
+        8,
+    )
+    .unwrap();
     let of_mean = passing.passing_growth_per_s / passing.mean_growth_per_s - 1.0;
     assert!(of_mean.abs() < 1e-3, "{passing:?}");
     let of_standing = passing.passing_growth_per_s / passing.standing_growth_per_s - 1.0;
     assert!((-0.04..-0.02).contains(&of_standing), "{passing:?}");
-    let finer = tooth_passing(&plate, &paper_cut(), &run_at(2800.0), &probe, 16).unwrap();
+    let finer = tooth_passing(
+        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)),
+        &probe,
+        16,
+    )
+    .unwrap();
     let change = finer.passing_growth_per_s / passing.passing_growth_per_s - 1.0;
     assert!(change.abs() < 1e-3, "{change:e}");
-    let quiet = tooth_passing(&plate, &paper_cut(), &run_at(1800.0), &probe, 8).unwrap();
+    let quiet = tooth_passing(
+        &SawInCut::new(&plate, &paper_cut(), &run_at(1800.0)),
+        &probe,
+        8,
+    )
+    .unwrap();
     assert_eq!(quiet.passing_growth_per_s, 0.0);
 }
 
@@ -219,7 +243,12 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     let plate = paper_plate(DESIGN);
     let turns = [-30.0, -5.0, 0.0, 10.0, 30.0].map(f64::to_radians);
     let levels = [0.9, 1.2];
-    let map = verdict_map(&plate, &cut, &run, (&turns, &levels), &|_, _| ()).unwrap();
+    let map = verdict_map(
+        &SawInCut::new(&plate, &cut, &run),
+        (&turns, &levels),
+        &|_, _| (),
+    )
+    .unwrap();
     for (column, turn) in turns.iter().enumerate().take(4).skip(1) {
         for (row, level) in levels.iter().enumerate() {
             let mut scene = Scene::paper();

@@ -7,8 +7,9 @@ use crate::spline::{self, SplineRun, reaction_effect};
 use crate::system::GyroscopicSystem;
 
 use super::TransientError;
-use super::cut::{Growth, rim_forces};
-use super::reduced::{MODES, ReducedBlade, Snapshot};
+use super::cut::Growth;
+use super::reduced::{ReducedBlade, Snapshot};
+use super::saw_in_cut::{MODES, rim_forces};
 
 /// What the simulated reaction changes.
 #[derive(Debug, Clone)]

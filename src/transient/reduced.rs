@@ -25,8 +25,6 @@ pub struct ReducedBlade {
     basis: Mat<f64>,
 }
 
-/// Modes of a snapshot where one speed is looked at.
-pub const MODES: usize = 14;
 /// Directions nearer to the span of the others are left out.
 const INDEPENDENT: f64 = 1e-7;
 

@@ -7,9 +7,9 @@ use crate::spectrum::Mode;
 use crate::stability::{Analysis, ChosenBasis};
 
 use super::{
-    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, ToothPassing, TransientError,
-    VerdictMap, band_growths, cut_history, on_spline, response_map, run_up, tooth_passing,
-    verdict_map,
+    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, SawInCut, ToothPassing,
+    TransientError, VerdictMap, band_growths, cut_history, on_spline, response_map, run_up,
+    tooth_passing, verdict_map,
 };
 
 /// A cut at some speeds.
@@ -64,11 +64,12 @@ impl Cutting {
             .enumerate()
             .map(|(index, run)| {
                 let of = |done: usize, _| progress(index * points + done, runs.len() * points);
+                let saw = SawInCut::new(&plate, cut, run);
                 Ok(CuttingRun {
-                    history: cut_history(&plate, cut, run, &scene.probe)?,
-                    passing: tooth_passing(&plate, cut, run, &scene.probe, STAGES)?,
+                    history: cut_history(&saw, &scene.probe)?,
+                    passing: tooth_passing(&saw, &scene.probe, STAGES)?,
                     spline: on_spline(scene, &plate, cut, run)?,
-                    map: verdict_map(&plate, cut, run, (&turns, &levels), &of)?,
+                    map: verdict_map(&saw, (&turns, &levels), &of)?,
                 })
             })
             .collect::<Result<Vec<_>, TransientError>>()?;

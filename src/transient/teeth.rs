@@ -7,13 +7,12 @@
 
 use faer::{Col, Mat, Scale, c64};
 
-use crate::plate::Plate;
-use crate::scene::{Cut, CutRun, Probe};
+use crate::scene::{CutRun, Probe};
 use crate::spectrum::fastest_growing;
-use crate::system::GyroscopicSystem;
 
-use super::cut::{finite, in_cut_plate, lateral_load};
-use super::reduced::{MODES, ReducedBlade, Snapshot, at_point};
+use super::cut::finite;
+use super::reduced::at_point;
+use super::saw_in_cut::{SawInCut, lateral_load};
 use super::{Propagator, State, TransientError};
 
 /// What the passing of the teeth changes.
@@ -39,64 +38,50 @@ pub struct ToothPassing {
 /// # Errors
 /// [`TransientError`].
 pub fn tooth_passing(
-    plate: &Plate,
-    cut: &Cut,
-    run: &CutRun,
+    saw: &SawInCut<'_>,
     probe: &Probe,
     stages: usize,
 ) -> Result<ToothPassing, TransientError> {
+    let (plate, run, blade) = (saw.plate, saw.run, &saw.blade);
     let speed = run.speed_rad_per_s;
-    let cutting = in_cut_plate(plate, cut, run);
-    let load = lateral_load(plate, cut, 0.0);
-    let systems = [plate, &cutting].map(GyroscopicSystem::of_plate);
-    let snapshots = systems.each_ref().map(|system| Snapshot {
-        system,
-        speed_rad_per_s: speed,
-    });
-    let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load]);
-    let no_edge = Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
-    let edge = cutting.edge_stiffness.as_ref().unwrap_or(&no_edge);
-    // What nothing holds is what nothing holds in the cut.
-    let mut idle = blade.system(&systems[1]);
-    idle.stiffness -= blade.matrix(edge);
-    let turns: Vec<f64> = (0..stages)
-        .map(|stage| ((stage as f64 + 0.5) / stages as f64 - 0.5) * cut.pitch_rad)
-        .collect();
-    // Loads turned by α on a blade are loads on a blade turned by −α.
-    let stiffness_at = |turn: f64| blade.turned(plate, -turn).matrix(edge);
+    let period_s = saw.cut.pitch_rad / speed;
+    let step_s = period_s / stages as f64;
+    let idle = saw.idle_on(blade);
     let with = |edge: &Mat<f64>| {
         let mut system = idle.clone();
         system.stiffness += edge;
         system
     };
-    let turned: Vec<Mat<f64>> = turns.iter().map(|turn| stiffness_at(*turn)).collect();
+    // Loads turned by α on a blade are loads on a blade turned by −α.
+    let edge_at = |turn: f64| blade.turned(plate, -turn).matrix(&saw.edge_stiffness);
+    let propagator = |edge: &Mat<f64>, turn: f64| {
+        let load = blade.vector(&lateral_load(plate, saw.cut, turn));
+        Propagator::new(&with(edge), speed, &[load], step_s)
+    };
+    let turns: Vec<f64> = (0..stages)
+        .map(|stage| ((stage as f64 + 0.5) / stages as f64 - 0.5) * saw.cut.pitch_rad)
+        .collect();
+    let edges: Vec<Mat<f64>> = turns.iter().map(|turn| edge_at(*turn)).collect();
     let mut mean = Mat::zeros(blade.order(), blade.order());
-    for edge in &turned {
+    for edge in &edges {
         mean += Scale(1.0 / stages as f64) * edge;
     }
-    let period_s = cut.pitch_rad / speed;
-    let step_s = period_s / stages as f64;
-    let stage = |edge: &Mat<f64>, turn: f64| -> Result<Stage, TransientError> {
-        let load = blade.vector(&lateral_load(plate, cut, turn));
-        let propagator = Propagator::new(&with(edge), speed, &[load], step_s)?;
-        Ok(Stage { propagator })
-    };
-    let standing = [stage(&stiffness_at(0.0), 0.0)?];
-    let passing = turned
+    let middle = edge_at(0.0);
+    let standing = [propagator(&middle, 0.0)?];
+    let passing = edges
         .iter()
         .zip(&turns)
-        .map(|(edge, turn)| stage(edge, *turn))
+        .map(|(edge, turn)| propagator(edge, *turn))
         .collect::<Result<Vec<_>, _>>()?;
     let growth = |edge: &Mat<f64>| -> Result<f64, TransientError> {
         let fastest = fastest_growing(&with(edge), speed)?;
         Ok(fastest.map_or(0.0, |lambda| lambda.re))
     };
-    let steps = (run.duration_s / step_s).ceil() as usize;
     let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
-    let largest = |stages: &[Stage]| largest_deflection(stages, steps, run, &read, step_s);
+    let largest = |stages: &[Propagator]| largest_deflection(stages, run, &read, step_s);
     Ok(ToothPassing {
         tooth_frequency_rad_per_s: std::f64::consts::TAU / period_s,
-        standing_growth_per_s: growth(&stiffness_at(0.0))?,
+        standing_growth_per_s: growth(&middle)?,
         mean_growth_per_s: growth(&mean)?,
         passing_growth_per_s: floquet_growth(&passing, period_s),
         standing_deflection_m: largest(&standing)?,
@@ -104,24 +89,15 @@ pub fn tooth_passing(
     })
 }
 
-/// One position of the teeth.
-struct Stage {
-    propagator: Propagator,
-}
-
 /// max ln|μ| / T over the multipliers of the product of the stages; zero when it is no
 /// more than rounding.
-fn floquet_growth(stages: &[Stage], period_s: f64) -> f64 {
-    let Some(first) = stages.first() else {
+fn floquet_growth(stages: &[Propagator], period_s: f64) -> f64 {
+    let Some((first, others)) = stages.split_first() else {
         return 0.0;
     };
-    let scale = first.propagator.scale_per_s();
-    let mut product = Mat::<f64>::identity(
-        first.propagator.transition().nrows(),
-        first.propagator.transition().ncols(),
-    );
-    for stage in stages {
-        product = rescaled(&stage.propagator, scale) * product;
+    let mut product = first.transition();
+    for stage in others {
+        product = rescaled(stage, first.scale_per_s()) * product;
     }
     let multipliers: Vec<c64> = product.eigenvalues().unwrap_or_default();
     let largest = multipliers.iter().fold(0.0_f64, |max, z| max.max(z.norm()));
@@ -150,18 +126,17 @@ fn rescaled(propagator: &Propagator, scale_per_s: f64) -> Mat<f64> {
 }
 
 fn largest_deflection(
-    stages: &[Stage],
-    steps: usize,
+    stages: &[Propagator],
     run: &CutRun,
     read: &Col<f64>,
     step_s: f64,
 ) -> Result<f64, TransientError> {
     let mut state = State::rest(read.nrows());
     let force = [run.lateral_n];
+    let steps = (run.duration_s / step_s).ceil() as usize;
     let mut largest = 0.0_f64;
     for step in 0..steps {
-        let stage = &stages[step % stages.len()];
-        state = stage.propagator.step(&state, &force, &force);
+        state = stages[step % stages.len()].step(&state, &force, &force);
         let time_s = (step + 1) as f64 * step_s;
         let deflection = finite(state.read(read), run.speed_rad_per_s, time_s)?;
         largest = largest.max(deflection.abs());

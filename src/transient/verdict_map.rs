@@ -6,14 +6,11 @@ use faer::{Mat, Scale};
 use rayon::prelude::*;
 
 use crate::campbell::Progress;
-use crate::plate::Plate;
-use crate::scene::{Cut, CutRun};
 use crate::spectrum::fastest_growing;
-use crate::system::GyroscopicSystem;
 
 use super::TransientError;
-use super::cut::{in_cut_plate, lateral_load};
 use super::reduced::{ReducedBlade, Snapshot};
+use super::saw_in_cut::{SawInCut, lateral_load};
 
 /// Growth rates of one speed on a grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,46 +36,16 @@ const MODES: usize = 8;
 /// # Errors
 /// [`TransientError::Spectrum`].
 pub fn verdict_map(
-    plate: &Plate,
-    cut: &Cut,
-    run: &CutRun,
+    saw: &SawInCut<'_>,
     (turns_rad, load_levels): (&[f64], &[f64]),
     progress: Progress<'_>,
 ) -> Result<VerdictMap, TransientError> {
-    let speed = run.speed_rad_per_s;
-    let cutting = in_cut_plate(plate, cut, run);
-    let Some(edge) = &cutting.edge_stiffness else {
-        return Ok(VerdictMap {
-            turns_rad: Vec::new(),
-            load_levels: Vec::new(),
-            growth_per_s: Vec::new(),
-        });
-    };
-    let whole = ReducedBlade::whole(plate);
-    let idle = GyroscopicSystem::of_plate(plate);
-    let mut systems = vec![idle.clone()];
-    for k in 0..SNAPSHOTS {
-        let place = k * turns_rad.len().saturating_sub(1) / (SNAPSHOTS - 1);
-        if let Some(turn) = turns_rad.get(place) {
-            let mut system = idle.clone();
-            system.stiffness += whole.turned(plate, *turn).matrix(edge);
-            systems.push(system);
-        }
-    }
-    let snapshots: Vec<Snapshot<'_>> = systems
-        .iter()
-        .map(|system| Snapshot {
-            system,
-            speed_rad_per_s: speed,
-        })
-        .collect();
-    let blade = ReducedBlade::new(plate, &snapshots, MODES, &[lateral_load(plate, cut, 0.0)]);
-    // What nothing holds is what nothing holds in the cut.
-    let mut reduced = blade.system(&GyroscopicSystem::of_plate(&cutting));
-    reduced.stiffness -= blade.matrix(edge);
+    let speed = saw.run.speed_rad_per_s;
+    let blade = map_basis(saw, turns_rad);
+    let reduced = saw.idle_on(&blade);
     let edges: Vec<Mat<f64>> = turns_rad
         .par_iter()
-        .map(|turn| blade.turned(plate, *turn).matrix(edge))
+        .map(|turn| blade.turned(saw.plate, *turn).matrix(&saw.edge_stiffness))
         .collect();
     let done = AtomicUsize::new(0);
     let of = turns_rad.len() * load_levels.len();
@@ -102,4 +69,27 @@ pub fn verdict_map(
         load_levels: load_levels.to_vec(),
         growth_per_s,
     })
+}
+
+/// The motions of the idle saw and of the cutting one with its cut turned to a few angles.
+fn map_basis(saw: &SawInCut<'_>, turns_rad: &[f64]) -> ReducedBlade {
+    let whole = ReducedBlade::whole(saw.plate);
+    let mut systems = vec![saw.idle_system.clone()];
+    for k in 0..SNAPSHOTS {
+        let place = k * turns_rad.len().saturating_sub(1) / (SNAPSHOTS - 1);
+        if let Some(turn) = turns_rad.get(place) {
+            let mut system = saw.idle_system.clone();
+            system.stiffness += whole.turned(saw.plate, *turn).matrix(&saw.edge_stiffness);
+            systems.push(system);
+        }
+    }
+    let snapshots: Vec<Snapshot<'_>> = systems
+        .iter()
+        .map(|system| Snapshot {
+            system,
+            speed_rad_per_s: saw.run.speed_rad_per_s,
+        })
+        .collect();
+    let load = lateral_load(saw.plate, saw.cut, 0.0);
+    ReducedBlade::new(saw.plate, &snapshots, MODES, &[load])
 }

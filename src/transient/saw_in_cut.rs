@@ -1,0 +1,93 @@
+//! A saw at one speed of a cut: what its history, its passing teeth and its map share.
+
+use faer::{Col, Mat};
+
+use crate::plate::{Plate, RimForce};
+use crate::scene::{Cut, CutRun};
+use crate::system::GyroscopicSystem;
+
+use super::reduced::{ReducedBlade, Snapshot, at_point};
+
+/// The saw without and with the forces of one speed, and the few motions it makes.
+#[derive(Debug)]
+pub struct SawInCut<'a> {
+    /// Without the forces.
+    pub plate: &'a Plate,
+    /// Where the teeth are.
+    pub cut: &'a Cut,
+    /// Speed and forces.
+    pub run: &'a CutRun,
+    /// Under the forces in its plane.
+    pub cutting: Plate,
+    /// K_e of these forces.
+    pub edge_stiffness: Mat<f64>,
+    /// The matrices of `plate`.
+    pub idle_system: GyroscopicSystem,
+    /// The matrices of `cutting`.
+    pub cutting_system: GyroscopicSystem,
+    /// The motions of both.
+    pub blade: ReducedBlade,
+}
+
+/// Modes of the idle and of the cutting saw that span its motions.
+pub(super) const MODES: usize = 14;
+
+/// The forces of the teeth in the plane of the blade.
+pub fn rim_forces(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<RimForce> {
+    cut.tooth_angles_rad()
+        .map(|angle_rad| RimForce {
+            angle_rad,
+            radial_n: -radial_n,
+            tangential_n: -tangential_n,
+        })
+        .collect()
+}
+
+/// The plate under the forces of a cut in its plane.
+pub fn in_cut_plate(plate: &Plate, cut: &Cut, run: &CutRun) -> Plate {
+    plate.with_edge_loads(&rim_forces(cut, run.tangential_n, run.radial_n))
+}
+
+/// Σ φ(b, θ_k) of the teeth: the load of one newton across the blade on each.
+pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
+    let mut load = Col::zeros(plate.degrees_of_freedom());
+    for angle in cut.tooth_angles_rad() {
+        load += at_point(plate, plate.blade.outer_radius_m, angle + turn_rad);
+    }
+    load
+}
+
+impl<'a> SawInCut<'a> {
+    /// Puts the forces on the saw and finds its lowest modes with and without them.
+    pub fn new(plate: &'a Plate, cut: &'a Cut, run: &'a CutRun) -> Self {
+        let cutting = in_cut_plate(plate, cut, run);
+        let order = plate.degrees_of_freedom();
+        let edge_stiffness = cutting.edge_stiffness.clone();
+        let edge_stiffness = edge_stiffness.unwrap_or_else(|| Mat::zeros(order, order));
+        let systems = [plate, &cutting].map(GyroscopicSystem::of_plate);
+        let snapshots = systems.each_ref().map(|system| Snapshot {
+            system,
+            speed_rad_per_s: run.speed_rad_per_s,
+        });
+        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[lateral_load(plate, cut, 0.0)]);
+        let [idle_system, cutting_system] = systems;
+        SawInCut {
+            plate,
+            cut,
+            run,
+            edge_stiffness,
+            cutting,
+            idle_system,
+            cutting_system,
+            blade,
+        }
+    }
+
+    /// The saw without the forces, on few motions. What nothing holds in it is what nothing
+    /// holds in the cut, so that K_e of any load may be added.
+    pub(super) fn idle_on(&self, blade: &ReducedBlade) -> GyroscopicSystem {
+        let mut system = blade.system(&self.cutting_system);
+        system.stiffness -= blade.matrix(&self.edge_stiffness);
+        system
+    }
+}
