@@ -5,6 +5,7 @@ mod check;
 mod cut;
 mod file;
 mod guide;
+mod parameter;
 mod read;
 mod runup;
 mod spline;
@@ -16,6 +17,7 @@ pub use file::{
     SceneFile, SweepFile,
 };
 pub use guide::Guide;
+pub use parameter::Parameter;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};

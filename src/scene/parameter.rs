@@ -1,0 +1,109 @@
+//! A number of a scene by its name, to read it and to ask for a scene with another one.
+
+use serde_json::{Number, Value};
+
+use super::{Scene, SceneError, SceneFile};
+
+/// A number of a scene by its JSON path, written as in the errors: `guides[0].radius_m`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Parameter {
+    path: String,
+    /// The same as a pointer of RFC 6901: `/guides/0/radius_m`.
+    pointer: String,
+}
+
+impl Parameter {
+    /// The parameter of a path, whether or not a scene has it.
+    pub fn new(path: &str) -> Self {
+        let steps = path
+            .split(['.', '['])
+            .map(|step| step.trim_end_matches(']'));
+        Parameter {
+            path: path.to_owned(),
+            pointer: steps.flat_map(|step| ["/", step]).collect(),
+        }
+    }
+
+    /// Its JSON path.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Its value in a scene.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] where the scene has no number of this name.
+    pub fn get(&self, scene: &SceneFile) -> Result<f64, SceneError> {
+        let json = value(scene);
+        let found = json.pointer(&self.pointer);
+        found.and_then(Value::as_f64).ok_or_else(|| self.missing())
+    }
+
+    fn missing(&self) -> SceneError {
+        SceneError::Value {
+            key: "the parameter".into(),
+            value: format!("{:?}", self.path),
+            allowed: "the path of a number that the scene has, like guides[0].radius_m".into(),
+            remedy: "write this number into the scene, or mend its name",
+        }
+    }
+}
+
+impl SceneFile {
+    /// The scene with other numbers.
+    ///
+    /// # Errors
+    /// [`SceneError`] where the scene has no number of a name, or a value is refused.
+    pub fn with(&self, numbers: &[(&Parameter, f64)]) -> Result<Scene, SceneError> {
+        let mut json = value(self);
+        for (parameter, number) in numbers {
+            let place = json.pointer_mut(&parameter.pointer);
+            let place = place.filter(|v| v.is_number());
+            let number = Number::from_f64(*number).ok_or_else(|| SceneError::Value {
+                key: parameter.path.clone(),
+                value: number.to_string(),
+                allowed: "finite".into(),
+                remedy: "give a number",
+            })?;
+            *place.ok_or_else(|| parameter.missing())? = Value::Number(number);
+        }
+        Scene::from_json(&json.to_string())
+    }
+}
+
+fn value(scene: &SceneFile) -> Value {
+    serde_json::to_value(scene).expect("keys are strings and numbers of a scene finite")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_read_and_replaced_by_its_path() {
+        let paper = Scene::paper().file;
+        let radius = Parameter::new("guides[0].radius_m");
+        let density = Parameter::new("blade.material.density_kg_per_m3");
+        assert_eq!(radius.get(&paper).unwrap(), 0.2);
+        let other = paper.with(&[(&radius, 0.25), (&density, 7900.0)]).unwrap();
+        assert_eq!(other.file.guides[0].radius_m, 0.25);
+        assert_eq!(other.blade.material.density_kg_per_m3, 7900.0);
+        assert_eq!(other.file.cut, paper.cut);
+    }
+
+    #[test]
+    fn what_no_scene_has_is_refused_by_name() {
+        let paper = Scene::paper().file;
+        for path in ["guides[1].radius_m", "guides", "name", "", "blade..x", "]"] {
+            let parameter = Parameter::new(path);
+            let error = parameter.get(&paper).unwrap_err().to_string();
+            assert!(error.contains(&format!("{path:?}")), "{error}");
+            assert!(paper.with(&[(&parameter, 1.0)]).is_err(), "{path}");
+        }
+        let thickness = Parameter::new("blade.thickness_m");
+        for value in [-1.0, f64::NAN, f64::INFINITY] {
+            let error = paper.with(&[(&thickness, value)]).unwrap_err().to_string();
+            assert!(error.contains("blade.thickness_m"), "{error}");
+        }
+    }
+}
