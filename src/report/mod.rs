@@ -5,6 +5,8 @@ mod branches;
 mod build;
 mod csv;
 mod cut;
+mod fit;
+mod place;
 mod remarks;
 mod runup;
 mod spline;
@@ -13,6 +15,10 @@ use serde::{Deserialize, Serialize};
 
 pub use self::cut::{
     ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
+};
+pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+pub use self::place::{
+    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 pub use self::spline::SplineEntry;

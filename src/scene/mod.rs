@@ -4,6 +4,7 @@
 mod check;
 mod cut;
 mod file;
+mod freed;
 mod guide;
 mod parameter;
 mod read;
@@ -16,6 +17,7 @@ pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
+pub use freed::{Freed, common_turn, scene_at, spread};
 pub use guide::Guide;
 pub use parameter::Parameter;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
