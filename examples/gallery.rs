@@ -78,8 +78,20 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
         .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
     let freed = freed.into_iter().collect::<Result<Vec<_>, _>>()?;
     let options = sawflutter::fit::Options::default();
-    let fit = Fit::new(scene, &measurement.up_to(to_rpm), &freed, &options, &|_, _| ())?;
-    Ok(FitReport::new(scene, &measurement, to_rpm, options.confidence, &fit)?)
+    let fit = Fit::new(
+        scene,
+        &measurement.up_to(to_rpm),
+        &freed,
+        &options,
+        &|_, _| (),
+    )?;
+    Ok(FitReport::new(
+        scene,
+        &measurement,
+        to_rpm,
+        options.confidence,
+        &fit,
+    )?)
 }
 
 /// `sawflutter place` with the pad's radius and angle free.

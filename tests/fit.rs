@@ -7,7 +7,8 @@
 mod common;
 
 use common::{assert_close, scene};
-use sawflutter::fit::{Fit, FitError, Measurement, Options, Row};
+use rayon::prelude::*;
+use sawflutter::fit::{Fit, FitError, Measurement, Options, Row, Start};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Freed, Parameter, Scene, rad_per_s};
 use sawflutter::spectrum::LowestModes;
@@ -42,8 +43,9 @@ fn table_5(scene: &Scene) -> Measurement {
 }
 
 /// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24
-/// numbers, 0.987 Hz rms. The free fit cannot be worse, and from a pad at the rim that is
-/// a hundred times softer it comes back to that neighbourhood. The angle of a single pad turns
+/// numbers, 0.987 Hz rms. The free optimum is 0.194 m and 2.08e7 N/m, 0.983 Hz: the minimum is
+/// so flat that the rounding costs 0.004 Hz, and the 95 % interval of the radius is 31 mm to
+/// either side. It is found from a pad at the rim that is a hundred times softer. The angle of a single pad turns
 /// the saw as a whole: the data say nothing about it, and it stays at the paper's −55°.
 #[test]
 fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
@@ -59,12 +61,18 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
     );
     let fit = Fit::new(&far, &table_5(&far), &free, &Options::default(), &|_, _| ()).unwrap();
     for p in &fit.parameters {
-        println!("{} {} -> {} {:?}", p.freed.parameter.path(), p.start, p.value, p.interval);
+        println!(
+            "{} {} -> {} {:?}",
+            p.freed.parameter.path(),
+            p.start,
+            p.value,
+            p.interval
+        );
     }
-    println!("{} -> {} Hz rms, {:?}", fit.rms_before_hz, fit.rms_hz, fit.resolution);
-    for start in &fit.starts {
-        println!("{:?}", start);
-    }
+    println!(
+        "{} -> {} Hz rms, {:?}",
+        fit.rms_before_hz, fit.rms_hz, fit.resolution
+    );
     assert_eq!(fit.parameters.len(), 2);
     assert_eq!(fit.without_effect[0].parameter.path(), ANGLE);
     assert_eq!(fit.scene.file.guides[0].angle_deg, -55.0);
@@ -75,7 +83,12 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
         let (low, high) = p.interval.unwrap();
         assert!(low < expected && expected < high, "{p:?}");
     }
-    assert!((fit.parameters[0].value - 0.2).abs() < 0.005);
+    // 6 mm and 4 % off the rounded one.
+    assert_close("radius", fit.parameters[0].value, 0.2, 0.04);
+    assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.06);
+    // Every start, the farthest included, leads there.
+    let reached = |start: &&Start| start.to.as_ref().is_some_and(|(_, rms)| *rms < 0.985);
+    assert_eq!(fit.starts.iter().filter(reached).count(), fit.starts.len());
 }
 
 /// Frequencies of the lowest modes, one row a speed.
@@ -93,7 +106,10 @@ struct Noise(u64);
 
 impl Noise {
     fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
     }
 
@@ -134,10 +150,7 @@ fn exact_frequencies_give_the_saw_back() {
         ),
         (
             &two,
-            vec![
-                (ANGLE, -37.0, -55.0, 0.0),
-                (STIFFNESS, 2.2e6, 1e5, 1e8),
-            ],
+            vec![(ANGLE, -37.0, -55.0, 0.0), (STIFFNESS, 2.2e6, 1e5, 1e8)],
         ),
     ];
     for (saw, numbers) in truths {
@@ -145,7 +158,14 @@ fn exact_frequencies_give_the_saw_back() {
         let bounds: Vec<(&str, f64, f64)> = numbers.iter().map(|n| (n.0, n.2, n.3)).collect();
         let truth = with(saw, &values);
         let measurement = measured(&exact(&truth, &SPEEDS, 6), || 0.0);
-        let fit = Fit::new(saw, &measurement, &freed(saw, &bounds), &options, &|_, _| ()).unwrap();
+        let fit = Fit::new(
+            saw,
+            &measurement,
+            &freed(saw, &bounds),
+            &options,
+            &|_, _| (),
+        )
+        .unwrap();
         assert!(fit.rms_hz < 1e-5, "{}", fit.rms_hz);
         for (p, (path, value)) in fit.parameters.iter().zip(values) {
             assert_close(path, p.value, value, 1e-5);
@@ -153,7 +173,7 @@ fn exact_frequencies_give_the_saw_back() {
     }
 }
 
-/// Of 200 measurements with noise of 0.1 Hz the 90 % interval covers the truth of each number in
+/// Of 150 measurements with noise of 0.1 Hz the 90 % interval covers the truth of each number in
 /// 90 %, give or take three standard deviations of such a count.
 #[test]
 fn intervals_cover_the_truth_as_often_as_they_say() {
@@ -167,17 +187,22 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
         seed: 0,
         resolution: Some(SMALL),
     };
-    const DRAWS: usize = 200;
-    let mut covered = [0; 2];
+    const DRAWS: usize = 150;
     let mut noise = Noise(20_241_122);
-    for _ in 0..DRAWS {
-        let measurement = measured(&exact, || 0.1 * noise.normal());
-        let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
-        for (k, truth) in [0.21, 8e6].into_iter().enumerate() {
+    let drawn: Vec<Measurement> = (0..DRAWS)
+        .map(|_| measured(&exact, || 0.1 * noise.normal()))
+        .collect();
+    let fits: Vec<Fit> = drawn
+        .par_iter()
+        .map(|drawn| Fit::new(&saw, drawn, &free, &options, &|_, _| ()).unwrap())
+        .collect();
+    let covered = [(0, 0.21), (1, 8e6)].map(|(k, truth)| {
+        let covers = |fit: &&Fit| {
             let (low, high) = fit.parameters[k].interval.unwrap();
-            covered[k] += usize::from(low <= truth && truth <= high);
-        }
-    }
+            low <= truth && truth <= high
+        };
+        fits.iter().filter(covers).count()
+    });
     println!("covered {covered:?} of {DRAWS}");
     let deviation = (DRAWS as f64 * 0.9 * 0.1).sqrt();
     for count in covered {
@@ -198,17 +223,27 @@ fn numbers_that_the_data_do_not_tell_apart_have_no_interval() {
         source: "exact".into(),
         rows: vec![Row::new(
             0.0,
-            &lowest[0].iter().map(|hz| Some(1.01 * hz)).collect::<Vec<_>>(),
+            &lowest[0]
+                .iter()
+                .map(|hz| Some(1.01 * hz))
+                .collect::<Vec<_>>(),
         )],
     };
-    let free = freed(&saw, &[(modulus, 1.8e11, 2.4e11), (density, 7000.0, 8600.0)]);
+    let free = freed(
+        &saw,
+        &[(modulus, 1.8e11, 2.4e11), (density, 7000.0, 8600.0)],
+    );
     let options = Options {
         resolution: Some(SMALL),
         ..Options::default()
     };
     let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
     assert!(fit.rms_hz < 1e-5);
-    assert!(fit.parameters.iter().all(|p| p.interval.is_none()), "{:?}", fit.parameters);
+    assert!(
+        fit.parameters.iter().all(|p| p.interval.is_none()),
+        "{:?}",
+        fit.parameters
+    );
     let ratio = fit.parameters[0].value / fit.parameters[1].value;
     let material = saw.blade.material;
     let before = material.youngs_modulus_pa / material.density_kg_per_m3;
@@ -223,7 +258,13 @@ fn what_cannot_be_fitted_is_refused() {
         ..Options::default()
     };
     let fit = |measurement: &Measurement, numbers: &[(&str, f64, f64)]| {
-        Fit::new(&saw, measurement, &freed(&saw, numbers), &options, &|_, _| ())
+        Fit::new(
+            &saw,
+            measurement,
+            &freed(&saw, numbers),
+            &options,
+            &|_, _| (),
+        )
     };
     let idle = fit(&table_5(&saw), &[(ANGLE, -90.0, 90.0)]);
     assert!(matches!(idle, Err(FitError::NothingFree)), "{idle:?}");
@@ -233,7 +274,13 @@ fn what_cannot_be_fitted_is_refused() {
     };
     let few = fit(&one, &[(RADIUS, 0.15, 0.3), (STIFFNESS, 1e6, 1e8)]);
     assert!(
-        matches!(few, Err(FitError::TooFew { measured: 2, free: 2 })),
+        matches!(
+            few,
+            Err(FitError::TooFew {
+                measured: 2,
+                free: 2
+            })
+        ),
         "{few:?}"
     );
 }
@@ -249,7 +296,10 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
         ..Options::default()
     };
     let on = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| Fit::new(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap())
     };
     let (one, three) = (on(1), on(3));

@@ -9,7 +9,7 @@ use clap::Args;
 use sawflutter::figure;
 use sawflutter::fit::{Fit, Measurement, Options};
 use sawflutter::report::{FitReport, ParameterEntry};
-use sawflutter::scene::{Freed, Scene};
+use sawflutter::scene::Scene;
 
 use super::common::{Common, progress_bar, show};
 use super::free::{freed, number};
@@ -40,7 +40,12 @@ pub struct Arguments {
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     to_rpm: Option<f64>,
     /// Probability with which the intervals cover the truth
-    #[arg(long, value_name = "SHARE", default_value_t = 0.95, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.95,
+        allow_negative_numbers = true
+    )]
     confidence: f64,
     /// Starts: the scene's numbers, and others spread between the bounds
     #[arg(long, value_name = "COUNT", default_value_t = 12)]
@@ -153,7 +158,9 @@ fn usual_paths(scene: &Scene) -> Vec<String> {
         if index > 0 {
             names.push("angle_deg");
         }
-        names.into_iter().map(move |name| format!("guides[{index}].{name}"))
+        names
+            .into_iter()
+            .map(move |name| format!("guides[{index}].{name}"))
     };
     (0..count).flat_map(of).collect()
 }
@@ -184,19 +191,33 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
         100.0 * report.confidence
     )?;
     for found in &report.parameters {
-        let ParameterEntry { path, start, value, .. } = found;
+        let ParameterEntry {
+            path, start, value, ..
+        } = found;
         let interval = match (found.interval_from, found.interval_to) {
             (Some(from), Some(to)) => format!("{} … {}", short(from), short(to)),
             _ if found.at_bound => "at its bound".into(),
             _ => "not determined".into(),
         };
-        writeln!(text, "  {path:<34} {:>10} {:>10}  {interval}", short(*start), short(*value))?;
+        writeln!(
+            text,
+            "  {path:<34} {:>10} {:>10}  {interval}",
+            short(*start),
+            short(*value)
+        )?;
     }
     residuals(text, report)?;
     writeln!(text)?;
     let reached = |s: &&sawflutter::report::StartEntry| s.rms_hz.is_some();
-    let best = report.starts.iter().filter_map(|s| s.rms_hz).fold(f64::INFINITY, f64::min);
-    let same = report.starts.iter().filter(|s| s.rms_hz.is_some_and(|rms| rms <= 1.001 * best));
+    let best = report
+        .starts
+        .iter()
+        .filter_map(|s| s.rms_hz)
+        .fold(f64::INFINITY, f64::min);
+    let same = report
+        .starts
+        .iter()
+        .filter(|s| s.rms_hz.is_some_and(|rms| rms <= 1.001 * best));
     writeln!(
         text,
         "{} of {} starts led to this minimum ({} functions)",
@@ -215,7 +236,10 @@ const ROWS: usize = 20;
 const COLUMNS: usize = 7;
 
 fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
-    writeln!(text, "\nComputed minus measured frequency [Hz]\n     rpm    ascending")?;
+    writeln!(
+        text,
+        "\nComputed minus measured frequency [Hz]\n     rpm    ascending"
+    )?;
     let mut speeds: Vec<f64> = report.residuals.iter().map(|r| r.rpm).collect();
     speeds.dedup();
     for rpm in speeds.iter().take(ROWS) {

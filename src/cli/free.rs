@@ -30,7 +30,9 @@ fn parse(scene: &Scene, text: &str) -> anyhow::Result<Freed> {
     let Some((path, range)) = text.split_once('=') else {
         return Ok(Freed::with_usual_bounds(scene, text.trim())?);
     };
-    let bounds = range.split_once("..").map(|(from, to)| (from.trim().parse(), to.trim().parse()));
+    let bounds = range
+        .split_once("..")
+        .map(|(from, to)| (from.trim().parse(), to.trim().parse()));
     let Some((Ok(from), Ok(to))) = bounds else {
         bail!("the range is {range:?}, but must be two numbers; write it like 0.15..0.3");
     };

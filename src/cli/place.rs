@@ -171,7 +171,9 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     }
     writeln!(text, "\nA little off, the {goal} becomes [rpm]")?;
     for p in &report.parameters {
-        let PlacedEntry { less_rpm, more_rpm, .. } = p;
+        let PlacedEntry {
+            less_rpm, more_rpm, ..
+        } = p;
         let side = |rpm: &Option<f64>| rpm.map_or("past the bound".into(), |r| format!("{r:.0}"));
         writeln!(
             text,
@@ -185,7 +187,10 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     }
     let verdict = if report.fragile { "FRAGILE" } else { "robust" };
     let share = 100.0 * report.worst_neighbour_share;
-    writeln!(text, "The worst of these saws and their corners has {share:.0} % of it: {verdict}")?;
+    writeln!(
+        text,
+        "The worst of these saws and their corners has {share:.0} % of it: {verdict}"
+    )?;
     for band in &report.almost {
         let line = format!(
             "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
@@ -196,7 +201,11 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     for warning in &report.warnings {
         writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
     }
-    writeln!(text, "{} saws analysed, {:.0} to {:.0} rpm", report.saws, report.from_rpm, report.to_rpm)
+    writeln!(
+        text,
+        "{} saws analysed, {:.0} to {:.0} rpm",
+        report.saws, report.from_rpm, report.to_rpm
+    )
 }
 
 /// A number in nine columns.

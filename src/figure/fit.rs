@@ -65,9 +65,22 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
         [LOWER.bottom, LOWER.top],
         Spread::Linear,
     );
-    draw_vertical(&mut sheet, &frequency, &UPPER, "frequency in space\u{2003}[Hz]");
-    draw_vertical(&mut sheet, &residual, &LOWER, "model − measured\u{2003}[Hz]");
-    let zero = [[LOWER.left, residual.at(0.0)], [LOWER.right, residual.at(0.0)]];
+    draw_vertical(
+        &mut sheet,
+        &frequency,
+        &UPPER,
+        "frequency in space\u{2003}[Hz]",
+    );
+    draw_vertical(
+        &mut sheet,
+        &residual,
+        &LOWER,
+        "model − measured\u{2003}[Hz]",
+    );
+    let zero = [
+        [LOWER.left, residual.at(0.0)],
+        [LOWER.right, residual.at(0.0)],
+    ];
     sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
     draw_horizontal(&mut sheet, &speed, UPPER.bottom, false);
     draw_horizontal(&mut sheet, &speed, LOWER.bottom, true);
@@ -79,9 +92,21 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
         dash: Some(DASH),
         ..Stroke::solid(BEFORE, HAIRLINE)
     };
-    draw_curves(&mut sheet, report, &report.curves.before_hz, (&speed, &frequency), before);
+    draw_curves(
+        &mut sheet,
+        report,
+        &report.curves.before_hz,
+        (&speed, &frequency),
+        before,
+    );
     let after = Stroke::solid(FITTED, CURVE);
-    draw_curves(&mut sheet, report, &report.curves.fitted_hz, (&speed, &frequency), after);
+    draw_curves(
+        &mut sheet,
+        report,
+        &report.curves.fitted_hz,
+        (&speed, &frequency),
+        after,
+    );
     for r in &shown {
         draw_pair(&mut sheet, r, &speed, &frequency, &residual);
     }

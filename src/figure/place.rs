@@ -64,7 +64,11 @@ impl Along {
     }
 
     fn at(&self, value: f64) -> f64 {
-        let value = if self.logarithmic { value.log10() } else { value };
+        let value = if self.logarithmic {
+            value.log10()
+        } else {
+            value
+        };
         self.axis.at(value)
     }
 

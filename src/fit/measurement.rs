@@ -92,7 +92,13 @@ impl Measurement {
             }
             rows.push(row(&record)?);
             if rows.len() > MAX_ROWS {
-                return Err(wrong(&record, format!("it is row {}, but at most {MAX_ROWS} are allowed; leave out some speeds", rows.len())));
+                return Err(wrong(
+                    &record,
+                    format!(
+                        "it is row {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
+                        rows.len()
+                    ),
+                ));
             }
         }
         Ok(Measurement {
@@ -159,7 +165,10 @@ fn row(record: &csv::StringRecord) -> Result<Row, FitError> {
             Ok(value) if (0.0..=most).contains(&value) => Ok(value),
             _ => Err(wrong(
                 record,
-                format!("column {} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}", column + 1),
+                format!(
+                    "column {} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}",
+                    column + 1
+                ),
             )),
         }
     };
@@ -190,7 +199,10 @@ mod tests {
         let table = Measurement::from_csv("here", text).unwrap();
         assert_eq!(table.rows[0].pairs, [(0, 9.0), (1, 10.5), (3, 43.0)]);
         assert_eq!(table.rows[1].pairs, [(0, 0.0), (1, 4.0), (2, 9.0)]);
-        assert_eq!((table.count(), table.depth(), table.top_rpm()), (6, 4, 2000.0));
+        assert_eq!(
+            (table.count(), table.depth(), table.top_rpm()),
+            (6, 4, 2000.0)
+        );
         // The first row has a gap, which a scene cannot say.
         assert_eq!(table.as_scene_block().unwrap().rows.len(), 1);
         assert_eq!(table.up_to(1999.0).rows.len(), 1);

@@ -62,7 +62,9 @@ pub enum FitError {
         free: usize,
     },
     /// Nothing to fit with.
-    #[error("no number is free that moves a measured frequency; free another one, like guides[0].radius_m")]
+    #[error(
+        "no number is free that moves a measured frequency; free another one, like guides[0].radius_m"
+    )]
     NothingFree,
     /// Every start was refused.
     #[error("none of {starts} starts between the bounds is a saw; narrow the bounds")]
@@ -308,7 +310,10 @@ fn effective(
                     continue;
                 }
                 let first = reference.get_or_insert_with(|| residuals.clone());
-                let moved = first.iter().zip(&residuals).any(|(x, y)| (x - y).abs() > IDLE_HZ);
+                let moved = first
+                    .iter()
+                    .zip(&residuals)
+                    .any(|(x, y)| (x - y).abs() > IDLE_HZ);
                 if moved {
                     return Ok(true);
                 }
@@ -321,7 +326,10 @@ fn effective(
         .map(moves)
         .collect::<Result<_, _>>()?;
     let with = |wanted: bool| {
-        let pairs = freed.iter().zip(&moving).filter(move |(_, m)| **m == wanted);
+        let pairs = freed
+            .iter()
+            .zip(&moving)
+            .filter(move |(_, m)| **m == wanted);
         pairs.map(|(f, _)| f.clone()).collect()
     };
     Ok((with(true), with(false)))

@@ -45,20 +45,26 @@ impl Model<'_> {
         shares: &[f64],
     ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
         let (rows, columns) = (self.measurement.count(), self.freed.len());
-        let refused = |value| DenseMatrix::from_row_slice(rows, columns, &vec![value; rows * columns]);
-        let changes: Result<Vec<_>, SceneError> =
-            (0..columns).map(|k| self.changed_parts(shares, k)).collect();
+        let refused =
+            |value| DenseMatrix::from_row_slice(rows, columns, &vec![value; rows * columns]);
+        let changes: Result<Vec<_>, SceneError> = (0..columns)
+            .map(|k| self.changed_parts(shares, k))
+            .collect();
         let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
             return Ok((vec![f64::NAN; rows], refused(f64::NAN)));
         };
         let lowest = LowestModes::new(&plate);
         let mut slopes = Vec::with_capacity(rows * columns);
-        let residuals = self.residuals_of(&lowest, |speed, mode| {
-            slopes.extend(changes.iter().map(|parts| {
-                mode.map_or(0.0, |mode| slope_hz(&lowest.parts, parts, speed, mode))
-            }));
-        })?;
-        Ok((residuals, DenseMatrix::from_row_slice(rows, columns, &slopes)))
+        let residuals =
+            self.residuals_of(&lowest, |speed, mode| {
+                slopes.extend(changes.iter().map(|parts| {
+                    mode.map_or(0.0, |mode| slope_hz(&lowest.parts, parts, speed, mode))
+                }));
+            })?;
+        Ok((
+            residuals,
+            DenseMatrix::from_row_slice(rows, columns, &slopes),
+        ))
     }
 
     /// Frequencies of a saw at a speed, in Hz.
@@ -92,11 +98,7 @@ impl Model<'_> {
     }
 
     /// d/d(share k) of the matrices of every part.
-    fn changed_parts(
-        &self,
-        shares: &[f64],
-        k: usize,
-    ) -> Result<Vec<GyroscopicSystem>, SceneError> {
+    fn changed_parts(&self, shares: &[f64], k: usize) -> Result<Vec<GyroscopicSystem>, SceneError> {
         let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
         for (place, weight) in stencil(shares[k]) {
             let mut shares = shares.to_vec();
@@ -107,7 +109,9 @@ impl Model<'_> {
                 terms.push((weight / STEP, part.full));
             }
         }
-        let combined = moved.iter().map(|terms| GyroscopicSystem::combination(terms));
+        let combined = moved
+            .iter()
+            .map(|terms| GyroscopicSystem::combination(terms));
         Ok(combined.flatten().collect())
     }
 }

@@ -132,7 +132,9 @@ pub fn statistics(
     confidence: f64,
 ) -> Result<Spread, SpectrumError> {
     let (residuals, slopes) = model.residuals_and_slopes(shares)?;
-    let free: Vec<usize> = (0..shares.len()).filter(|&k| !at_bound(shares[k])).collect();
+    let free: Vec<usize> = (0..shares.len())
+        .filter(|&k| !at_bound(shares[k]))
+        .collect();
     let degrees_of_freedom = residuals.len().saturating_sub(free.len());
     let mut spread = Spread {
         half_widths: vec![None; shares.len()],

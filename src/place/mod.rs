@@ -45,7 +45,9 @@ use search::{Search, Tried};
 #[derive(Debug, thiserror::Error)]
 pub enum PlaceError {
     /// Nothing to move.
-    #[error("no number is free that moves a critical speed or a band; free another one, like guides[0].radius_m")]
+    #[error(
+        "no number is free that moves a critical speed or a band; free another one, like guides[0].radius_m"
+    )]
     NothingFree,
     /// The scene itself, or every saw tried, cannot be analysed.
     #[error("none of the {tried} saws tried can be analysed; narrow the bounds")]
@@ -156,13 +158,13 @@ pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 /// The search may be this far off; what it finds is refined on the basis asked for.
 const COARSE_TOLERANCE: f64 = 1e-2;
 /// Different places to refine, and how far apart they are at least, as shares of the bounds.
-const PLACES: usize = 4;
+const PLACES: usize = 3;
 const APART: f64 = 0.08;
 /// Steps of the refinement as shares of the bounds, and saws it may take.
 const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
-const COARSE_BUDGET: u64 = 80;
+const COARSE_BUDGET: u64 = 60;
 const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
-const FINE_BUDGET: u64 = 60;
+const FINE_BUDGET: u64 = 50;
 /// A map that still finds better saws is not drawn again for ever.
 const MAP_ROUNDS: usize = 3;
 /// Nearer to a bound than this a share rests on it.
@@ -333,12 +335,20 @@ fn effective(
             });
             let found: Vec<[f64; 3]> = found.collect();
             let differ = |x: f64, y: f64| (x - y).abs() > IDLE * x.abs().max(y.abs());
-            found.iter().any(|other| (0..3).any(|i| differ(found[0][i], other[i])))
+            found
+                .iter()
+                .any(|other| (0..3).any(|i| differ(found[0][i], other[i])))
         })
     };
-    let moving: Vec<bool> = (0..freed.len()).into_par_iter().map(|k| moves(&k)).collect();
+    let moving: Vec<bool> = (0..freed.len())
+        .into_par_iter()
+        .map(|k| moves(&k))
+        .collect();
     let with = |wanted: bool| {
-        let pairs = freed.iter().zip(&moving).filter(move |(_, m)| **m == wanted);
+        let pairs = freed
+            .iter()
+            .zip(&moving)
+            .filter(move |(_, m)| **m == wanted);
         pairs.map(|(f, _)| f.clone()).collect()
     };
     (with(true), with(false))
@@ -348,6 +358,7 @@ fn effective(
 fn placed(scene: &Scene, freed: &[Freed], best: &Tried) -> Result<Scene, SceneError> {
     let mut file = scene_at(&scene.file, freed, &best.shares)?.file;
     let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
-    file.notes.push(format!("{}: placed by optimization", names.join(", ")));
+    file.notes
+        .push(format!("{}: placed by optimization", names.join(", ")));
     Scene::try_from(file)
 }

@@ -50,7 +50,11 @@ impl Neighbours {
     ) -> Self {
         let freed = search.freed;
         let values: Vec<f64> = freed.iter().zip(at).map(|(f, s)| f.value(*s)).collect();
-        let offsets: Vec<f64> = freed.iter().zip(&values).map(|(f, v)| offset(f, *v)).collect();
+        let offsets: Vec<f64> = freed
+            .iter()
+            .zip(&values)
+            .map(|(f, v)| offset(f, *v))
+            .collect();
         let mut steps: Vec<Vec<f64>> = Vec::new();
         for k in 0..freed.len() {
             for sign in [-1.0, 1.0] {
@@ -101,7 +105,13 @@ impl Neighbours {
 /// What a workshop cannot rule out: two millimetres, a degree, a tenth of a stiffness, one per
 /// cent of other numbers.
 fn offset(freed: &Freed, value: f64) -> f64 {
-    match freed.parameter.path().rsplit('.').next().unwrap_or_default() {
+    match freed
+        .parameter
+        .path()
+        .rsplit('.')
+        .next()
+        .unwrap_or_default()
+    {
         "radius_m" => 0.002,
         "angle_deg" => 1.0,
         "stiffness_n_per_m" | "damping_n_s_per_m" => 0.1 * value,

@@ -214,11 +214,7 @@ fn residuals(
     Ok(entries)
 }
 
-fn curves(
-    before: &Scene,
-    fitted: &Measurement,
-    fit: &Fit,
-) -> Result<CurvesEntry, SpectrumError> {
+fn curves(before: &Scene, fitted: &Measurement, fit: &Fit) -> Result<CurvesEntry, SpectrumError> {
     // A fit at one speed is drawn a little way, for there has to be an axis.
     let top = if fitted.top_rpm() > 0.0 {
         BEYOND * fitted.top_rpm()
@@ -245,7 +241,9 @@ fn warnings(fit: &Fit) -> Vec<String> {
     for found in &fit.parameters {
         let path = found.freed.parameter.path();
         if found.at_bound {
-            warnings.push(format!("{path} rests on a bound; widen it if a saw may have more"));
+            warnings.push(format!(
+                "{path} rests on a bound; widen it if a saw may have more"
+            ));
         } else if found.interval.is_none() {
             warnings.push(format!(
                 "the data do not tell {path} from the other numbers: other values fit as well"

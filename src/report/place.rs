@@ -201,7 +201,10 @@ impl From<&Map> for MapEntry {
             x: map.x.clone(),
             y_path: map.y_path.clone(),
             y: map.y.clone(),
-            goal_rpm: rows.clone().map(|row| row.iter().map(goal).collect()).collect(),
+            goal_rpm: rows
+                .clone()
+                .map(|row| row.iter().map(goal).collect())
+                .collect(),
             kept: rows.map(|row| row.iter().map(kept).collect()).collect(),
         }
     }
@@ -257,9 +260,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     }
     let beyond = match demands.goal {
         Goal::FlutterSpeed => found.best.flutter_rad_per_s.is_none(),
-        Goal::StableWindow { .. } => {
-            found.best.window.is_some_and(|(_, to)| to >= found.range.1)
-        }
+        Goal::StableWindow { .. } => found.best.window.is_some_and(|(_, to)| to >= found.range.1),
     };
     if beyond {
         warnings.push(format!(
@@ -271,7 +272,9 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
         warnings.push("no saw between the bounds keeps the limit on the critical speed; this one comes nearest".into());
     }
     if scene.cut.is_some() {
-        warnings.push("the forces of the cut are left out; hold the result against `sawflutter cut`".into());
+        warnings.push(
+            "the forces of the cut are left out; hold the result against `sawflutter cut`".into(),
+        );
     }
     warnings
 }

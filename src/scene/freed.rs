@@ -95,11 +95,7 @@ impl Freed {
 ///
 /// # Errors
 /// [`SceneError`] where these values are refused together.
-pub fn scene_at(
-    scene: &SceneFile,
-    freed: &[Freed],
-    shares: &[f64],
-) -> Result<Scene, SceneError> {
+pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Scene, SceneError> {
     let numbers: Vec<(&Parameter, f64)> = freed
         .iter()
         .zip(shares)
@@ -166,7 +162,12 @@ mod tests {
         for (path, from, to, expected) in [
             ("guides[0].radius_m", 0.3, 0.2, "the range of"),
             ("guides[0].radius_m", 0.2, 3.0, "guides[0].radius_m"),
-            ("guides[0].stiffness_n_per_m", -1.0, 3.0, "stiffness_n_per_m"),
+            (
+                "guides[0].stiffness_n_per_m",
+                -1.0,
+                3.0,
+                "stiffness_n_per_m",
+            ),
             ("guides[7].radius_m", 0.2, 0.3, "guides[7]"),
         ] {
             let error = Freed::new(&scene, path, from, to).unwrap_err().to_string();
@@ -179,7 +180,9 @@ mod tests {
         let turn = |scene: &Scene, guides: &[usize]| {
             let freed: Vec<Freed> = guides
                 .iter()
-                .map(|i| Freed::with_usual_bounds(scene, &format!("guides[{i}].angle_deg")).unwrap())
+                .map(|i| {
+                    Freed::with_usual_bounds(scene, &format!("guides[{i}].angle_deg")).unwrap()
+                })
                 .collect();
             common_turn(scene, &freed)
         };
