@@ -145,15 +145,17 @@ fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
 }
 
 /// Draft, a narrow range of radii and few saws: what is tested is what is said, not how good it is.
-const QUICK: [&str; 8] = [
+const QUICK: [&str; 10] = [
     "--accuracy",
     "draft",
     "--free",
     "guides[0].radius_m=0.195..0.205",
     "--samples",
+    "3",
+    "--refine",
     "4",
     "--map",
-    "3",
+    "2",
 ];
 
 #[test]

@@ -10,7 +10,7 @@ use common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::fit::{Fit, FitError, Measurement, Options, Row, Start};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Freed, Parameter, Scene, rad_per_s};
+use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ const RADIUS: &str = "guides[0].radius_m";
 const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
 const ANGLE: &str = "guides[0].angle_deg";
 const SMALL: Resolution = Resolution {
-    max_diameters: 5,
+    max_diameters: 4,
     radial_functions: 3,
 };
 
@@ -43,13 +43,18 @@ fn table_5(scene: &Scene) -> Measurement {
 }
 
 /// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24
-/// numbers, 0.987 Hz rms. The free optimum is 0.194 m and 2.08e7 N/m, 0.983 Hz: the minimum is
-/// so flat that the rounding costs 0.004 Hz, and the 95 % interval of the radius is 31 mm to
+/// numbers, 0.987 Hz rms. The free optimum is 0.195 m and 1.8e7 N/m, 0.984 Hz: the minimum is
+/// so flat that the rounding costs 0.003 Hz, and the 95 % interval of the radius is 30 mm to
 /// either side. It is found from a pad at the rim that is a hundred times softer. The angle of a single pad turns
 /// the saw as a whole: the data say nothing about it, and it stays at the paper's −55°.
 #[test]
 fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
-    let calibrated = scene("paper");
+    // On the basis that `design` asks for, which takes a minute: 0.1940 m, 2.08e7 N/m, 0.983 Hz.
+    let calibrated = Scene::try_from(SceneFile {
+        accuracy: Accuracy::Draft,
+        ..scene("paper").file
+    })
+    .unwrap();
     let far = with(&calibrated, &[(RADIUS, 0.33), (STIFFNESS, 2e5)]);
     let free = freed(
         &far,
@@ -83,9 +88,9 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
         let (low, high) = p.interval.unwrap();
         assert!(low < expected && expected < high, "{p:?}");
     }
-    // 6 mm and 4 % off the rounded one.
+    // 5 mm and 10 % off the rounded one.
     assert_close("radius", fit.parameters[0].value, 0.2, 0.04);
-    assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.06);
+    assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.15);
     // Every start, the farthest included, leads there.
     let reached = |start: &&Start| start.to.as_ref().is_some_and(|(_, rms)| *rms < 0.985);
     assert_eq!(fit.starts.iter().filter(reached).count(), fit.starts.len());
@@ -118,7 +123,7 @@ impl Noise {
     }
 }
 
-const SPEEDS: [f64; 6] = [0.0, 300.0, 600.0, 900.0, 1100.0, 1300.0];
+const SPEEDS: [f64; 4] = [0.0, 400.0, 800.0, 1200.0];
 
 fn measured(exact: &[Vec<f64>], mut noise: impl FnMut() -> f64) -> Measurement {
     let rows = SPEEDS.iter().zip(exact).map(|(rpm, exact)| {
@@ -136,6 +141,7 @@ fn measured(exact: &[Vec<f64>], mut noise: impl FnMut() -> f64) -> Measurement {
 fn exact_frequencies_give_the_saw_back() {
     let options = Options {
         resolution: Some(SMALL),
+        starts: 4,
         ..Options::default()
     };
     let two = scene("two-pads");
@@ -173,7 +179,7 @@ fn exact_frequencies_give_the_saw_back() {
     }
 }
 
-/// Of 150 measurements with noise of 0.1 Hz the 90 % interval covers the truth of each number in
+/// Of 100 measurements with noise of 0.1 Hz the 90 % interval covers the truth of each number in
 /// 90 %, give or take three standard deviations of such a count.
 #[test]
 fn intervals_cover_the_truth_as_often_as_they_say() {
@@ -187,7 +193,7 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
         seed: 0,
         resolution: Some(SMALL),
     };
-    const DRAWS: usize = 150;
+    const DRAWS: usize = 100;
     let mut noise = Noise(20_241_122);
     let drawn: Vec<Measurement> = (0..DRAWS)
         .map(|_| measured(&exact, || 0.1 * noise.normal()))

@@ -14,16 +14,17 @@ use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
 
 const RADIUS: &str = "guides[0].radius_m";
 const ANGLE: &str = "guides[0].angle_deg";
-const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
     radial_functions: 3,
 };
-const TOP_RPM: f64 = 2500.0;
+const TOP_RPM: f64 = 2400.0;
 
 fn quick() -> Options {
     Options {
-        samples: 16,
+        samples: 8,
+        places: 1,
+        refine: 24,
         map: 0,
         resolution: Some(SMALL),
     }
@@ -185,19 +186,20 @@ fn brute_force_finds_nothing_better() {
     assert_eq!((map.x.len(), map.y.len(), map.outcomes.len()), (7, 7, 7));
 }
 
-/// The stiffest pad is the best for flutter or not, a limit above the critical speed that the
-/// best saw has makes it give way, and is kept; one that no saw keeps is said to be broken.
+/// The farther the two pads stand apart, the higher is the lowest critical speed; flutter comes
+/// latest in between. A limit above the critical speed of the best saw makes it give way and is
+/// kept; one that no saw keeps is said to be broken.
 #[test]
 fn a_limit_on_the_critical_speed_is_active_and_kept() {
-    let saw = swept("paper");
-    let free = freed(&saw, &[(RADIUS, 0.15, 0.3), (STIFFNESS, 1e6, 1e8)]);
+    let saw = swept("two-pads");
+    let free = freed(&saw, &[(ANGLE, -115.0, -60.0)]);
     let unlimited = place(&saw, &free, &Demands::default(), &quick());
     let loose = unlimited.best.critical_rad_per_s.unwrap();
     let at_least = |rad_per_s: f64| Demands {
         min_critical_rad_per_s: Some(rad_per_s),
         ..Demands::default()
     };
-    let limit = 1.01 * loose;
+    let limit = 1.02 * loose;
     let limited = place(&saw, &free, &at_least(limit), &quick());
     let kept = limited.best.critical_rad_per_s.unwrap();
     println!(

@@ -40,10 +40,13 @@ pub struct Arguments {
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     min_critical_rpm: Option<f64>,
     /// Saws spread over the bounds at first
-    #[arg(long, value_name = "COUNT", default_value_t = 96)]
+    #[arg(long, value_name = "COUNT", default_value_t = 64)]
     samples: usize,
+    /// Saws that the refinement of each of the best places may take
+    #[arg(long, value_name = "COUNT", default_value_t = 60)]
+    refine: u64,
     /// Points of the map along each axis; 0 for none
-    #[arg(long, value_name = "COUNT", default_value_t = 21)]
+    #[arg(long, value_name = "COUNT", default_value_t = 17)]
     map: usize,
 }
 
@@ -70,14 +73,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     }
     if arguments.map == 1 || arguments.map > MAX_MAP {
         bail!(
-            "--map is {}, but must be 0 or from 2 to {MAX_MAP}; 21 is usual",
+            "--map is {}, but must be 0 or from 2 to {MAX_MAP}; 17 is usual",
             arguments.map
         );
     }
     let options = Options {
         samples: arguments.samples,
+        refine: arguments.refine.max(1),
         map: arguments.map,
-        resolution: None,
+        ..Options::default()
     };
     let usual: Vec<String> = match scene.file.guides.first() {
         Some(_) => ["radius_m", "angle_deg", "stiffness_n_per_m"]

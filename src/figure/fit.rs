@@ -48,7 +48,12 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
-    let speed = Axis::new([0.0, last], [UPPER.left, UPPER.right], Spread::Linear);
+    // Room for the points at rest.
+    let speed = Axis::new(
+        [-0.025 * last, last],
+        [UPPER.left, UPPER.right],
+        Spread::Linear,
+    );
     let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
     let shown: Vec<&ResidualEntry> = shown.collect();
     let fitted = || shown.iter().filter(|r| r.fitted);
@@ -110,7 +115,7 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
     for r in &shown {
         draw_pair(&mut sheet, r, &speed, &frequency, &residual);
     }
-    draw_key(&mut sheet, report);
+    draw_key(&mut sheet, report, shown.iter().any(|r| !r.fitted));
     sheet
 }
 
@@ -189,7 +194,7 @@ fn draw_pair(
     }
 }
 
-fn draw_key(sheet: &mut Sheet, report: &FitReport) {
+fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
     let y = f64::from(HEIGHT) - 22.0;
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let mut x = UPPER.left;
@@ -201,7 +206,7 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport) {
     x += 14.0;
     let source = super::style::shorten(&report.source, LABEL_SIZE, Weight::Regular, 260.0);
     word(sheet, &mut x, &source);
-    if report.residuals.iter().any(|r| !r.fitted) {
+    if some_left_out {
         sheet.disc([x + 3.0, y - 4.0], 2.0, QUIET);
         x += 12.0;
         word(sheet, &mut x, "not fitted");
@@ -226,5 +231,43 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport) {
         x += 12.0;
         let name = ["lowest", "second", "third", "fourth, …"][place];
         word(sheet, &mut x, name);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::assert_tidy;
+    use crate::fit::{Fit, Measurement, Options};
+    use crate::plate::Resolution;
+    use crate::scene::{Freed, Scene};
+
+    #[test]
+    fn nothing_is_cut_off_or_hidden() {
+        let scene = Scene::paper();
+        let table = Measurement::of_scene(scene.file.measured.as_ref().unwrap());
+        let freed = Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap();
+        let options = Options {
+            starts: 1,
+            resolution: Some(Resolution {
+                max_diameters: 4,
+                radial_functions: 3,
+            }),
+            ..Options::default()
+        };
+        for to_rpm in [0.0, 500.0] {
+            let fitted = table.up_to(to_rpm);
+            let fit = Fit::new(&scene, &fitted, &[freed.clone()], &options, &|_, _| ()).unwrap();
+            let report = FitReport::new(&scene, &table, to_rpm, 0.95, &fit).unwrap();
+            assert_tidy(&sheet(&report));
+        }
+    }
+
+    #[test]
+    fn numbers_of_any_size_take_four_digits() {
+        assert_eq!(four_digits(0.194024), "0.1940");
+        assert_eq!(four_digits(-55.0), "\u{2212}55.00");
+        assert_eq!(four_digits(2.0e7), "2.000e7");
+        assert_eq!(four_digits(0.0), "0.000000");
     }
 }

@@ -243,3 +243,88 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
         word(sheet, &mut x, &limit);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::report::OutcomeEntry;
+    use crate::report::PlacedEntry;
+    use crate::scene::Scene;
+
+    fn report(y_path: Option<&str>) -> PlaceReport {
+        let outcome = OutcomeEntry {
+            goal_rpm: 2300.0,
+            flutter_rpm: Some(2300.0),
+            critical_rpm: Some(1600.0),
+            window_rpm: None,
+            kept: true,
+        };
+        let placed = |path: &str, value: f64, bound_to: f64| PlacedEntry {
+            path: path.into(),
+            start: 0.9 * value,
+            value,
+            bound_from: 0.5 * value,
+            bound_to,
+            at_bound: false,
+            offset: 0.002,
+            less_rpm: Some(2250.0),
+            more_rpm: None,
+        };
+        let (x, y) = (vec![0.2, 0.25, 0.3], vec![1e6, 1e7, 1e8]);
+        let rows = if y_path.is_some() { 3 } else { 1 };
+        PlaceReport {
+            sawflutter: "0".into(),
+            scene: Scene::paper().file,
+            goal: GoalEntry::FlutterSpeed,
+            min_critical_rpm: Some(1500.0),
+            kept: true,
+            from_rpm: 0.0,
+            to_rpm: 3000.0,
+            flutter_threshold_per_s: 0.25,
+            parameters: vec![
+                placed("guides[0].radius_m", 0.25, 0.3),
+                placed("guides[0].stiffness_n_per_m", 2e7, 1e8),
+            ],
+            without_effect: Vec::new(),
+            before: outcome,
+            best: outcome,
+            bands: Vec::new(),
+            fragile: true,
+            worst_neighbour: None,
+            worst_neighbour_share: 0.91,
+            almost: Vec::new(),
+            map: Some(MapEntry {
+                x_path: "guides[0].radius_m".into(),
+                x,
+                y_path: y_path.map(str::to_owned),
+                y: if y_path.is_some() { y } else { vec![0.0] },
+                goal_rpm: vec![vec![Some(2000.0), Some(2300.0), None]; rows],
+                kept: vec![vec![true, true, false]; rows],
+            }),
+            saws: 100,
+            max_diameters: 8,
+            radial_functions: 5,
+            warnings: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn nothing_is_cut_off_or_hidden() {
+        for y_path in [None, Some("guides[0].stiffness_n_per_m")] {
+            let sheet = sheet(&report(y_path)).unwrap();
+            assert_tidy(&sheet);
+            let all: Vec<&str> = texts(&sheet).iter().map(|(_, text)| *text).collect();
+            assert!(
+                all.iter().any(|text| text.contains("below 1500 rpm")),
+                "{all:?}"
+            );
+            assert!(all.iter().any(|text| text.contains("[m]")), "{all:?}");
+        }
+        let without = PlaceReport {
+            map: None,
+            ..report(None)
+        };
+        assert!(super::sheet(&without).is_none());
+    }
+}

@@ -14,8 +14,8 @@
 //!
 //! let scene = Scene::paper();
 //! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.18, 0.28)?;
-//! let small = Resolution { max_diameters: 7, radial_functions: 3 };
-//! let options = Options { resolution: Some(small), samples: 6, map: 0, ..Options::default() };
+//! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
+//! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0 };
 //! let found = Placement::new(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
 //! assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -98,6 +98,10 @@ impl Default for Demands {
 pub struct Options {
     /// Saws spread over the bounds at first.
     pub samples: usize,
+    /// How many of the best of them, if apart, are refined.
+    pub places: usize,
+    /// Saws that each refinement may take.
+    pub refine: u64,
     /// Points of the map along each axis; 0 for none.
     pub map: usize,
     /// A basis instead of the one that the scene's tolerance asks for.
@@ -107,8 +111,10 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Options {
-            samples: 96,
-            map: 21,
+            samples: 64,
+            places: 3,
+            refine: 60,
+            map: 17,
             resolution: None,
         }
     }
@@ -157,14 +163,11 @@ pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
 /// The search may be this far off; what it finds is refined on the basis asked for.
 const COARSE_TOLERANCE: f64 = 1e-2;
-/// Different places to refine, and how far apart they are at least, as shares of the bounds.
-const PLACES: usize = 3;
+/// How far apart places to refine are at least, as a share of the bounds.
 const APART: f64 = 0.08;
-/// Steps of the refinement as shares of the bounds, and saws it may take.
+/// First and last steps of the refinement as shares of the bounds.
 const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
-const COARSE_BUDGET: u64 = 60;
 const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
-const FINE_BUDGET: u64 = 50;
 /// A map that still finds better saws is not drawn again for ever.
 const MAP_ROUNDS: usize = 3;
 /// Nearer to a bound than this a share rests on it.
@@ -219,7 +222,7 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let best = settle(&fine, &candidate, progress);
+        let best = settle(&fine, &candidate, options.refine, progress);
         let (Some(found), Some(before)) = (fine.outcome(&best.shares), fine.outcome(&own)) else {
             let tried = evaluations.into_inner();
             return Err(PlaceError::NoSaw { tried });
@@ -256,10 +259,10 @@ fn look_everywhere(
 ) -> Result<(Tried, Option<Map>), PlaceError> {
     let samples = options.samples.max(1);
     let tried = search.sample(own, samples, &|done, of| progress("samples", done, of));
-    let starts = Search::apart(&tried, PLACES, APART);
+    let starts = Search::apart(&tried, options.places.max(1), APART);
     let refined: Vec<Tried> = starts
         .par_iter()
-        .map(|start| search.refine(start, COARSE_STEPS, COARSE_BUDGET))
+        .map(|start| search.refine(start, COARSE_STEPS, options.refine))
         .collect();
     let mut best = cheapest(refined).ok_or(PlaceError::NoSaw { tried: samples })?;
     if best.cost >= REFUSED {
@@ -275,7 +278,7 @@ fn look_everywhere(
         map = Some(drawn);
         match on_map {
             Some(better) if better.cost < best.cost => {
-                best = search.refine(&better, COARSE_STEPS, COARSE_BUDGET);
+                best = search.refine(&better, COARSE_STEPS, options.refine);
             }
             _ => break,
         }
@@ -284,7 +287,7 @@ fn look_everywhere(
 }
 
 /// Refines on the basis asked for, until direct search finds nothing better.
-fn settle(search: &Search<'_>, candidate: &Tried, progress: Progress<'_>) -> Tried {
+fn settle(search: &Search<'_>, candidate: &Tried, budget: u64, progress: Progress<'_>) -> Tried {
     progress("refinement", 0, 1);
     let cost = search
         .outcome(&candidate.shares)
@@ -293,7 +296,7 @@ fn settle(search: &Search<'_>, candidate: &Tried, progress: Progress<'_>) -> Tri
         cost,
         ..candidate.clone()
     };
-    let settled = search.refine(&start, FINE_STEPS, FINE_BUDGET);
+    let settled = search.refine(&start, FINE_STEPS, budget);
     progress("refinement", 1, 1);
     settled
 }
@@ -328,7 +331,7 @@ fn effective(
             return false;
         }
         [own.clone(), spread(freed.len(), 0, 0)].iter().any(|base| {
-            let found = [0.1, 0.37, 0.83].iter().filter_map(|share| {
+            let found = [0.23, 0.71].iter().filter_map(|share| {
                 let mut shares = base.clone();
                 shares[*k] = *share;
                 speeds(&shares)
