@@ -161,8 +161,9 @@ pub struct Placement {
 /// Told what is being done, how many of it are done, and of how many.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
-/// The search may be this far off; what it finds is refined on the basis asked for.
-const COARSE_TOLERANCE: f64 = 1e-2;
+/// The search may be this far off; what it finds is refined on the basis asked for. Basis
+/// errors move all saws of a search alike, so that better ones stay the better.
+const COARSE_TOLERANCE: f64 = 5e-2;
 /// How far apart places to refine are at least, as a share of the bounds.
 const APART: f64 = 0.08;
 /// First and last steps of the refinement as shares of the bounds.
