@@ -58,7 +58,7 @@ pub struct HeatLimitEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatCurveEntry {
-    /// Nodal diameters, of a guided blade in its first point.
+    /// Nodal diameters, of a guided blade at the last peak.
     pub nodal_diameters: usize,
     /// Nodal circles.
     pub nodal_circles: usize,

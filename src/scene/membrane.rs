@@ -286,3 +286,98 @@ pub(super) fn ascending(key: &str, radii: &[f64], blade: &Blade) -> Result<(), S
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, SceneFile};
+
+    fn scene(membrane: &str) -> Result<Scene, SceneError> {
+        Scene::try_from(SceneFile {
+            membrane: Some(serde_json::from_str(membrane).unwrap()),
+            ..Scene::paper().file
+        })
+    }
+
+    fn temperature(text: &str) -> (Blade, Temperature) {
+        let scene = scene(&format!("{{\"temperature\": {text}}}")).unwrap();
+        (scene.blade, scene.membrane.unwrap().temperature.unwrap())
+    }
+
+    #[test]
+    fn a_rim_rise_is_straight_from_the_bore_unless_said_otherwise() {
+        let (blade, plain) = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
+        let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let rises = [a, 0.5 * (a + b), b].map(|r| plain.rise_k(&blade, r));
+        assert!((rises[0]).abs() < 1e-12 && (rises[1] - 10.0).abs() < 1e-12);
+        assert!((rises[2] - 20.0).abs() < 1e-12);
+        let (_, shaped) = temperature(
+            r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20, "from_radius_m": 0.3, "exponent": 2}"#,
+        );
+        assert_eq!(shaped.rise_k(&blade, 0.29), 0.0);
+        let share = (0.33 - 0.3) / (b - 0.3);
+        assert!((shaped.rise_k(&blade, 0.33) - 20.0 * share * share).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_table_is_its_peak_times_a_shape() {
+        let (blade, table) = temperature(
+            r#"{"expansion_per_k": 1.2e-5, "table": [{"radius_m": 0.1, "rise_k": 8},
+                {"radius_m": 0.3, "rise_k": -24}]}"#,
+        );
+        assert_eq!(table.peak_rise_k, -24.0);
+        for (r, expected) in [(0.05, 8.0), (0.2, -8.0), (0.35, -24.0)] {
+            assert!((table.rise_k(&blade, r) - expected).abs() < 1e-12);
+        }
+    }
+
+    /// Rows too close to tell from zero would make a shape of infinities.
+    #[test]
+    fn a_table_of_nothing_is_no_temperature() {
+        for rise in ["0", "1e-310"] {
+            let text = format!(
+                r#"{{"expansion_per_k": 1.2e-5, "table": [{{"radius_m": 0.1, "rise_k": {rise}}}]}}"#
+            );
+            let (blade, nothing) = temperature(&text);
+            assert_eq!(nothing.peak_rise_k, 0.0);
+            assert_eq!(nothing.rise_k(&blade, 0.2), 0.0);
+        }
+    }
+
+    #[test]
+    fn numbers_that_no_blade_has_are_refused_by_name() {
+        let cases = [
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "rim_rise_k": 1e5}}"#,
+                "membrane.temperature.rim_rise_k",
+            ),
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "rim_rise_k": 1, "exponent": 21}}"#,
+                "membrane.temperature.exponent",
+            ),
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "table": [
+                    {"radius_m": 0.2, "rise_k": 1}, {"radius_m": 0.4, "rise_k": 1}]}}"#,
+                "membrane.temperature.table[1].radius_m",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1}]}"#,
+                "membrane.roll_tension[0].eigenstrain",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0, "eigenstrain": 1e-4}]}"#,
+                "membrane.roll_tension[0].width_m",
+            ),
+            (
+                r#"{"residual_stress": [{"radius_m": 0.2, "hoop_pa": 1e12}]}"#,
+                "membrane.residual_stress[0].hoop_pa",
+            ),
+        ];
+        for (text, expected) in cases {
+            match scene(text) {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+}

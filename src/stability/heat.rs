@@ -32,9 +32,9 @@ pub struct HeatLimit {
 /// Critical speed of one wave over the temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatCurve {
-    /// Nodal diameters.
+    /// Nodal diameters at the last peak.
     pub diameters: usize,
-    /// Nodal circles.
+    /// Nodal circles there.
     pub circles: usize,
     /// Peaks of the temperature profile.
     pub rise_k: Vec<f64>,
@@ -204,6 +204,8 @@ impl<'a> Heating<'a> {
                     });
                     curves.len() - 1
                 });
+                // A guided blade's waves change places: the name is that of the last peak.
+                (curves[index].diameters, curves[index].circles) = (wave.diameters, wave.circles);
                 curves[index].rise_k.push(*rise_k);
                 curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);
             }
