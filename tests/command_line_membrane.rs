@@ -6,7 +6,10 @@ mod common;
 use assert_cmd::Command;
 use sawflutter::report::Report;
 
-fn analyze(scene: &serde_json::Value, arguments: &[&str]) -> (tempfile::TempDir, assert_cmd::assert::Assert) {
+fn analyze(
+    scene: &serde_json::Value,
+    arguments: &[&str],
+) -> (tempfile::TempDir, assert_cmd::assert::Assert) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.json");
     std::fs::write(&path, scene.to_string()).unwrap();
@@ -43,7 +46,9 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
         assert!(printed.contains(words), "{words}: {printed}");
     }
     // The line of files is as long as it is.
-    let report_lines = printed.lines().take_while(|line| !line.starts_with("Written"));
+    let report_lines = printed
+        .lines()
+        .take_while(|line| !line.starts_with("Written"));
     for line in report_lines {
         assert!(line.chars().count() <= 80, "{line}");
     }
@@ -51,7 +56,11 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     let report = std::fs::read_to_string(out.join("report.json")).unwrap();
     let report: Report = serde_json::from_str(&report).unwrap();
     for term in ["heat K_m", "roll tension K_m"] {
-        assert!(report.terms.iter().any(|own| own == term), "{:?}", report.terms);
+        assert!(
+            report.terms.iter().any(|own| own == term),
+            "{:?}",
+            report.terms
+        );
     }
     let membrane = report.membrane.unwrap();
     let heat = membrane.heat.unwrap();
@@ -67,9 +76,16 @@ fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
     let mut scene = tensioned();
     scene["membrane"]["roll_tension"] = serde_json::json!([]);
     let (_folder, assert) = analyze(&scene, &["--json"]);
-    let report: Report = serde_json::from_str(&text(&assert.success().get_output().stdout)).unwrap();
+    let report: Report =
+        serde_json::from_str(&text(&assert.success().get_output().stdout)).unwrap();
     assert!(report.critical_speeds[0].rpm < 3800.0);
-    let limit = report.membrane.unwrap().heat.unwrap().operating_limit.unwrap();
+    let limit = report
+        .membrane
+        .unwrap()
+        .heat
+        .unwrap()
+        .operating_limit
+        .unwrap();
     assert!(limit.rise_k < 20.0);
 }
 
@@ -126,7 +142,10 @@ fn refusals_name_key_value_and_remedy() {
         scene["membrane"] = membrane;
         let (_folder, assert) = analyze(&scene, &[]);
         let message = text(&assert.code(2).get_output().stderr);
-        assert!(message.contains(words) && message.contains("; "), "{words}: {message}");
+        assert!(
+            message.contains(words) && message.contains("; "),
+            "{words}: {message}"
+        );
     }
 }
 

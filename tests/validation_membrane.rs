@@ -13,7 +13,9 @@ use common::{Worst, assert_close, of_diameters, reference_model, relative_error}
 use proptest::prelude::*;
 use sawflutter::check::{Check, Limits};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{InPlane, MembraneFile, Mount, Parameter, Scene, SceneFile, rad_per_s, rpm};
+use sawflutter::scene::{
+    InPlane, MembraneFile, Mount, Parameter, Scene, SceneFile, rad_per_s, rpm,
+};
 use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
 use sawflutter::stability::{Analysis, HeatLimits, chart, sensitivities};
 
@@ -62,7 +64,9 @@ fn compare(name: &str, key: &str, scene: &Scene, tolerance: f64) {
     let mut worst = Worst::default();
     for (n, (actual, expected)) in at_rest_hz(scene).into_iter().zip(expected).enumerate() {
         let error = relative_error(actual, expected);
-        worst.add(error, || format!("n = {n}, {actual} instead of {expected} Hz"));
+        worst.add(error, || {
+            format!("n = {n}, {actual} instead of {expected} Hz")
+        });
     }
     worst.assert_at_most(key, tolerance);
 }
@@ -93,7 +97,12 @@ fn a_rolled_band_and_a_kinked_temperature() {
         in_plane: InPlane::Free,
     };
     let kinked = scene_with(&free, serde_json::json!({ "temperature": temperature }));
-    compare(name, "table_4_6_30_k_at_60_150_200_mm_free_hz", &kinked, 1e-4);
+    compare(
+        name,
+        "table_4_6_30_k_at_60_150_200_mm_free_hz",
+        &kinked,
+        1e-4,
+    );
 }
 
 #[test]
@@ -182,7 +191,12 @@ fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
             let below = curve.rise_k.partition_point(|rise| *rise < expected);
             assert!(curve.speed_rad_per_s[below - 1] > operating);
             assert!(curve.speed_rad_per_s[below] < operating);
-            assert_close("curve", curve.speed_rad_per_s[0], lowest(curve.rise_k[0]), 1e-9);
+            assert_close(
+                "curve",
+                curve.speed_rad_per_s[0],
+                lowest(curve.rise_k[0]),
+                1e-9,
+            );
         }
     }
 }
@@ -221,6 +235,23 @@ fn a_cold_rim_has_a_limit_of_its_own() {
     assert_close("dish", dish.rise_k, expected, 1e-8);
 }
 
+/// Rolled so much that it is a dish when cold, and flat when the rim is warm.
+#[test]
+fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
+    let both = |rise_k: f64| {
+        let mut membrane = heated(&collar(), rise_k).file.membrane.unwrap();
+        membrane.roll_tension = rolled(&collar(), 3e-3).file.membrane.unwrap().roll_tension;
+        scene_with(&collar(), serde_json::to_value(membrane).unwrap())
+    };
+    let flat =
+        |rise_k: f64| SpectralModel::critical_speeds(&Plate::new(&both(rise_k), SMALL)).is_ok();
+    let expected = bisected(60.0, 0.0, flat);
+    let found = limits(&both(60.0)).flat_from.unwrap();
+    assert_close("flat from", found.rise_k, expected, 1e-8);
+    assert_eq!(found.diameters, 0);
+    assert!(limits(&heated(&collar(), 5.0)).flat_from.is_none());
+}
+
 /// Past its critical speed no heat has to bring the saw there.
 #[test]
 fn a_saw_past_its_critical_speed_is_said_to_be() {
@@ -234,8 +265,14 @@ fn a_saw_past_its_critical_speed_is_said_to_be() {
 fn a_buckled_blade_is_an_error_with_the_remedy() {
     let hot = heated(&collar(), 150.0);
     for message in [
-        Analysis::new(&hot, &|_, _| ()).map(drop).unwrap_err().to_string(),
-        Check::new(&hot, &Limits::at(100.0)).map(drop).unwrap_err().to_string(),
+        Analysis::new(&hot, &|_, _| ())
+            .map(drop)
+            .unwrap_err()
+            .to_string(),
+        Check::new(&hot, &Limits::at(100.0))
+            .map(drop)
+            .unwrap_err()
+            .to_string(),
     ] {
         assert!(message.contains("buckles at rest"), "{message}");
         assert!(message.contains("lower the temperature"), "{message}");

@@ -180,9 +180,19 @@ fn heat(text: &mut String, report: &Report) -> std::fmt::Result {
             shape(limit)
         )?;
     } else if heat.past_critical_when_cold {
-        writeln!(text, "  the operating speed is critical even for the cold blade")?;
+        writeln!(
+            text,
+            "  the operating speed is critical even for the cold blade"
+        )?;
     } else if report.operating.is_some() {
-        writeln!(text, "  it never brings a critical speed down to the operating speed")?;
+        writeln!(
+            text,
+            "  it never brings a critical speed down to the operating speed"
+        )?;
+    }
+    if let Some(limit) = &heat.flat_from {
+        let (rise, shape) = (limit.rise_k, shape(limit));
+        writeln!(text, "  below {rise:+.1} K it is buckled at rest ({shape})")?;
     }
     match &heat.buckling {
         Some(limit) => writeln!(

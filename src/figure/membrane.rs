@@ -78,7 +78,12 @@ fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
     let step = round_up(((high - low) / 8.0).max(1e-3));
     let values = [(low / step).floor() * step, (high / step).ceil() * step];
     let stress = Axis::new(values, [STRESS.bottom, STRESS.top], Spread::Linear);
-    draw_vertical(sheet, &stress, &STRESS, "stress, tension upwards\u{2003}[MPa]");
+    draw_vertical(
+        sheet,
+        &stress,
+        &STRESS,
+        "stress, tension upwards\u{2003}[MPa]",
+    );
     draw_horizontal(sheet, &radius, STRESS.bottom, true);
     axis_name(sheet, &STRESS, "radius\u{2003}[mm]");
     let zero = stress.at(0.0);
@@ -150,7 +155,9 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
         .any(|curve| curve.rise_k.last().is_some_and(|k| *k < 0.0));
     for (curve, label) in heat.critical_speeds.iter().zip(labels) {
         let places = curve.rise_k.iter().zip(&curve.rpm);
-        let places: Vec<_> = places.map(|(k, rpm)| [rise.at(*k), speed.at(*rpm)]).collect();
+        let places: Vec<_> = places
+            .map(|(k, rpm)| [rise.at(*k), speed.at(*rpm)])
+            .collect();
         draw_curve(sheet, &SPEEDS, &places, Stroke::solid(FORWARD, CURVE));
         let end = match leftwards {
             true => places.first(),
@@ -206,7 +213,14 @@ fn draw_limits(
             sheet.disc(at, 4.5, colour);
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
             // Below the line of the operating speed and its own label.
-            sheet.text([at[0] - 9.0, at[1] + if rpm > 0.0 { 2.1 * LINE } else { -9.0 }], letters, &text);
+            sheet.text(
+                [
+                    at[0] - 9.0,
+                    at[1] + if rpm > 0.0 { 2.1 * LINE } else { -9.0 },
+                ],
+                letters,
+                &text,
+            );
         }
     };
     if let (Some(found), Some(rpm)) = (&heat.operating_limit, operating_rpm) {
@@ -263,6 +277,7 @@ mod tests {
                 operating_limit: limit(25.0),
                 past_critical_when_cold: false,
                 buckling: limit(51.9),
+                flat_from: None,
                 buckles_first: false,
                 critical_speeds: (2..7).map(curve).collect(),
             }),

@@ -14,9 +14,7 @@ mod stress;
 
 pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
-pub use membrane::{
-    Eigenstrain, MembraneSource, MembraneStress, PlaneStress, membrane_stiffness,
-};
+pub use membrane::{Eigenstrain, MembraneSource, MembraneStress, PlaneStress, membrane_stiffness};
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;
 

@@ -9,8 +9,8 @@ use super::branches::branches;
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
-    SensitivityEntry, ShapeEntry, WorkEntry,
+    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry,
+    RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};

@@ -36,6 +36,8 @@ pub struct HeatEntry {
     pub past_critical_when_cold: bool,
     /// Peak at which the blade buckles at rest; null where no heat of this shape does it.
     pub buckling: Option<HeatLimitEntry>,
+    /// Peak from which on the blade is flat, where roll tension buckles it when cold.
+    pub flat_from: Option<HeatLimitEntry>,
     /// Whether it buckles at rest before its critical speed has fallen to the operating speed.
     pub buckles_first: bool,
     /// Lowest critical speeds over the peak, as far as the blade stays flat at rest.
@@ -82,21 +84,28 @@ impl MembraneEntry {
             return Ok(None);
         }
         let stress = plate.membrane.as_ref();
-        let radius_m = shown_radii(stress, plate.blade.inner_radius_m, plate.blade.outer_radius_m);
+        let radius_m = shown_radii(
+            stress,
+            plate.blade.inner_radius_m,
+            plate.blade.outer_radius_m,
+        );
         let at = |r: &f64| stress.map(|stress| stress.at(*r)).unwrap_or_default();
         let temperature = scene.membrane.as_ref().and_then(|m| m.temperature.as_ref());
-        let heat = heat.zip(temperature).map(|(limits, temperature)| HeatEntry {
-            rise_k: temperature.peak_rise_k,
-            profile_k: radius_m
-                .iter()
-                .map(|r| temperature.rise_k(&plate.blade, *r))
-                .collect(),
-            operating_limit: limits.operating.map(HeatLimitEntry::from),
-            past_critical_when_cold: limits.past_critical,
-            buckling: limits.buckling.map(HeatLimitEntry::from),
-            buckles_first: limits.buckles_first(),
-            critical_speeds: curves(&limits),
-        });
+        let heat = heat
+            .zip(temperature)
+            .map(|(limits, temperature)| HeatEntry {
+                rise_k: temperature.peak_rise_k,
+                profile_k: radius_m
+                    .iter()
+                    .map(|r| temperature.rise_k(&plate.blade, *r))
+                    .collect(),
+                operating_limit: limits.operating.map(HeatLimitEntry::from),
+                past_critical_when_cold: limits.past_critical,
+                buckling: limits.buckling.map(HeatLimitEntry::from),
+                flat_from: limits.flat_from.map(HeatLimitEntry::from),
+                buckles_first: limits.buckles_first(),
+                critical_speeds: curves(&limits),
+            });
         Ok(Some(MembraneEntry {
             radial_pa: radius_m.iter().map(|r| at(r).radial_pa).collect(),
             hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),

@@ -55,7 +55,10 @@ impl ResidualStress {
         let mut largest: f64 = 0.0;
         for (index, row) in rows.iter().enumerate() {
             let place = |name: &str| format!("{key}[{index}].{name}");
-            hoop.push((row.radius_m, within(&place("hoop_pa"), row.hoop_pa, STRESS_PA)?));
+            hoop.push((
+                row.radius_m,
+                within(&place("hoop_pa"), row.hoop_pa, STRESS_PA)?,
+            ));
             let radial = row.radial_pa.unwrap_or(0.0);
             within(&place("radial_pa"), radial, STRESS_PA)?;
             largest = largest.max(row.hoop_pa.abs()).max(radial.abs());

@@ -52,6 +52,8 @@ pub struct HeatLimits {
     pub past_critical: bool,
     /// Where the blade buckles at rest, if it does.
     pub buckling: Option<HeatLimit>,
+    /// Where the blade becomes flat, if it is buckled when cold: roll tension alone may do that.
+    pub flat_from: Option<HeatLimit>,
     /// Lowest critical speeds over the peak of the profile.
     pub curves: Vec<HeatCurve>,
 }
@@ -75,7 +77,10 @@ impl HeatLimits {
             return Ok(None);
         };
         let heating = Heating::new(model, temperature);
-        let buckling = heating.limit(0.0, heating.now_k)?;
+        let (now_k, hotter) = (heating.now_k, heating.direction);
+        let buckling = heating.limit(0.0, now_k, hotter)?;
+        let colder = heating.limit(0.0, now_k, -hotter)?;
+        let flat_from = colder.filter(|limit| limit.rise_k * hotter > 0.0);
         let (operating, past_critical) = match scene.operating_rad_per_s {
             Some(speed) => heating.operating(speed)?,
             None => (None, false),
@@ -85,6 +90,7 @@ impl HeatLimits {
             operating,
             past_critical,
             buckling,
+            flat_from,
             curves,
         }))
     }
@@ -124,22 +130,24 @@ impl<'a> Heating<'a> {
         }
     }
 
-    /// The first limit at a speed beyond a peak, at which K must be positive definite.
+    /// The first limit at a speed upwards or downwards from a peak, at which K must be positive
+    /// definite.
     fn limit(
         &self,
         speed_rad_per_s: f64,
         from_k: f64,
+        direction: f64,
     ) -> Result<Option<HeatLimit>, SpectrumError> {
         let added = AddedStress {
             stiffness: &self.per_kelvin,
             // The model is at the scene's peak.
             from: from_k - self.now_k,
-            direction: self.direction,
+            direction,
         };
         let (plate, parts) = (&self.model.plate, &self.model.parts);
         let found = first_singular(plate, parts, speed_rad_per_s, &added)?;
         let limit = |found: SingularStress| HeatLimit {
-            rise_k: from_k + self.direction * found.multiple,
+            rise_k: from_k + direction * found.multiple,
             diameters: found.diameters,
             circles: found.circles,
         };
@@ -150,7 +158,7 @@ impl<'a> Heating<'a> {
     /// blade where that is past the limit already; and whether even the cold blade is.
     fn operating(&self, speed: f64) -> Result<(Option<HeatLimit>, bool), SpectrumError> {
         for from_k in [self.now_k, 0.0] {
-            match self.limit(speed, from_k) {
+            match self.limit(speed, from_k, self.direction) {
                 Err(SpectrumError::UnstableAtRest { .. }) => (),
                 found => return Ok((found?, false)),
             }
@@ -175,11 +183,7 @@ impl<'a> Heating<'a> {
         }
     }
 
-    fn curves(
-        &self,
-        operating: Option<HeatLimit>,
-        buckling: Option<HeatLimit>,
-    ) -> Vec<HeatCurve> {
+    fn curves(&self, operating: Option<HeatLimit>, buckling: Option<HeatLimit>) -> Vec<HeatCurve> {
         let rises = self.rises(operating, buckling);
         let speeds: Vec<Vec<Named>> = rises
             .par_iter()

@@ -169,7 +169,12 @@ fn of_membrane(file: &SceneFile) -> Vec<Parameter> {
     if let Some(temperature) = membrane.and_then(|m| m.temperature.as_ref()) {
         let expansion: Box<Number> =
             Box::new(|m| Some(&mut m.temperature.as_mut()?.expansion_per_k));
-        add("temperature.expansion_per_k".into(), "1 %", expansion, percent);
+        add(
+            "temperature.expansion_per_k".into(),
+            "1 %",
+            expansion,
+            percent,
+        );
         if temperature.rim_rise_k.is_some() {
             let rise: Box<Number> = Box::new(|m| m.temperature.as_mut()?.rim_rise_k.as_mut());
             let kelvin = |number: &mut f64, share: f64| *number += share;

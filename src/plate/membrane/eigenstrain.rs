@@ -90,9 +90,7 @@ impl Eigenstrain {
                 // With ρ = r₀ + s (b − r₀): ∫ s^p (r₀ + s width) width ds.
                 let primitive = |r: f64| {
                     let s = ((r - from_radius_m) / width).max(0.0);
-                    width
-                        * s.powf(p + 1.0)
-                        * (from_radius_m / (p + 1.0) + width * s / (p + 2.0))
+                    width * s.powf(p + 1.0) * (from_radius_m / (p + 1.0) + width * s / (p + 2.0))
                 };
                 at_rim * (primitive(to) - primitive(from))
             }
@@ -124,7 +122,11 @@ impl Eigenstrain {
                 ..
             } => {
                 let width = to_radius_m - from_radius_m;
-                let panels = if exponent.fract() == 0.0 { 0 } else { SHRUNK_PANELS };
+                let panels = if exponent.fract() == 0.0 {
+                    0
+                } else {
+                    SHRUNK_PANELS
+                };
                 let shrunk = (1..=panels).map(|k| from_radius_m + width * SHRINK.powi(k));
                 std::iter::once(*from_radius_m).chain(shrunk).collect()
             }

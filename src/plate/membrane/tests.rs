@@ -94,9 +94,7 @@ fn strains_are_compatible() {
         let eigen = |r: f64| -> f64 {
             let heat = named.temperature.as_ref();
             let heat = heat.map_or(0.0, |t| t.expansion_per_k * t.rise_k(&blade, r));
-            let inside = |band: &&RollBand| {
-                (band.from_radius_m..=band.to_radius_m).contains(&r)
-            };
+            let inside = |band: &&RollBand| (band.from_radius_m..=band.to_radius_m).contains(&r);
             let rolled = named.roll_tension.iter().filter(inside);
             heat + rolled.map(|band| band.eigenstrain).sum::<f64>()
         };
@@ -113,7 +111,10 @@ fn strains_are_compatible() {
             let slope = (strains(r + step)[1] - strains(r - step)[1]) / (2.0 * step);
             let [radial, hoop] = strains(r);
             let residual = slope - (radial - hoop) / r;
-            assert!(residual.abs() < 1e-7 * 1e-4 / r, "{profile} {r}: {residual:e}");
+            assert!(
+                residual.abs() < 1e-7 * 1e-4 / r,
+                "{profile} {r}: {residual:e}"
+            );
         }
         if bore == Bore::Clamped(InPlane::Fixed) {
             assert!(strains(blade.inner_radius_m)[1].abs() < 1e-17);
@@ -135,8 +136,7 @@ fn a_square_rise_has_the_stress_of_the_textbook() {
         let rise = ((r - a) / (b - a)).powi(2);
         let ring = b * b - a * a;
         let radial = load / (r * r) * ((r * r - a * a) / ring * moment(b) - moment(r));
-        let hoop =
-            load / (r * r) * ((r * r + a * a) / ring * moment(b) + moment(r) - rise * r * r);
+        let hoop = load / (r * r) * ((r * r + a * a) / ring * moment(b) + moment(r) - rise * r * r);
         let found = stress.at(r);
         assert!((found.radial_pa - radial).abs() < 1e-12 * load);
         assert!((found.hoop_pa - hoop).abs() < 1e-12 * load);
@@ -178,7 +178,10 @@ fn a_table_of_the_conducted_heat_converges_to_the_textbook() {
             let r = a + (b - a) * f64::from(k) / 50.0;
             let [radial, hoop] = textbook(r);
             let found = stress.at(r);
-            (found.radial_pa - radial).abs().max((found.hoop_pa - hoop).abs()) / load
+            (found.radial_pa - radial)
+                .abs()
+                .max((found.hoop_pa - hoop).abs())
+                / load
         });
         worst.fold(0.0, f64::max)
     };
@@ -274,7 +277,8 @@ fn the_quadrature_resolves_kinks_and_bands() {
                 .iter()
                 .map(|(r, w)| w * stress.at(r).hoop_pa)
                 .sum();
-            let exact = stress.blade.outer_radius_m * stress.at(stress.blade.outer_radius_m).radial_pa
+            let exact = stress.blade.outer_radius_m
+                * stress.at(stress.blade.outer_radius_m).radial_pa
                 - stress.blade.inner_radius_m * stress.at(stress.blade.inner_radius_m).radial_pa;
             assert!((blind - exact).abs() > 1e3, "{blind}");
         }
