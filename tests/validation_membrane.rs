@@ -185,7 +185,7 @@ fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
             let found = limits(&heated(&base, scene_k));
             let limit = found.operating.unwrap();
             assert_close("operating limit", limit.rise_k, expected, 1e-9);
-            assert!(limit.diameters >= 2 && !found.buckles_first() && !found.past_critical);
+            assert!(limit.diameters >= 2 && !found.buckles_first && !found.past_critical);
             // The curves pass through it.
             let curve = &found.curves[0];
             let below = curve.rise_k.partition_point(|rise| *rise < expected);
@@ -227,7 +227,7 @@ fn a_cold_rim_has_a_limit_of_its_own() {
     let found = limits(&heated(&collar(), -1.0));
     let dish = found.buckling.unwrap();
     assert!(dish.rise_k < 0.0 && dish.diameters < 2, "{dish:?}");
-    assert!(found.buckles_first() && found.operating.is_none());
+    assert!(found.buckles_first && found.operating.is_none());
     let expected = -bisected(0.0, 500.0, |fall_k| {
         let plate = Plate::new(&heated(&collar(), -fall_k), SMALL);
         SpectralModel::critical_speeds(&plate).is_ok()

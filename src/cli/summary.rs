@@ -184,7 +184,7 @@ fn heat(text: &mut String, report: &Report) -> std::fmt::Result {
             text,
             "  the operating speed is critical even for the cold blade"
         )?;
-    } else if report.operating.is_some() {
+    } else if report.operating.is_some() && !heat.buckles_first {
         writeln!(
             text,
             "  it never brings a critical speed down to the operating speed"
@@ -197,12 +197,11 @@ fn heat(text: &mut String, report: &Report) -> std::fmt::Result {
     match &heat.buckling {
         Some(limit) => writeln!(
             text,
-            "  {:+.1} K buckles the blade at rest{} ({})",
+            "  {:+.1} K buckles the blade at rest{}\n    ({})",
             limit.rise_k,
-            if heat.buckles_first && heat.operating_limit.is_some() {
-                ", FIRST"
-            } else {
-                ""
+            match heat.buckles_first {
+                true => ", before a critical speed is that low",
+                false => "",
             },
             shape(limit)
         ),
@@ -228,7 +227,7 @@ fn sensitivity(text: &mut String, report: &Report) -> std::fmt::Result {
         let percent = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:+.3} %"));
         writeln!(
             text,
-            "  {:<8} more {:<34} {:>11} {:>11}",
+            "  {:<8} more {:<36} {:>11} {:>11}",
             entry.change,
             entry.parameter,
             percent(critical),

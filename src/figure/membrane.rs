@@ -1,12 +1,12 @@
 //! The membrane stress over the radius, and what its heat does to the critical speeds.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, round_up, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::clip::clip;
 use super::declutter::{Wish, push_apart};
 use super::style::{
     ALARM, AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET,
+    LABEL_SIZE, PAPER, QUIET,
 };
 use super::{FigureError, heading, render};
 use crate::report::{HeatEntry, MembraneEntry, Report};
@@ -90,8 +90,8 @@ fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
     let line = [[STRESS.left, zero], [STRESS.right, zero]];
     sheet.line(line, Stroke::solid(INK, HAIRLINE));
     let curves: [(&[f64], Colour, &str); 2] = [
-        (&membrane.hoop_pa, FORWARD, "hoop σ_θ"),
-        (&membrane.radial_pa, BACKWARD, "radial σ_r"),
+        (&membrane.hoop_pa, FORWARD, "hoop"),
+        (&membrane.radial_pa, BACKWARD, "radial"),
     ];
     let wishes = curves.map(|(values, ..)| {
         let end = values.last().copied().unwrap_or(0.0);
@@ -213,14 +213,11 @@ fn draw_limits(
             sheet.disc(at, 4.5, colour);
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
             // Below the line of the operating speed and its own label.
-            sheet.text(
-                [
-                    at[0] - 9.0,
-                    at[1] + if rpm > 0.0 { 2.1 * LINE } else { -9.0 },
-                ],
-                letters,
-                &text,
-            );
+            let below = if rpm > 0.0 { 2.1 * LINE } else { -9.0 };
+            let place = [at[0] - 9.0, at[1] + below];
+            // The line of the scene may pass behind it.
+            sheet.fill(text_frame(place, &letters, &text), PAPER);
+            sheet.text(place, letters, &text);
         }
     };
     if let (Some(found), Some(rpm)) = (&heat.operating_limit, operating_rpm) {

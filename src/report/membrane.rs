@@ -30,7 +30,7 @@ pub struct HeatEntry {
     /// Rises at the radii of the stress.
     pub profile_k: Vec<f64>,
     /// Peak at which the lowest critical speed has fallen to the operating speed; null without
-    /// an operating speed, or where it does not fall so far.
+    /// an operating speed, or where the blade buckles before.
     pub operating_limit: Option<HeatLimitEntry>,
     /// Whether the operating speed is past a critical speed of the cold blade already.
     pub past_critical_when_cold: bool,
@@ -103,7 +103,7 @@ impl MembraneEntry {
                 past_critical_when_cold: limits.past_critical,
                 buckling: limits.buckling.map(HeatLimitEntry::from),
                 flat_from: limits.flat_from.map(HeatLimitEntry::from),
-                buckles_first: limits.buckles_first(),
+                buckles_first: limits.buckles_first,
                 critical_speeds: curves(&limits),
             });
         Ok(Some(MembraneEntry {

@@ -46,12 +46,14 @@ pub struct HeatCurve {
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimits {
     /// Where the lowest critical speed falls to the operating speed, if the scene gives one and
-    /// it does.
+    /// the blade does not buckle before.
     pub operating: Option<HeatLimit>,
     /// Whether the operating speed is past a critical speed of the cold blade already.
     pub past_critical: bool,
     /// Where the blade buckles at rest, if it does.
     pub buckling: Option<HeatLimit>,
+    /// Whether it does so before a critical speed is down at the operating speed.
+    pub buckles_first: bool,
     /// Where the blade becomes flat, if it is buckled when cold: roll tension alone may do that.
     pub flat_from: Option<HeatLimit>,
     /// Lowest critical speeds over the peak of the profile.
@@ -85,24 +87,22 @@ impl HeatLimits {
             Some(speed) => heating.operating(speed)?,
             None => (None, false),
         };
+        let before = |buckling: HeatLimit| {
+            let later = |limit: HeatLimit| buckling.rise_k.abs() < limit.rise_k.abs();
+            scene.operating_rad_per_s.is_some() && !past_critical && operating.is_none_or(later)
+        };
+        let buckles_first = buckling.is_some_and(before);
+        // At speed the rotation still holds flat what has buckled at rest.
+        let operating = operating.filter(|_| !buckles_first);
         let curves = heating.curves(operating, buckling);
         Ok(Some(HeatLimits {
             operating,
             past_critical,
             buckling,
+            buckles_first,
             flat_from,
             curves,
         }))
-    }
-
-    /// Whether the blade, heated, buckles at rest before its critical speed has fallen to the
-    /// operating speed.
-    pub fn buckles_first(&self) -> bool {
-        match (self.buckling, self.operating) {
-            (Some(buckling), Some(operating)) => buckling.rise_k.abs() < operating.rise_k.abs(),
-            (Some(_), None) => true,
-            (None, _) => false,
-        }
     }
 }
 
