@@ -205,7 +205,9 @@ fn draw_limits(
         sheet.line(line, dashed(INK, DASH));
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
         let text = format!("operating speed, {rpm:.0} rpm");
-        sheet.text([SPEEDS.left + 8.0, y + LINE], letters, &text);
+        let place = [SPEEDS.left + 8.0, y + LINE];
+        sheet.fill(text_frame(place, &letters, &text), PAPER);
+        sheet.text(place, letters, &text);
     }
     let mut limit = |k: f64, rpm: f64, colour: Colour, text: String| {
         if rise.shows(k) {

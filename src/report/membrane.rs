@@ -71,7 +71,7 @@ pub struct HeatCurveEntry {
 }
 
 /// Radii shown between two at which the stress is not smooth.
-const SHOWN: usize = 12;
+const SHOWN: usize = 40;
 /// The two sides of a jump are shown this share of the radius away from it.
 const ASIDE: f64 = 1e-9;
 
