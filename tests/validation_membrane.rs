@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use sawflutter::check::{Check, Limits};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
-    InPlane, MembraneFile, Mount, Parameter, Scene, SceneFile, rad_per_s, rpm,
+    InPlane, MembraneFile, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm,
 };
 use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
 use sawflutter::stability::{Analysis, HeatLimits, chart, sensitivities};
