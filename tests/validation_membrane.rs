@@ -110,8 +110,8 @@ fn a_hot_rim_and_roll_tension_work_against_each_other() {
     let cold = at_rest_hz(&collar());
     let hot = at_rest_hz(&heated(&collar(), 10.0));
     let tensioned = at_rest_hz(&rolled(&collar(), 7e-4));
-    for n in 0..=6 {
-        let (heating, tension) = (hot[n] - cold[n], tensioned[n] - cold[n]);
+    for (n, ((cold, hot), tensioned)) in cold.iter().zip(hot).zip(tensioned).enumerate() {
+        let (heating, tension) = (hot - cold, tensioned - cold);
         if n >= 2 {
             assert!(heating < 0.0 && tension > 0.0, "{n}: {heating} {tension}");
         } else {
