@@ -45,6 +45,9 @@ fn main() -> anyhow::Result<()> {
         if let Some(png) = figure::root_loci_png(&report)? {
             write("root-loci.png", &png)?;
         }
+        if let Some(png) = figure::membrane_png(&report)? {
+            write("membrane.png", &png)?;
+        }
         if let Some(cut) = &scene.cut {
             let cutting = Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?;
             let report = CutReport::new(&scene, &cutting);

@@ -10,6 +10,7 @@ use faer::{Col, c64};
 
 use crate::plate::Plate;
 
+use super::buckling;
 use super::derivative;
 use super::low::LowModel;
 use super::mode::{Mode, ModeKind, classify};
@@ -130,9 +131,11 @@ impl SpectralModel {
     /// Every critical speed of a plate, ascending, without preparing anything else.
     ///
     /// # Errors
-    /// [`SpectrumError::UnstableAtRest`].
+    /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
+    /// the reason.
     pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         named_critical_speeds(plate, &Part::of(plate))
+            .map_err(|error| buckling::explained(plate, error))
     }
 
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.
