@@ -8,6 +8,8 @@ mod export;
 mod output;
 mod runup;
 mod schema;
+mod study;
+mod study_summary;
 mod summary;
 mod tradeoff;
 
@@ -36,14 +38,17 @@ enum Command {
     /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
+    /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
+    #[command(after_help = study::EXAMPLES)]
+    Study(study::Arguments),
     /// Measure what digits cost: time against true error; tradeoff.png
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
     /// Write the matrices of a saw as NumPy files
     #[command(after_help = export::EXAMPLES)]
     Export(export::Arguments),
-    /// Print the JSON schema of a scene
-    Schema,
+    /// Print the JSON schema of a scene, or of a study
+    Schema(schema::Arguments),
 }
 
 const EXAMPLES: &str = "\
@@ -68,7 +73,8 @@ pub fn run() -> anyhow::Result<bool> {
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
         Some(Command::Check(arguments)) => return check::run(&arguments),
-        Some(Command::Schema) => schema::run(),
+        Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Schema(arguments)) => schema::run(&arguments),
     }
     .map(|()| true)
 }
