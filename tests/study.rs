@@ -29,7 +29,9 @@ fn all(study: &Study) -> Vec<Saw> {
 const THICKNESS: f64 = 0.0028;
 
 fn nominal_critical_rpm() -> f64 {
-    let nominal = Scene::try_from(free_blade()).unwrap();
+    let mut file = free_blade();
+    file.sweep.as_mut().unwrap().to_rpm = 1000.0;
+    let nominal = Scene::try_from(file).unwrap();
     rpm(Onsets::new(&nominal).unwrap().lowest_critical.unwrap())
 }
 
@@ -37,7 +39,7 @@ fn nominal_critical_rpm() -> f64 {
 fn quantiles_of_critical_speed_are_those_of_thickness() {
     let study = study(
         free_blade(),
-        r#"{ "name": "thickness", "saws": 512, "quantiles": [0, 0.1, 0.5, 0.9, 1],
+        r#"{ "name": "thickness", "saws": 512, "to_rpm": 1000, "quantiles": [0, 0.1, 0.5, 0.9, 1],
              "parameters": [{ "path": "blade.thickness_m",
                               "distribution": { "kind": "tolerance", "plus_minus": 1e-4 } }] }"#,
     )
@@ -46,7 +48,8 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
     let per_metre = nominal_critical_rpm() / THICKNESS;
     for quantile in &report.all.lowest_critical.quantiles {
         let exact = THICKNESS + 1e-4 * (2.0 * quantile.share - 1.0);
-        // One of 512 points lies in every 512th of the range; so does each quantile.
+        // One of 512 points lies in every 512th of the range, and each quantile between two
+        // neighbours.
         let allowed = 2.0 * 2e-4 / 512.0 / THICKNESS;
         let found = quantile.rpm.unwrap();
         assert_close(
@@ -74,7 +77,7 @@ fn the_probability_of_passing_is_that_of_the_distribution() {
     // within three deviations.
     let asked = critical * (1.0_f64 - 0.02).sqrt();
     let text = format!(
-        r#"{{ "name": "modulus", "saws": 1024, "seed": 7,
+        r#"{{ "name": "modulus", "saws": 1024, "seed": 7, "to_rpm": 1000,
              "parameters": [{{ "path": "blade.material.youngs_modulus_pa",
                  "distribution": {{ "kind": "normal", "standard_deviation": 4.06e9 }} }}],
              "limits": {{ "operating_rpm": 100, "min_critical_rpm": {asked} }} }}"#
@@ -139,7 +142,7 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
 fn a_grid_has_every_combination_and_shares_its_deviations() {
     let study = study(
         free_blade(),
-        r#"{ "name": "grid", "saws": 4, "parameters": [
+        r#"{ "name": "grid", "saws": 4, "to_rpm": 1000, "parameters": [
             { "path": "blade.thickness_m", "distribution": { "kind": "grid", "values": [0.002, 0.003] } },
             { "path": "blade.material.density_kg_per_m3",
               "distribution": { "kind": "uniform", "from": 7700, "to": 7900 } },

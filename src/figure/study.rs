@@ -4,32 +4,32 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::declutter::{Wish, push_apart};
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK,
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width, tint,
 };
 use super::{FigureError, heading, render};
 use crate::study::{Passing, SpeedEntry, StudyReport};
 
 const WIDTH: u32 = 1000;
-const HEIGHT: u32 = 660;
+const HEIGHT: u32 = 700;
 const CRITICAL: Frame = Frame {
     left: 92.0,
-    top: 122.0,
+    top: 144.0,
     right: 960.0,
-    bottom: 310.0,
+    bottom: 324.0,
 };
 const FLUTTERING: Frame = Frame {
     left: 92.0,
-    top: 386.0,
+    top: 430.0,
     right: 960.0,
-    bottom: 574.0,
+    bottom: 610.0,
 };
 /// Shares named above the bars, where the report has them, the most wanted first.
 const NAMED: [f64; 5] = [0.5, 0.05, 0.95, 0.01, 0.99];
 /// Room beside the outermost bars.
 const ASIDE: f64 = 0.04;
 
-/// The distributions as PNG, 1000 × 660 pixels.
+/// The distributions as PNG, 1000 × 700 pixels.
 pub fn study_png(report: &StudyReport) -> Result<Vec<u8>, FigureError> {
     render::png(&sheet(report))
 }
@@ -53,29 +53,23 @@ fn sheet(report: &StudyReport) -> Sheet {
     heading::draw(&mut sheet, &report.study.name, &facts.join(BETWEEN_FACTS));
     let of = |keys: &[(&str, &'static str)]| limits(report, keys);
     let critical = of(&[("margin", "operating/margin"), ("min_critical", "asked")]);
-    let flutter = of(&[("operating", "operating"), ("min_flutter", "asked")]);
-    let speed = speed_axis(report, &[&critical, &flutter]);
-    let entries = (&report.all.lowest_critical, &report.all.flutter);
+    let flutter = of(&[("min_flutter", "asked")]);
+    let all = &report.all;
+    let bars = tint(FORWARD, 0.45);
     draw_panel(
         &mut sheet,
-        entries.0,
-        (CRITICAL, FORWARD),
-        &speed,
+        &all.lowest_critical,
+        (CRITICAL, bars),
         &critical,
     );
-    draw_panel(
-        &mut sheet,
-        entries.1,
-        (FLUTTERING, FLUTTER),
-        &speed,
-        &flutter,
-    );
+    let bars = FLUTTER_STREAK;
+    draw_panel(&mut sheet, &all.flutter, (FLUTTERING, bars), &flutter);
     let names = [
         (CRITICAL, "Lowest critical speed", String::new()),
         (FLUTTERING, "Flutter speed", beyond(report)),
     ];
     for (panel, name, note) in names {
-        let y = panel.top - 42.0;
+        let y = panel.top - 44.0;
         let letters = Lettering {
             weight: Weight::SemiBold,
             ..Lettering::regular(AXIS_SIZE, INK, Anchor::Start)
@@ -132,21 +126,18 @@ fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
         .collect()
 }
 
-/// One axis for both panels, with all bars and limits on it.
-fn speed_axis(report: &StudyReport, limits: &[&[Limit]]) -> Axis {
-    let bars = [&report.all.lowest_critical, &report.all.flutter];
-    let bars = bars.into_iter().filter_map(|s| s.histogram.as_ref());
-    let ends = bars.flat_map(|bars| [bars.from_rpm, bars.to_rpm]);
-    let asked = limits
-        .iter()
-        .flat_map(|limits| limits.iter())
-        .map(|l| l.rpm);
-    let (low, high) = ends.chain(asked).fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(low, high): (f64, f64), rpm| (low.min(rpm), high.max(rpm)),
+/// The axis of a panel: all bars, and the limits that are not far off.
+fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
+    let bars = entry.histogram.as_ref().map(|b| (b.from_rpm, b.to_rpm));
+    let near =
+        |rpm: &f64| bars.is_none_or(|(from, to)| (2.0 * from - to..=2.0 * to - from).contains(rpm));
+    let asked = limits.iter().map(|limit| limit.rpm).filter(near);
+    let (low, high) = asked.fold(
+        bars.unwrap_or((f64::INFINITY, f64::NEG_INFINITY)),
+        |(low, high), rpm| (low.min(rpm), high.max(rpm)),
     );
     let aside = ASIDE * (high - low);
-    let places = [CRITICAL.left, CRITICAL.right];
+    let places = [panel.left, panel.right];
     Axis::new([low - aside, high + aside], places, Spread::Linear)
 }
 
@@ -154,9 +145,9 @@ fn draw_panel(
     sheet: &mut Sheet,
     entry: &SpeedEntry,
     (panel, colour): (Frame, Colour),
-    speed: &Axis,
     limits: &[Limit],
 ) {
+    let speed = &speed_axis(entry, limits, panel);
     let total = (entry.saws + entry.beyond).max(1) as f64;
     let counts = entry.histogram.iter().flat_map(|bars| &bars.counts);
     let most = counts.max().map_or(1.0, |most| *most as f64);
@@ -176,7 +167,7 @@ fn draw_panel(
                 top: share.at(100.0 * *saws as f64 / total),
                 bottom: panel.bottom,
             };
-            sheet.fill(bar, tint(colour, 0.45));
+            sheet.fill(bar, colour);
         }
     }
     draw_horizontal(sheet, speed, panel.bottom, true);
@@ -185,7 +176,8 @@ fn draw_panel(
 
 /// Lines through a panel at its quantiles and limits, labelled above it.
 fn draw_marks(sheet: &mut Sheet, entry: &SpeedEntry, panel: Frame, speed: &Axis, limits: &[Limit]) {
-    let limits = limits.iter().map(|limit| {
+    let limits = limits.iter().filter(|limit| speed.shows(limit.rpm));
+    let limits = limits.map(|limit| {
         let label = format!("{} {:.0}", limit.word, limit.rpm);
         (limit.rpm, ALARM, label)
     });
@@ -273,7 +265,7 @@ mod tests {
         for expected in [
             "50 %: 1520",
             "operating/margin 1512",
-            "asked 2200",
+            "asked 2220",
             "333 of 1000 do not flutter up to 2500 rpm",
         ] {
             assert!(written.contains(&expected), "{expected}: {written:?}");

@@ -108,16 +108,17 @@ impl Log {
         let mut text = Vec::new();
         file.read_to_end(&mut text).map_err(io(path))?;
         let header = header(study);
-        let (saws, end) = if header.as_bytes().starts_with(&text) {
+        let saws = parse(path, &text, study)?;
+        let end = if header.as_bytes().starts_with(&text) {
             // New, or stopped before it was begun in earnest.
             file.set_len(0).map_err(io(path))?;
             file.rewind().map_err(io(path))?;
             file.write_all(header.as_bytes()).map_err(io(path))?;
             file.sync_all().map_err(io(path))?;
-            (Vec::new(), header.len())
+            header.len()
         } else {
             let whole = text.iter().rposition(|byte| *byte == b'\n');
-            (parse(path, &text, study)?, whole.map_or(0, |k| k + 1))
+            whole.map_or(0, |k| k + 1)
         };
         file.set_len(end as u64).map_err(io(path))?;
         file.seek(SeekFrom::End(0)).map_err(io(path))?;
@@ -202,6 +203,9 @@ fn line(cells: &[String]) -> Vec<u8> {
 
 fn parse(path: &Path, text: &[u8], study: &Study) -> Result<Vec<Saw>, LogError> {
     let header = header(study);
+    if header.as_bytes().starts_with(text) {
+        return Ok(Vec::new());
+    }
     let Some(rows) = text.strip_prefix(header.as_bytes()) else {
         let difference = inputs(text).map(|there| {
             let differs = there.difference(&Inputs::of(study));
