@@ -16,6 +16,7 @@ mod projection;
 mod reduction;
 mod shift_invert;
 mod state;
+mod stop;
 
 pub use dense::{companion_eigenpairs, time_scale};
 pub use growth::{fastest_growing, fastest_growing_of};
@@ -30,6 +31,7 @@ pub use pencil::{CriticalSpeed, critical_speeds};
 pub use projection::{Projection, orthonormal};
 pub use shift_invert::lowest_eigenpairs;
 pub use state::{State, StateModel};
+pub use stop::Stop;
 
 /// Why a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -87,4 +89,7 @@ pub enum SpectrumError {
         /// Largest number of nodal diameters in the basis.
         diameters: usize,
     },
+    /// Whoever asked for the spectrum does not want it any more, see [`Stop`].
+    #[error("the computation was stopped")]
+    Stopped,
 }

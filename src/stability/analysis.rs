@@ -5,7 +5,7 @@ use super::basis::ChosenBasis;
 use super::loci::RootLoci;
 use crate::campbell::Progress;
 use crate::scene::Scene;
-use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{SpectralModel, SpectrumError, Stop, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
 /// usual rule of thumb of saw makers.
@@ -42,10 +42,26 @@ impl Analysis {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, SpectrumError> {
-        let basis = ChosenBasis::new(scene, scene.tolerance())?;
-        let (range, estimated_relative_error) = (basis.range, Some(basis.estimated_relative_error));
-        let model =
-            SpectralModel::with_critical(basis.plate, basis.critical, range, Strategy::Reduced)?;
+        Self::stoppable(scene, progress, &Stop::default())
+    }
+
+    /// The same, which ends early when asked to.
+    ///
+    /// # Errors
+    /// Those of [`Analysis::new`]; [`SpectrumError::Stopped`].
+    pub fn stoppable(
+        scene: &Scene,
+        progress: Progress<'_>,
+        stop: &Stop,
+    ) -> Result<Self, SpectrumError> {
+        let ChosenBasis {
+            plate,
+            critical,
+            range,
+            estimated_relative_error,
+        } = ChosenBasis::stoppable(scene, scene.tolerance(), stop)?;
+        let estimated_relative_error = Some(estimated_relative_error);
+        let model = SpectralModel::stoppable(plate, critical, range, Strategy::Reduced, stop)?;
         let count = match model.plate.is_axisymmetric() {
             true => FREE_CHART_SPEEDS,
             false => CHART_SPEEDS,

@@ -1,0 +1,478 @@
+//! Goal: what `sawflutter explore` shows and saves in a real browser is what the command line
+//! finds for the same scene, and it answers while a hand moves.
+//!
+//! Needs Debian's `chromium` and `chromium-driver`; `.ci/run` installs them and runs these tests
+//! with `--ignored`. Screenshots go to `target/explore-screenshots/`.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use thirtyfour::prelude::*;
+
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A program that is ended with its owner.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Starts a program and waits for a line in which `find` finds what is wanted.
+fn start(command: &mut Command, find: impl Fn(&str) -> Option<String>) -> (Running, String) {
+    let mut child = command
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap_or_else(|error| {
+            panic!("{command:?}: {error}; apt-get install chromium chromium-driver")
+        });
+    let output = child.stdout.take().unwrap();
+    let running = Running(child);
+    let mut lines = BufReader::new(output).lines().map_while(Result::ok);
+    let found = lines
+        .find_map(|line| find(&line))
+        .expect("the program said nothing");
+    // Nobody may be stopped by a full pipe.
+    std::thread::spawn(move || lines.for_each(drop));
+    (running, found)
+}
+
+struct Page {
+    driver: WebDriver,
+    folder: tempfile::TempDir,
+    program: Running,
+    _chromedriver: Running,
+}
+
+impl Page {
+    async fn open(arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let explore = &mut Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let (program, address) = start(explore.arg("explore").args(arguments), |line| {
+            line.starts_with("http://127.0.0.1:")
+                .then(|| line.to_owned())
+        });
+        let (chromedriver, port) = start(Command::new("chromedriver").arg("--port=0"), |line| {
+            let (_, port) = line.split_once("started successfully on port ")?;
+            Some(port.trim_end_matches('.').to_owned())
+        });
+        let mut wishes = DesiredCapabilities::chrome();
+        let profile = format!(
+            "--user-data-dir={}",
+            folder.path().join("profile").display()
+        );
+        for flag in [
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-quic",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--window-size=1280,900",
+            "--hide-scrollbars",
+            &profile,
+        ] {
+            wishes.add_arg(flag).unwrap();
+        }
+        let downloads = json!({ "download.default_directory": folder.path(), "download.prompt_for_download": false });
+        wishes.add_experimental_option("prefs", downloads).unwrap();
+        let driver = WebDriver::new(format!("http://127.0.0.1:{port}"), wishes)
+            .await
+            .unwrap();
+        driver.goto(&address).await.unwrap();
+        let page = Page {
+            driver,
+            folder,
+            program,
+            _chromedriver: chromedriver,
+        };
+        page.wait("window.sawflutter?.computed.length > 0").await;
+        page
+    }
+
+    async fn script(&self, script: &str) -> Value {
+        let found = self.driver.execute(script, Vec::new()).await;
+        found
+            .unwrap_or_else(|error| panic!("{script}: {error}"))
+            .json()
+            .clone()
+    }
+
+    async fn value(&self, expression: &str) -> Value {
+        self.script(&format!("return {expression}")).await
+    }
+
+    async fn text(&self, selector: &str) -> String {
+        let found = self
+            .value(&format!("document.querySelector({selector:?}).textContent"))
+            .await;
+        found.as_str().unwrap().to_owned()
+    }
+
+    async fn wait(&self, condition: &str) {
+        let begun = Instant::now();
+        while self.value(condition).await != Value::Bool(true) {
+            assert!(begun.elapsed() < PATIENCE, "{condition} did not come true");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    }
+
+    /// Waits until the chart is that of the scene at its own accuracy.
+    async fn settle(&self) {
+        self.wait("sawflutter.settled()").await;
+    }
+
+    async fn find(&self, selector: &str) -> WebElement {
+        self.driver.find(By::Css(selector)).await.unwrap()
+    }
+
+    async fn screenshot(&self, name: &str) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../explore-screenshots");
+        std::fs::create_dir_all(&folder).unwrap();
+        self.driver.screenshot(&folder.join(name)).await.unwrap();
+    }
+
+    /// Clicks a button that saves a file, and reads what the browser has put on the disk.
+    async fn download(&self, name: &str) -> Vec<u8> {
+        let path = self.folder.path().join(name);
+        self.find(&format!("[data-save={name:?}]"))
+            .await
+            .click()
+            .await
+            .unwrap();
+        let begun = Instant::now();
+        while !path.exists() {
+            assert!(begun.elapsed() < PATIENCE, "{name} was not saved");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        std::fs::read(path).unwrap()
+    }
+
+    /// What the command line makes of the scene as saved.
+    async fn command_line(&self) -> PathBuf {
+        let scene = self.download("scene.json").await;
+        let path = self.folder.path().join("saved-scene.json");
+        std::fs::write(&path, scene).unwrap();
+        let out = self.folder.path().join("out");
+        let done = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+            .args([
+                "analyze",
+                path.to_str().unwrap(),
+                "--out",
+                out.to_str().unwrap(),
+            ])
+            .output()
+            .unwrap();
+        assert!(
+            done.status.success(),
+            "{}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+        out
+    }
+
+    async fn close(self) {
+        self.driver.quit().await.unwrap();
+    }
+}
+
+fn run(test: impl Future<Output = ()>) {
+    let mut builder = tokio::runtime::Builder::new_current_thread();
+    builder.enable_all().build().unwrap().block_on(test);
+}
+
+/// Presses on an element, moves in small steps, and lets go.
+async fn drag(page: &Page, selector: &str, steps: usize, step: (i64, i64)) {
+    let grip = page.find(selector).await;
+    let hand = page.driver.action_chain();
+    hand.move_to_element_center(&grip)
+        .click_and_hold()
+        .perform()
+        .await
+        .unwrap();
+    for _ in 0..steps {
+        let hand = page.driver.action_chain();
+        hand.move_by_offset(step.0, step.1).perform().await.unwrap();
+    }
+}
+
+async fn let_go(page: &Page) {
+    page.driver
+        .action_chain()
+        .release()
+        .perform()
+        .await
+        .unwrap();
+}
+
+fn percentile(times: &Value, share: f64) -> f64 {
+    let mut times: Vec<f64> = times
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[((times.len() - 1) as f64 * share).round() as usize]
+}
+
+/// Equal to the last bit; JavaScript writes 1.0 as 1.
+fn same(left: &Value, right: &Value) -> bool {
+    match (left, right) {
+        (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same(x, y))
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            x.len() == y.len()
+                && x.iter()
+                    .all(|(key, x)| y.get(key).is_some_and(|y| same(x, y)))
+        }
+        _ => left == right,
+    }
+}
+
+const PAD: &str = "[data-path='guides[0]'] .body";
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_dragged_pad_moves_the_chart_to_what_the_command_line_finds() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        let (before, verdict) = (page.text("#facts").await, page.text("#verdict").await);
+        assert!(before.contains("1531 rpm"), "{before}");
+        assert!(verdict.contains("beyond the 85 % rule"), "{verdict}");
+        page.screenshot("1280-light.png").await;
+
+        drag(&page, PAD, 40, (2, -1)).await;
+        page.wait("sawflutter.latencies.draft.length > 0").await;
+        let dragging = page.text("#facts").await;
+        assert_ne!(before, dragging, "the chart did not follow the pad");
+        page.screenshot("1280-dragging.png").await;
+        let_go(&page).await;
+        page.settle().await;
+        let after = page.text("#facts").await;
+        assert!(after.contains("1531 → "), "{after}");
+
+        let out = page.command_line().await;
+        let report: Value =
+            serde_json::from_slice(&std::fs::read(out.join("report.json")).unwrap()).unwrap();
+        let shown = page.value("sawflutter.report()").await;
+        assert!(
+            same(&shown, &report),
+            "the page shows another chart than the command line"
+        );
+        let critical = report["critical_speeds"][0]["rpm"].as_f64().unwrap();
+        assert!(
+            after.contains(&format!("→ {critical:.0} rpm")),
+            "{critical}: {after}"
+        );
+        for name in ["report.json", "campbell.png", "campbell.svg"] {
+            let saved = page.download(name).await;
+            assert!(
+                saved == std::fs::read(out.join(name)).unwrap(),
+                "{name} differs"
+            );
+        }
+        page.screenshot("1280-after.png").await;
+
+        page.find("#undo").await.click().await.unwrap();
+        page.settle().await;
+        assert_eq!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_bad_value_is_refused_at_its_field_and_the_chart_stays() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let before = page.text("#facts").await;
+        let thickness = page.find("[id='blade.thickness_m']").await;
+        thickness.clear().await.unwrap();
+        thickness.send_keys("-2.8" + Key::Tab).await.unwrap();
+        page.wait("document.querySelector('#fault').textContent !== ''")
+            .await;
+
+        let told = page.text("[id='blade.thickness_m:fault']").await;
+        let mut scene = sawflutter::scene::Scene::paper().file;
+        scene.blade.thickness_m = -2.8e-3;
+        let words = sawflutter::scene::Scene::try_from(scene)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(told, words, "not the library's own words at the field");
+        assert_eq!(
+            page.text("#facts").await,
+            before,
+            "the last good chart has gone"
+        );
+        page.screenshot("1280-refused.png").await;
+
+        let thickness = page.find("[id='blade.thickness_m']").await;
+        thickness.clear().await.unwrap();
+        thickness.send_keys("3.0" + Key::Tab).await.unwrap();
+        page.settle().await;
+        assert_eq!(page.text("[id='blade.thickness_m:fault']").await, "");
+        assert_ne!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_branch_that_is_pointed_at_moves_on_the_blade() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        // By keyboard alone: along a branch, and to the next ones.
+        let mut told = Vec::new();
+        for key in [Key::Right, Key::Up, Key::Up, Key::Up] {
+            chart.send_keys(key + "").await.unwrap();
+            let last = told.last().cloned().unwrap_or_default();
+            page.wait(&format!(
+                "document.querySelector('#mode').textContent !== {last:?}"
+            ))
+            .await;
+            page.wait("document.querySelector('#mode').textContent.includes('Krein')")
+                .await;
+            told.push(page.text("#mode").await);
+        }
+        for words in ["Hz in space", "Hz on the blade", "Krein sign +1"] {
+            assert!(told.iter().all(|told| told.contains(words)), "{told:?}");
+        }
+        assert_eq!(
+            page.value("document.querySelector('#motion').hidden").await,
+            json!(false)
+        );
+        let pixels = "[...document.querySelector('#motion').getContext('2d').getImageData(0, 0, 180, 180).data].join()";
+        let before = page.value(pixels).await;
+        page.wait(&format!("{pixels} !== {before}")).await;
+        page.screenshot("1280-mode.png").await;
+        page.close().await;
+    });
+}
+
+/// Prints the times from a move of the pointer to the painted chart that has it in.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        for (steps, step) in [(60, (1, 0)), (60, (-1, 1)), (60, (0, -1))] {
+            drag(&page, PAD, steps, step).await;
+            let_go(&page).await;
+            page.settle().await;
+        }
+        let times = page.value("sawflutter.latencies.draft").await;
+        let computed = page
+            .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
+            .await;
+        let last = page.value("sawflutter.latencies.scene").await;
+        println!(
+            "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
+             ({} moves, {} charts of {:.0} ms median); moves still waiting at the release, to the \
+             final chart: {}; load {}",
+            percentile(&times, 0.5),
+            percentile(&times, 0.95),
+            times.as_array().unwrap().len(),
+            computed.as_array().unwrap().len(),
+            percentile(&computed, 0.5),
+            last.as_array().unwrap().len(),
+            std::fs::read_to_string("/proc/loadavg")
+                .unwrap_or_default()
+                .trim(),
+        );
+        assert!(computed.as_array().unwrap().len() > 10);
+
+        // A design chart that a further change has made stale is stopped, not computed.
+        let jobs = "fetch('jobs').then((answer) => answer.json())";
+        let before = page.value(jobs).await;
+        for _ in 0..4 {
+            page.script("sawflutter.state.set('blade.thickness_m', sawflutter.state.scene.blade.thickness_m + 1e-6)").await;
+        }
+        page.settle().await;
+        let after = page.value(jobs).await;
+        let more = |key: &str| after[key].as_u64().unwrap() - before[key].as_u64().unwrap();
+        assert_eq!(more("finished"), 1, "{before} {after}");
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let tools = thirtyfour::extensions::cdp::ChromeDevTools::new(page.driver.handle().clone());
+        let mut wide = Vec::new();
+        for (width, height) in [(1280, 900), (390, 844)] {
+            let size = json!({ "width": width, "height": height, "deviceScaleFactor": 2, "mobile": width < 500 });
+            tools
+                .execute_cdp_with_params("Emulation.setDeviceMetricsOverride", size)
+                .await
+                .unwrap();
+            for scheme in ["light", "dark"] {
+                let media =
+                    json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
+                tools
+                    .execute_cdp_with_params("Emulation.setEmulatedMedia", media)
+                    .await
+                    .unwrap();
+                tokio::time::sleep(Duration::from_millis(300)).await;
+                page.screenshot(&format!("{width}-{scheme}.png")).await;
+                let paper = page
+                    .value("getComputedStyle(document.body).backgroundColor")
+                    .await;
+                assert_eq!(paper == json!("rgb(255, 255, 255)"), scheme == "light");
+            }
+            wide.push(
+                page.value("document.documentElement.scrollWidth <= innerWidth")
+                    .await,
+            );
+        }
+        assert_eq!(
+            wide,
+            [json!(true), json!(true)],
+            "the page is wider than the screen"
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_program_ends_with_its_page() {
+    run(async {
+        let mut page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.driver.goto("about:blank").await.unwrap();
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = page.program.0.try_wait().unwrap() {
+                break status;
+            }
+            assert!(
+                begun.elapsed() < PATIENCE,
+                "the program goes on without its page"
+            );
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        };
+        assert!(status.success(), "{status}");
+        page.close().await;
+    });
+}
