@@ -107,7 +107,13 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     };
     let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
     let report: Report = serde_json::from_value(found["report"].take()).unwrap();
-    assert_eq!(report, Report::new(&scene, &analysis).unwrap());
+    // Drawn at fewer speeds, but found by the same search on the same basis.
+    let whole = Report::new(&scene, &analysis).unwrap();
+    assert_eq!(report.critical_speeds, whole.critical_speeds);
+    assert_eq!(report.instabilities, whole.instabilities);
+    assert_eq!(report.operating, whole.operating);
+    assert_eq!(report.accuracy, whole.accuracy);
+    assert_eq!(report.certificate.krein_violations, 0);
 
     let branch = &report.campbell.branches[2];
     let (rpm, hz) = (branch.rpm[10], branch.frequency_hz[10]);

@@ -83,7 +83,7 @@ mod tests {
     use super::*;
     use crate::scene::{Accuracy, Scene};
     use crate::spectrum::SpectrumError;
-    use crate::stability::Analysis;
+    use crate::stability::{Analysis, Detail};
 
     fn runtime() -> tokio::runtime::Runtime {
         let mut builder = tokio::runtime::Builder::new_current_thread();
@@ -148,7 +148,7 @@ mod tests {
             if share == 0.0 {
                 stop.ask();
             }
-            let result = Analysis::stoppable(&scene, &|_, _| (), &stop);
+            let result = Analysis::stoppable(&scene, Detail::Full, &|_, _| (), &stop);
             asker.join().unwrap();
             // On a machine that has got faster meanwhile a late wish may come too late.
             if share < 0.5 {

@@ -10,7 +10,7 @@ use crate::figure::{self, FigureError};
 use crate::report::Report;
 use crate::scene::{Accuracy, Measured, Scene, SceneError, SceneFile, json_schema};
 use crate::spectrum::{SpectrumError, Stop};
-use crate::stability::Analysis;
+use crate::stability::{Analysis, Detail};
 
 /// What the page begins with.
 #[derive(Serialize)]
@@ -40,7 +40,8 @@ impl Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fidelity {
-    /// Draft, whatever the scene says: for a saw that is just being changed.
+    /// Draft, whatever the scene says, and drawn at fewer speeds: for a saw that is just being
+    /// changed.
     Draft,
     /// The scene's own.
     Scene,
@@ -120,11 +121,14 @@ impl Charts {
     pub fn chart(&self, scene: &str, fidelity: Fidelity, stop: &Stop) -> Result<String, Refusal> {
         let started = Instant::now();
         let mut scene = Scene::from_json(scene)?;
-        if fidelity == Fidelity::Draft {
-            scene.accuracy = Accuracy::Draft;
-            scene.tolerance = None;
-        }
-        let analysis = Analysis::stoppable(&scene, &|_, _| (), stop)?;
+        let detail = match fidelity {
+            Fidelity::Draft => {
+                (scene.accuracy, scene.tolerance) = (Accuracy::Draft, None);
+                Detail::Sketch
+            }
+            Fidelity::Scene => Detail::Full,
+        };
+        let analysis = Analysis::stoppable(&scene, detail, &|_, _| (), stop)?;
         let report = Report::new(&scene, &analysis)?;
         let chart = self.keep(analysis);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
@@ -202,7 +206,10 @@ impl SavedFile {
         if self == SavedFile::Scene {
             return pretty(&scene.file);
         }
-        let report = Report::new(&scene, &Analysis::stoppable(&scene, &|_, _| (), stop)?)?;
+        let report = Report::new(
+            &scene,
+            &Analysis::stoppable(&scene, Detail::Full, &|_, _| (), stop)?,
+        )?;
         let undrawn = |error: FigureError| Refusal::of(&error);
         match self {
             SavedFile::Scene | SavedFile::Report => pretty(&report),

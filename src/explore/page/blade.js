@@ -41,10 +41,11 @@ export class Blade {
     this.svg.style.setProperty("--pixel", `${(2 * reach) / (this.svg.clientWidth || 400)}px`);
     this.pixel = (2 * reach) / (this.svg.clientWidth || 400);
     this.#drawGround(scene);
+    // Pads come last, on top: they are what is dragged most.
     const wanted = [
-      ...(scene.guides ?? []).map((guide, i) => ["pad", `guides[${i}]`, guide]),
       ...(scene.cut ? [["cut", "cut", scene.cut]] : []),
       ["probe", "probe", scene.probe ?? { angle_deg: 90 }],
+      ...(scene.guides ?? []).map((guide, i) => ["pad", `guides[${i}]`, guide]),
     ];
     this.#match(wanted);
     for (const [kind, path, part] of wanted) {

@@ -10,7 +10,7 @@ const NEAR_PX = 14;
 
 function axis(label, size, value = (v) => v) {
   const values = (_, splits) => splits.map((v) => shown(value(v), 4));
-  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, ticks: { size: 4 }, values };
+  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: value(2) === 2 ? 50 : 24, ticks: { size: 4 }, values };
 }
 
 // uPlot wants a series to spread its axes over; the branches have speeds of their own and are
@@ -61,7 +61,7 @@ export class Charts {
     this.colours = colours;
     this.onHover = onHover;
     const narrow = () => campbellPlace.clientWidth < 480;
-    const room = () => (narrow() ? 12 : 108);
+    const room = () => (narrow() ? 20 : 108);
     this.campbell = plot(campbellPlace, {
       height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
       yRange: () => [0, this.report ? highestShown(this.report) : 1],
@@ -230,14 +230,22 @@ export class Charts {
       const ends = [branch.growth_per_s[i], branch.growth_per_s[i + 1]];
       const grows = Math.max(...ends) > NEGLIGIBLE_PER_S;
       if (!grows && !damped) continue;
-      const middle = 0.5 * (branch.rpm[i] + branch.rpm[i + 1]);
-      const band = this.report.instabilities.find((b) => b.from_rpm <= middle && middle <= b.to_rpm);
+      const speeds = [branch.rpm[i], branch.rpm[i + 1]];
+      const inside = ends[0] > ends[1] ? speeds[0] : speeds[1];
+      const band = this.report.instabilities.find((b) => b.from_rpm <= inside && inside <= b.to_rpm);
       ctx.strokeStyle = !grows ? this.colours.standing : bandColour(this.colours, band?.kind ?? "flutter");
       ctx.beginPath();
-      ctx.moveTo(x(branch.rpm[i]), y(damped ? ends[0] : Math.max(ends[0], 0)));
-      ctx.lineTo(x(branch.rpm[i + 1]), y(damped ? ends[1] : Math.max(ends[1], 0)));
+      // Without damping growth begins and ends with the band, wherever the samples are.
+      const at = damped || !band ? speeds : speeds.map((rpm) => Math.min(Math.max(rpm, band.from_rpm), band.to_rpm));
+      ctx.moveTo(x(at[0]), y(damped ? ends[0] : Math.max(ends[0], 0)));
+      ctx.lineTo(x(at[1]), y(damped ? ends[1] : Math.max(ends[1], 0)));
       ctx.stroke();
     }
+  }
+
+  // The point that is looked at, on the chart as it is now.
+  get pointed() {
+    return this.highlighted && { branch: this.highlighted, i: this.spot };
   }
 
   // The branch next to the pointer, or the one that the arrow keys have come to.

@@ -51,6 +51,7 @@ function onChart(chart, request) {
   charts.show(chart.report, pinnedDiffers() ? pinned : null);
   tell();
   blade.draw(state.scene, null);
+  if (charts.pointed || asked) onHover(charts.pointed);
   painted(() => {
     const now = performance.now();
     const kind = request.draft ? "draft" : "scene";
@@ -105,9 +106,16 @@ function tell() {
   by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches.`);
 }
 
+const MEANING = {
+  forward: "It runs with the rotation, ahead of the dot.",
+  backward: "It runs against the rotation.",
+  reflected: "It is carried along in space but falls behind the dot: on the blade it runs backward.",
+  standing: "It does not travel.",
+};
 let asked = null;
 async function onHover(found) {
   asked?.abort();
+  asked = null;
   if (!found) {
     motion.hide();
     document.body.classList.remove("moving");
@@ -121,10 +129,10 @@ async function onHover(found) {
     const slower = motion.show(shape, Blade.reach(state.scene));
     document.body.classList.add("moving");
     const growth = Math.abs(shape.growth_per_s) > 1e-3 ? `, ${shape.growth_per_s > 0 ? "grows" : "decays"} at ${shown(Math.abs(shape.growth_per_s), 3)} 1/s` : "";
-    by("mode").textContent = `${shape.name} at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
+    const name = Object.assign(document.createElement("strong"), { textContent: shape.name, className: shape.direction });
+    by("mode").replaceChildren(name, ` at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
       + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, Krein sign ${krein(shape.krein_sign)}${growth}. `
-      + `Shown ${shown(slower, 2)} times slower; the dot turns with the blade.`;
-    by("mode").dataset.direction = shape.direction;
+      + `${MEANING[shape.direction]} Shown ${shown(slower, 2)} times slower; the dot turns with the blade.`);
   } catch (error) {
     if (error.name !== "AbortError") by("mode").textContent = error.message;
   }
@@ -133,7 +141,10 @@ async function onHover(found) {
 function buttons() {
   by("undo").disabled = !state.canUndo;
   by("redo").disabled = !state.canRedo;
-  by("measured").checked = state.scene.measured !== undefined;
+  const measured = state.scene.measured;
+  by("measured").checked = measured !== undefined;
+  const source = (measured ?? begun.measured)?.source ?? "Measured";
+  by("source").textContent = source.length > 36 ? `${source.slice(0, 35)}…` : source;
 }
 
 function switchMeasured(on) {

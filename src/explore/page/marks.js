@@ -18,8 +18,8 @@ export function theme(colours) {
   for (const [name, colour] of Object.entries(colours)) {
     // Lines and letters are lightened until they stand out; shades are darkened.
     if (!dark) chosen[name] = css(colour);
-    else if (name.endsWith("_shade")) chosen[name] = css(mix(colour, DARK_PAPER, 0.22));
-    else if (name.endsWith("_streak")) chosen[name] = css(mix(colour, DARK_PAPER, 0.55));
+    else if (name.endsWith("_shade")) chosen[name] = css(mix(colours[name.replace("_shade", "")], DARK_PAPER, 0.55));
+    else if (name.endsWith("_streak")) chosen[name] = css(mix(colour, DARK_PAPER, 0.6));
     else chosen[name] = css(mix(colour, WHITE, 0.52));
   }
   if (dark) {
