@@ -220,3 +220,25 @@ fn a_request_that_is_taken_back_is_stopped() {
         "{jobs}"
     );
 }
+
+/// Ctrl-C ends the program at once, whatever it computes.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_everything() {
+    let mut server = Server::start();
+    let reference = paper().replacen('{', r#"{"tolerance":1e-5,"#, 1);
+    let _waiting = server.send("POST /chart/scene", &[], &reference);
+    std::thread::sleep(Duration::from_millis(100));
+    let id = server.child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = server.child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(status.success(), "{status}");
+}

@@ -218,7 +218,7 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
                 }
                 assert!(begun.elapsed() < PATIENCE, "no charts while the hand moves");
                 let back = if moves / 40 % 2 == 0 { step } else { -step };
-                let moved = hand(&page).move_by_offset(back, moves % 2);
+                let moved = hand(&page).move_by_offset(back, 1 - 2 * (moves % 2));
                 moved.perform().await.unwrap();
             }
             let_go(&page).await;

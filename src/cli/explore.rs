@@ -13,10 +13,10 @@ Examples:
   sawflutter explore my-saw.json     your own; open the address that is printed
   sawflutter explore --port 8080     at an address that stays the same
 
-The page comes from the program itself, to this computer alone (127.0.0.1); nothing is
-fetched from the net and nothing is written but what you save. Closing a page stops what
-it computes; the program ends with Ctrl-C, or three seconds after the last page that was
-opened is closed.";
+The page comes from the program itself, to this computer alone (127.0.0.1);
+nothing is fetched from the net, nothing is written but what you save. Closing a
+page stops what it computes; the program ends with Ctrl-C, or three seconds after
+the last page that was opened has been closed.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -112,15 +112,16 @@ mod tests {
     #[test]
     fn a_request_dropped_while_it_waits_is_never_computed() {
         let jobs = Jobs::default();
+        let ahead = jobs.clone();
         runtime().block_on(async {
-            let (first, second) = (
-                jobs.run(|_| std::thread::sleep(Duration::from_millis(50))),
-                jobs.run(|_| panic!("computed, though nobody waits")),
-            );
-            let second = tokio::time::timeout(Duration::from_millis(5), second);
-            let first = tokio::spawn(first);
+            let first = tokio::spawn(async move {
+                let work = |_: &Stop| std::thread::sleep(Duration::from_millis(50));
+                ahead.run(work).await
+            });
             tokio::task::yield_now().await;
-            assert!(second.await.is_err());
+            let second = jobs.run(|_| panic!("computed, though nobody waits"));
+            let gave_up = tokio::time::timeout(Duration::from_millis(5), second).await;
+            assert!(gave_up.is_err());
             first.await.unwrap();
         });
         assert_eq!(jobs.counts(), [1, 0]);
