@@ -184,7 +184,7 @@ fn bad_and_boundless_requests_are_refused() {
     assert_eq!(refusal.json()["key"], "blade.thickness_m");
     let words = Scene::from_json(&negative).unwrap_err().to_string();
     assert_eq!(refusal.json()["message"], words);
-    // The sweep of 3e6 rpm would need more waves than the largest basis has.
+    // No blade holds together at 3e6 rpm, and no basis has the waves of such a sweep.
     let endless = paper().replace("\"to_rpm\":3000.0", "\"to_rpm\":3000000.0");
     assert_ne!(endless, paper());
     let refusal = server.ask("POST /chart/draft", &[], &endless);

@@ -72,7 +72,9 @@ impl From<SceneError> for Refusal {
 impl From<SpectrumError> for Refusal {
     fn from(error: SpectrumError) -> Self {
         let key = match &error {
-            SpectrumError::Unresolved { .. } => Some("sweep.to_rpm".to_owned()),
+            SpectrumError::Unresolved { .. } | SpectrumError::Overstretched { .. } => {
+                Some("sweep.to_rpm".to_owned())
+            }
             _ => None,
         };
         Refusal {

@@ -77,6 +77,16 @@ pub enum SpectrumError {
         /// Speeds.
         speeds: usize,
     },
+    /// The blade would be torn long before the end of the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
+    )]
+    Overstretched {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Fastest speed allowed.
+        limit_rpm: f64,
+    },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(
         "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that this accuracy holds, are critical there; end the sweep earlier or ask for a finer accuracy"

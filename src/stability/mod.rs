@@ -8,6 +8,8 @@ mod divergence;
 mod finder;
 mod flutter;
 mod loci;
+mod peak;
+mod pursuit;
 mod refine;
 mod sensitivity;
 mod station;
