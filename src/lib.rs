@@ -3,7 +3,7 @@
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`] → `explore`. [`check`] stands after [`stability`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
+//! [`report`] → [`figure`] → `explore`. [`check`], [`fit`] and [`place`] stand after [`stability`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone.
 //!
 //! ```
@@ -24,6 +24,8 @@ pub mod check;
 #[cfg(feature = "explore")]
 pub mod explore;
 pub mod figure;
+pub mod fit;
+pub mod place;
 pub mod plate;
 pub mod report;
 pub mod scene;

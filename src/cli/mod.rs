@@ -7,7 +7,10 @@ mod cut;
 #[cfg(feature = "explore")]
 mod explore;
 mod export;
+mod fit;
+mod free;
 mod output;
+mod place;
 mod runup;
 mod schema;
 mod summary;
@@ -42,6 +45,12 @@ enum Command {
     #[cfg(feature = "explore")]
     #[command(after_help = explore::EXAMPLES)]
     Explore(explore::Arguments),
+    /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
+    #[command(after_help = fit::EXAMPLES)]
+    Fit(fit::Arguments),
+    /// Put the guides where flutter comes latest; place.json, a scene, a map
+    #[command(after_help = place::EXAMPLES)]
+    Place(place::Arguments),
     /// Measure what digits cost: time against true error; tradeoff.png
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
@@ -74,8 +83,10 @@ pub fn run() -> anyhow::Result<bool> {
         Some(Command::Runup(arguments)) => runup::run(&arguments),
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
+        Some(Command::Fit(arguments)) => fit::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
+        Some(Command::Place(arguments)) => return place::run(&arguments),
         Some(Command::Check(arguments)) => return check::run(&arguments),
         Some(Command::Schema) => schema::run(),
     }
