@@ -4,6 +4,8 @@ mod analyze;
 mod check;
 mod common;
 mod cut;
+#[cfg(feature = "explore")]
+mod explore;
 mod export;
 mod fit;
 mod free;
@@ -41,6 +43,10 @@ enum Command {
     /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
+    /// Change a saw by hand on a page in the browser, and watch its chart move
+    #[cfg(feature = "explore")]
+    #[command(after_help = explore::EXAMPLES)]
+    Explore(explore::Arguments),
     /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
     #[command(after_help = fit::EXAMPLES)]
     Fit(fit::Arguments),
@@ -66,6 +72,7 @@ Examples:
   sawflutter analyze my-saw.json          chart your own saw
   sawflutter cut                          is it stable in the wood?
   sawflutter check --operating-rpm 1250   does it keep the 85 % rule? for scripts
+  sawflutter explore --open               what if? drag the guides in your browser
   sawflutter runup                        what does it do on the way up?
   sawflutter schema > scene.schema.json   let your editor complete scene keys
 
@@ -79,6 +86,8 @@ pub fn run() -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        #[cfg(feature = "explore")]
+        Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),

@@ -63,6 +63,7 @@ impl<'a> LowModel<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<LowModes, SpectrumError> {
+        self.counters.stop.check()?;
         let pairs = match &self.local {
             Some(local) => {
                 self.counters.local_solves.fetch_add(1, Ordering::Relaxed);

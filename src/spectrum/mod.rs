@@ -18,6 +18,7 @@ mod projection;
 mod reduction;
 mod shift_invert;
 mod state;
+mod stop;
 
 pub use buckling::{AddedStress, SingularStress, first_singular};
 pub use dense::{companion_eigenpairs, time_scale};
@@ -34,6 +35,7 @@ pub use pencil::{CriticalSpeed, critical_speeds, singular_multiples};
 pub use projection::{Projection, orthonormal};
 pub use shift_invert::lowest_eigenpairs;
 pub use state::{State, StateModel};
+pub use stop::Stop;
 
 /// Why a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -111,4 +113,7 @@ pub enum SpectrumError {
         /// Largest number of nodal diameters in the basis.
         diameters: usize,
     },
+    /// Whoever asked for the spectrum does not want it any more, see [`Stop`].
+    #[error("the computation was stopped")]
+    Stopped,
 }

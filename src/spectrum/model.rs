@@ -17,7 +17,7 @@ use super::mode::{Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
 use super::projection::{Projection, pairs_of};
-use super::{SpectrumError, companion_eigenpairs};
+use super::{SpectrumError, Stop, companion_eigenpairs};
 use super::{free_reduction, reduction};
 
 /// How the modes of a speed are found.
@@ -43,6 +43,8 @@ pub struct WorkCounters {
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
+    /// Looked at where work is counted.
+    pub stop: Stop,
 }
 
 /// A mode with everything that a reader wants to know of it.
@@ -99,25 +101,43 @@ impl SpectralModel {
         range: (f64, f64),
         strategy: Strategy,
     ) -> Result<Self, SpectrumError> {
-        let counters = WorkCounters::default();
+        Self::stoppable(plate, critical, range, strategy, &Stop::default())
+    }
+
+    /// The same, which ends early when asked to, now and in all that is computed with it.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails; [`SpectrumError::Stopped`].
+    pub fn stoppable(
+        plate: Plate,
+        critical: Vec<NamedCriticalSpeed>,
+        range: (f64, f64),
+        strategy: Strategy,
+        stop: &Stop,
+    ) -> Result<Self, SpectrumError> {
+        let counters = WorkCounters {
+            stop: stop.clone(),
+            ..WorkCounters::default()
+        };
         let mut parts = Part::of(&plate);
         let mut complete_to_rad_per_s = f64::INFINITY;
         if strategy != Strategy::Dense {
             let scale = frequency_scale(&plate);
             for (index, part) in parts.iter_mut().enumerate() {
+                let bands_alone = match strategy == Strategy::Bands && !plate.is_axisymmetric() {
+                    true => reduction::for_bands(&part.full, range, scale, &critical, &counters)?,
+                    false => None,
+                };
                 if plate.is_axisymmetric() {
                     let basis = free_reduction::of_harmonic(&plate, index, range);
                     part.chart = vec![Projection::new(&part.full, basis, range.1)];
-                } else if let Some((low, height)) = (strategy == Strategy::Bands)
-                    .then(|| reduction::for_bands(&part.full, range, scale, &critical, &counters))
-                    .flatten()
-                {
+                } else if let Some((low, height)) = bands_alone {
                     part.chart = vec![low.clone()];
                     part.low = Some((low, height));
                     complete_to_rad_per_s = height;
                 } else {
                     let found =
-                        reduction::of_guided(&part.full, range, scale, &critical, &counters);
+                        reduction::of_guided(&part.full, range, scale, &critical, &counters)?;
                     part.chart = found.chart;
                     part.low = found.low.map(|low| (low, found.low_rad_per_s));
                     complete_to_rad_per_s = found.chart_rad_per_s;
@@ -187,6 +207,7 @@ impl SpectralModel {
         let Some(few) = projection.drawn_at(speed_rad_per_s) else {
             return self.modes(speed_rad_per_s);
         };
+        self.counters.stop.check()?;
         self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
         let mut pairs = few.eigenpairs(speed)?;
         pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
@@ -203,6 +224,7 @@ impl SpectralModel {
     pub fn full_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
+            self.counters.stop.check()?;
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
             let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
             modes.extend(classify(&part.full, speed_rad_per_s, index, pairs));
@@ -238,6 +260,7 @@ impl SpectralModel {
         let speed = speed_rad_per_s.max(SPLITTING * scale);
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
+            self.counters.stop.check()?;
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
             let system = &part.at(speed_rad_per_s).reduced;
             let mut pairs = companion_eigenpairs(system, speed)?;

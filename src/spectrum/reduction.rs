@@ -14,7 +14,7 @@ use super::model::WorkCounters;
 use super::pair::standing_states;
 use super::part::NamedCriticalSpeed;
 use super::state::{State, StateModel};
-use super::{companion_eigenpairs, lowest_eigenpairs};
+use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs};
 
 /// Modes a chart shows at the lowest speed.
 const CHART_MODES: usize = 12;
@@ -54,27 +54,34 @@ pub struct GuidedReductions {
 
 /// Modes of the guided blade at a few speeds, more of them until every mode up to
 /// the chart's height, and every reflected one, is right in between too.
+///
+/// # Errors
+/// [`SpectrumError::Stopped`].
 pub fn of_guided(
     system: &GyroscopicSystem,
     range: (f64, f64),
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
-) -> GuidedReductions {
+) -> Result<GuidedReductions, SpectrumError> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
     let ((low_rad_per_s, last), (chart_rad_per_s, first)) = rayon::join(
         || builder.reflected_height(range.1),
         || builder.chart_height(range.0),
     );
+    counters.stop.check()?;
     builder.window = chart_rad_per_s.max(low_rad_per_s);
     builder.add_first_snapshots([Some(first), last]);
-    let low = (low_rad_per_s > 0.0).then(|| builder.whole_range(low_rad_per_s));
-    GuidedReductions {
-        chart: builder.pieces(),
+    let low = match low_rad_per_s > 0.0 {
+        true => Some(builder.whole_range(low_rad_per_s)?),
+        false => None,
+    };
+    Ok(GuidedReductions {
+        chart: builder.pieces()?,
         low,
         chart_rad_per_s: builder.window,
         low_rad_per_s,
-    }
+    })
 }
 
 /// The projection on the modes that bands are made of alone, and their height; nothing where no
@@ -85,15 +92,15 @@ pub fn for_bands(
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
-) -> Option<(Projection, f64)> {
+) -> Result<Option<(Projection, f64)>, SpectrumError> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
     let (height, last) = builder.reflected_height(range.1);
     if height == 0.0 {
-        return None;
+        return Ok(None);
     }
     builder.window = height;
     builder.add_first_snapshots([None, last]);
-    Some((builder.whole_range(height), height))
+    Ok(Some((builder.whole_range(height)?, height)))
 }
 
 /// Low modes of the whole system at one speed.
@@ -235,9 +242,10 @@ impl<'a> Builder<'a> {
     /// One projection for all speeds, from the modes up to a height at every snapshot;
     /// snapshots are added until it is right halfway between them. What was right once stays
     /// so, for the space only grows.
-    fn whole_range(&mut self, height: f64) -> Projection {
+    fn whole_range(&mut self, height: f64) -> Result<Projection, SpectrumError> {
         let mut settled: Vec<f64> = Vec::new();
         loop {
+            self.counters.stop.check()?;
             let basis = self.basis(&self.snapshots, height);
             let projection = Projection::new(self.system, basis, self.range.1);
             let mut halfway = self.halfway();
@@ -256,7 +264,7 @@ impl<'a> Builder<'a> {
                 .partition(|(_, wrong)| *wrong);
             settled.extend(fine.into_iter().map(|(speed, _)| speed));
             if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
-                return projection;
+                return Ok(projection);
             }
             let speeds: Vec<f64> = coarse.into_iter().map(|(speed, _)| speed).collect();
             self.add_snapshots(&speeds);
@@ -264,9 +272,10 @@ impl<'a> Builder<'a> {
     }
 
     /// Projections between neighbouring snapshots, halved until right in their middle.
-    fn pieces(&mut self) -> Vec<Projection> {
+    fn pieces(&mut self) -> Result<Vec<Projection>, SpectrumError> {
         let mut finished: Vec<Projection> = Vec::new();
         loop {
+            self.counters.stop.check()?;
             let is_open = |pair: &&[Snapshot]| {
                 let to = pair[1].speed;
                 finished.iter().all(|piece| piece.to_rad_per_s != to)
@@ -299,7 +308,7 @@ impl<'a> Builder<'a> {
             }
             if coarse.is_empty() {
                 finished.sort_by(|x, y| x.to_rad_per_s.total_cmp(&y.to_rad_per_s));
-                return finished;
+                return Ok(finished);
             }
             self.add_snapshots(&coarse);
         }

@@ -1,12 +1,12 @@
 //! From a scene to its stability chart: the library's main call.
 
-use super::bands::{StabilityChart, chart};
+use super::bands::{StabilityChart, chart, drawn};
 use super::basis::ChosenBasis;
 use super::loci::RootLoci;
 use super::onsets::first_flutter;
 use crate::campbell::Progress;
 use crate::scene::Scene;
-use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{SpectralModel, SpectrumError, Stop, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
 /// usual rule of thumb of saw makers.
@@ -15,6 +15,19 @@ pub const OPERATING_LIMIT: f64 = 0.85;
 pub(super) const CHART_SPEEDS: usize = 51;
 /// The same for a free blade, of which a speed costs next to nothing.
 const FREE_CHART_SPEEDS: usize = 101;
+
+/// The same of a sketch.
+const SKETCH_SPEEDS: usize = 25;
+
+/// How closely a chart is drawn. Critical speeds and bands do not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Detail {
+    /// As the figures show it.
+    #[default]
+    Full,
+    /// At fewer speeds, without root loci: for a chart that is looked at for a moment.
+    Sketch,
+}
 
 /// Everything about the stability of one saw.
 #[derive(Debug)]
@@ -43,18 +56,36 @@ impl Analysis {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, SpectrumError> {
-        let basis = ChosenBasis::new(scene, scene.tolerance())?;
-        let (range, estimated_relative_error) = (basis.range, Some(basis.estimated_relative_error));
-        let model =
-            SpectralModel::with_critical(basis.plate, basis.critical, range, Strategy::Reduced)?;
-        let count = match model.plate.is_axisymmetric() {
-            true => FREE_CHART_SPEEDS,
-            false => CHART_SPEEDS,
+        Self::stoppable(scene, Detail::Full, progress, &Stop::default())
+    }
+
+    /// The same, which ends early when asked to.
+    ///
+    /// # Errors
+    /// Those of [`Analysis::new`]; [`SpectrumError::Stopped`].
+    pub fn stoppable(
+        scene: &Scene,
+        detail: Detail,
+        progress: Progress<'_>,
+        stop: &Stop,
+    ) -> Result<Self, SpectrumError> {
+        let ChosenBasis {
+            plate,
+            critical,
+            range,
+            estimated_relative_error,
+        } = ChosenBasis::stoppable(scene, scene.tolerance(), stop)?;
+        let estimated_relative_error = Some(estimated_relative_error);
+        let model = SpectralModel::stoppable(plate, critical, range, Strategy::Reduced, stop)?;
+        let chart = match (model.plate.is_axisymmetric(), detail) {
+            (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
+            (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
+            (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, &[], progress)?,
         };
-        let chart = chart(&model, range, count, progress)?;
         let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s);
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
-        let followed = strong.or(first).filter(|_| model.is_conservative());
+        let loci = model.is_conservative() && detail == Detail::Full;
+        let followed = strong.or(first).filter(|_| loci);
         let root_loci = match followed {
             Some(band) => RootLoci::new(&model, band, range)?,
             None => None,

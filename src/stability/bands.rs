@@ -65,6 +65,8 @@ pub struct StabilityChart {
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
 pub(super) const SEARCH_SPEEDS: usize = 25;
+/// Speeds drawn within a band, as shares of its width, besides that of its peak.
+const WITHIN_BANDS: [f64; 4] = [0.02, 0.15, 0.85, 0.98];
 
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.
 ///
@@ -74,6 +76,17 @@ pub fn chart(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
+    progress: Progress<'_>,
+) -> Result<StabilityChart, SpectrumError> {
+    drawn(model, range, count, &WITHIN_BANDS, progress)
+}
+
+/// The same with other speeds drawn within each band.
+pub(super) fn drawn(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+    within_bands: &[f64],
     progress: Progress<'_>,
 ) -> Result<StabilityChart, SpectrumError> {
     if !model.is_conservative() {
@@ -90,7 +103,7 @@ pub fn chart(
         }
     };
     let (instabilities, certificate) = bands(model, &search)?;
-    let between = inside(&instabilities, &samples);
+    let between = inside(&instabilities, &samples, within_bands);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     Ok(StabilityChart {
         campbell: Campbell::track(samples),
@@ -187,15 +200,13 @@ pub(super) fn with_critical_speeds(
 }
 
 /// Speeds inside and at the edges of the bands, so that the narrowest one is drawn.
-pub(super) fn inside(instabilities: &[Instability], samples: &[SpeedSample]) -> Vec<f64> {
+fn inside(instabilities: &[Instability], samples: &[SpeedSample], shares: &[f64]) -> Vec<f64> {
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {
             let at = |share: f64| band.from + share * (band.to - band.from);
-            [0.02, 0.15, 0.85, 0.98]
-                .map(at)
-                .into_iter()
-                .chain([band.peak])
+            let shares = shares.iter().copied();
+            shares.map(at).chain([band.peak])
         })
         .collect();
     speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));

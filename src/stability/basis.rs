@@ -7,7 +7,7 @@
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
-use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError};
+use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Stop};
 
 /// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
 /// polynomials lose digits on narrow rings.
@@ -55,6 +55,14 @@ impl ChosenBasis {
     /// not elastic any more, or when the largest basis does not hold the waves that are
     /// reflected within it.
     pub fn new(scene: &Scene, tolerance: f64) -> Result<Self, SpectrumError> {
+        Self::stoppable(scene, tolerance, &Stop::default())
+    }
+
+    /// The same, which ends early when asked to.
+    ///
+    /// # Errors
+    /// Those of [`ChosenBasis::new`]; [`SpectrumError::Stopped`].
+    pub fn stoppable(scene: &Scene, tolerance: f64, stop: &Stop) -> Result<Self, SpectrumError> {
         let fastest = fastest_rad_per_s(&scene.blade);
         if let Some(sweep) = scene.sweep.filter(|sweep| sweep.to_rad_per_s > fastest) {
             return Err(SpectrumError::Overstretched {
@@ -65,6 +73,7 @@ impl ChosenBasis {
         let mut differences: Vec<f64> = Vec::new();
         let mut previous: Option<Vec<NamedCriticalSpeed>> = None;
         for (rung, (max_diameters, radial_functions)) in LADDER.into_iter().enumerate() {
+            stop.check()?;
             let last = rung + 1 == LADDER.len();
             let resolution = Resolution {
                 max_diameters,

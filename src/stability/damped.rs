@@ -28,7 +28,10 @@ pub(super) fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, SpectrumError> {
-    let twin = SpectralModel::new(model.plate.undamped(), range, Strategy::Reduced)?;
+    let plate = model.plate.undamped();
+    let critical = SpectralModel::critical_speeds(&plate)?;
+    let stop = &model.counters.stop;
+    let twin = SpectralModel::stoppable(plate, critical, range, Strategy::Reduced, stop)?;
     let mut speeds = with_critical_speeds(&twin, range, campbell::even_speeds(range, count));
     let (undamped, _) = bands::bands(&twin, &speeds)?;
     speeds.extend(

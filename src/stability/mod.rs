@@ -17,7 +17,7 @@ mod sensitivity;
 mod station;
 mod tradeoff;
 
-pub use analysis::{Analysis, OPERATING_LIMIT};
+pub use analysis::{Analysis, Detail, OPERATING_LIMIT};
 pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
 pub use basis::ChosenBasis;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};

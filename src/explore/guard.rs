@@ -1,0 +1,106 @@
+//! Who may talk to the server: pages that it has served itself, on this computer.
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+/// The names under which the server may be called, with its port.
+#[derive(Debug, Clone)]
+pub struct Door {
+    hosts: [String; 2],
+}
+
+impl Door {
+    /// The door of a port.
+    pub fn new(port: u16) -> Self {
+        Door {
+            hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
+        }
+    }
+
+    /// Why a request is not let in. A page from elsewhere can have its own name point to this
+    /// computer; then `Host` is that name. Or it can send a request here; then `Origin` is it.
+    pub fn refusal(&self, headers: &HeaderMap) -> Option<String> {
+        let own = |host: &str| self.hosts.iter().any(|own| own == host);
+        let host = text(headers, header::HOST);
+        if !host.is_some_and(own) {
+            return Some(format!(
+                "Host is {:?}, but must be {}; open the address that the program has printed",
+                host.unwrap_or_default(),
+                self.hosts.join(" or ")
+            ));
+        }
+        let origin = headers.get(header::ORIGIN)?;
+        let ours = |origin: &str| origin.strip_prefix("http://").is_some_and(own);
+        match origin.to_str().is_ok_and(ours) {
+            true => None,
+            false => Some(format!(
+                "Origin is {origin:?}, but only pages of this program may ask"
+            )),
+        }
+    }
+}
+
+fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
+    headers.get(name)?.to_str().ok()
+}
+
+/// Everything the page needs comes from here; scripts written into it by whatever way do
+/// not run.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
+    font-src 'self'; img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; \
+    form-action 'none'; frame-ancestors 'none'";
+
+/// Turns strangers away, and says to the browser what the page may do.
+pub async fn guard(State(door): State<Door>, request: Request, next: Next) -> Response {
+    let mut response = match door.refusal(request.headers()) {
+        Some(reason) => (StatusCode::FORBIDDEN, reason).into_response(),
+        None => next.run(request).await,
+    };
+    let headers = response.headers_mut();
+    for (name, value) in [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (header::CACHE_CONTROL, "no-store"),
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    headers.insert(
+        "cross-origin-resource-policy",
+        HeaderValue::from_static("same-origin"),
+    );
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(headers: &[(header::HeaderName, &str)]) -> Option<String> {
+        let headers = headers
+            .iter()
+            .map(|(name, value)| (name.clone(), HeaderValue::from_str(value).unwrap()));
+        Door::new(4711).refusal(&headers.collect())
+    }
+
+    #[test]
+    fn only_the_own_page_is_let_in() {
+        use header::{HOST, ORIGIN};
+        let own = (HOST, "127.0.0.1:4711");
+        assert_eq!(refusal(&[own.clone()]), None);
+        assert_eq!(refusal(&[(HOST, "localhost:4711")]), None);
+        let page = (ORIGIN, "http://127.0.0.1:4711");
+        assert_eq!(refusal(&[own.clone(), page.clone()]), None);
+        for stranger in ["example.com:4711", "127.0.0.1", "127.0.0.1:80", ""] {
+            let reason = refusal(&[(HOST, stranger), page.clone()]).unwrap();
+            assert!(reason.contains("Host"), "{reason}");
+        }
+        assert!(refusal(&[]).unwrap().contains("Host"));
+        for stranger in ["http://example.com", "null", "https://127.0.0.1:4711", ""] {
+            let reason = refusal(&[own.clone(), (ORIGIN, stranger)]).unwrap();
+            assert!(reason.contains("Origin"), "{reason}");
+        }
+    }
+}

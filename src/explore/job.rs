@@ -1,0 +1,160 @@
+//! One computation at a time, and none that nobody waits for any more.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use tokio::sync::Semaphore;
+
+use crate::spectrum::Stop;
+
+/// Where computations wait for their turn. Each of them uses every core, so that two at a
+/// time would both be late.
+#[derive(Clone, Default)]
+pub struct Jobs {
+    turn: Turn,
+    count: Arc<Count>,
+}
+
+#[derive(Clone)]
+struct Turn(Arc<Semaphore>);
+
+impl Default for Turn {
+    fn default() -> Self {
+        Turn(Arc::new(Semaphore::new(1)))
+    }
+}
+
+/// What became of the computations.
+#[derive(Default)]
+struct Count {
+    finished: AtomicUsize,
+    stopped: AtomicUsize,
+}
+
+/// Asks a computation to end as soon as whoever waits for it goes away.
+struct StopOnDrop(Stop);
+
+impl Drop for StopOnDrop {
+    fn drop(&mut self) {
+        self.0.ask();
+    }
+}
+
+impl Jobs {
+    /// Runs a computation when its turn comes. Dropping the future, which is what the server
+    /// does when the browser has closed the request, takes it out of the queue or asks it to
+    /// stop; the next one begins once it has.
+    ///
+    /// `None` where the program is ending.
+    pub async fn run<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&Stop) -> T + Send + 'static,
+    ) -> Option<T> {
+        let guard = StopOnDrop(Stop::default());
+        let stop = guard.0.clone();
+        let turn = self.turn.0.clone().acquire_owned().await.ok()?;
+        let count = self.count.clone();
+        let done = tokio::task::spawn_blocking(move || {
+            // The turn ends with the work, not with the wish for it.
+            let _turn = turn;
+            let done = work(&stop);
+            let tally = match stop.is_asked() {
+                true => &count.stopped,
+                false => &count.finished,
+            };
+            tally.fetch_add(1, Ordering::Relaxed);
+            done
+        });
+        let done = done.await.ok();
+        drop(guard);
+        done
+    }
+
+    /// Computations that were done and that were stopped.
+    pub fn counts(&self) -> [usize; 2] {
+        [&self.count.finished, &self.count.stopped].map(|c| c.load(Ordering::Relaxed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::*;
+    use crate::scene::{Accuracy, Scene};
+    use crate::spectrum::SpectrumError;
+    use crate::stability::{Analysis, Detail};
+
+    fn runtime() -> tokio::runtime::Runtime {
+        let mut builder = tokio::runtime::Builder::new_current_thread();
+        builder.enable_all().build().unwrap()
+    }
+
+    /// A computation that would never end by itself ends with the wish for it, and the one
+    /// that waited behind it begins.
+    #[test]
+    fn what_nobody_waits_for_is_stopped_and_makes_room() {
+        let jobs = Jobs::default();
+        let next = runtime().block_on(async {
+            let endless = jobs.run(|stop| {
+                while !stop.is_asked() {
+                    std::thread::sleep(Duration::from_millis(1));
+                }
+            });
+            let gave_up = tokio::time::timeout(Duration::from_millis(20), endless).await;
+            assert!(gave_up.is_err(), "the computation ended by itself");
+            jobs.run(|stop| stop.is_asked()).await
+        });
+        assert_eq!(next, Some(false));
+        assert_eq!(jobs.counts(), [1, 1]);
+    }
+
+    #[test]
+    fn a_request_dropped_while_it_waits_is_never_computed() {
+        let jobs = Jobs::default();
+        let ahead = jobs.clone();
+        runtime().block_on(async {
+            let first = tokio::spawn(async move {
+                let work = |_: &Stop| std::thread::sleep(Duration::from_millis(50));
+                ahead.run(work).await
+            });
+            tokio::task::yield_now().await;
+            let second = jobs.run(|_| panic!("computed, though nobody waits"));
+            let gave_up = tokio::time::timeout(Duration::from_millis(5), second).await;
+            assert!(gave_up.is_err());
+            first.await.unwrap();
+        });
+        assert_eq!(jobs.counts(), [1, 0]);
+    }
+
+    /// An analysis looks at the flag in every stage: wherever it is asked, it ends with the
+    /// error of its own and not with a chart.
+    #[test]
+    fn an_analysis_that_is_asked_to_stop_does_not_finish() {
+        let scene = Scene {
+            accuracy: Accuracy::Draft,
+            ..Scene::paper()
+        };
+        let started = Instant::now();
+        Analysis::new(&scene, &|_, _| ()).unwrap();
+        let whole = started.elapsed();
+        for share in [0.0, 0.1, 0.4, 0.7] {
+            let stop = Stop::default();
+            let asked = stop.clone();
+            let pause = whole.mul_f64(share);
+            let asker = std::thread::spawn(move || {
+                std::thread::sleep(pause);
+                asked.ask();
+            });
+            if share == 0.0 {
+                stop.ask();
+            }
+            let result = Analysis::stoppable(&scene, Detail::Full, &|_, _| (), &stop);
+            asker.join().unwrap();
+            // On a machine that has got faster meanwhile a late wish may come too late.
+            if share < 0.5 {
+                assert!(matches!(result, Err(SpectrumError::Stopped)), "{share}");
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! `sawflutter explore`: a page on which the saw can be changed by hand, and what becomes of
+//! its stability is seen at once.
+//!
+//! The page is served from the program itself, to this computer alone. It sends the whole
+//! scene with every request and holds no numbers of its own: what it shows, and every file it
+//! saves, comes from the same calls as on the command line.
+
+mod guard;
+mod job;
+mod mode;
+mod page;
+mod reply;
+mod server;
+
+pub use server::{ExploreError, Options, serve};

@@ -1,0 +1,262 @@
+// The blade to scale, and what stands around it. Pads, cut and probe are taken hold of here.
+
+import { shown, tidy } from "./words.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const STEP_M = 0.001;
+const STEP_DEG = 1;
+const LEAST_SIDE_M = 0.002;
+
+function element(name, attributes, parent) {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  parent?.append(made);
+  return made;
+}
+
+// Numbers that a hand can mean: tenths of a millimetre and of a degree.
+const metres = (value) => tidy(Math.round(value * 1e4) / 1e4);
+const degrees = (value) => tidy(Math.round(turned(value) * 10) / 10);
+const turned = (value) => ((((value + 180) % 360) + 360) % 360) - 180;
+const radians = (value) => (value * Math.PI) / 180;
+
+export class Blade {
+  constructor(svg, state) {
+    this.svg = svg;
+    this.state = state;
+    this.ground = element("g", {}, svg);
+    this.things = element("g", {}, svg);
+    this.mark = element("g", { class: "turns" }, svg);
+  }
+
+  // Half the width of the drawing.
+  static reach(scene) {
+    return 0.5 * scene.blade.outer_diameter_m * 1.12;
+  }
+
+  draw(scene, refusedKey) {
+    const reach = Blade.reach(scene);
+    if (!(reach > 0)) return;
+    this.svg.setAttribute("viewBox", `${-reach} ${-reach} ${2 * reach} ${2 * reach}`);
+    this.svg.style.setProperty("--pixel", `${(2 * reach) / (this.svg.clientWidth || 400)}px`);
+    this.pixel = (2 * reach) / (this.svg.clientWidth || 400);
+    this.#drawGround(scene);
+    // Pads come last, on top: they are what is dragged most.
+    const wanted = [
+      ...(scene.cut ? [["cut", "cut", scene.cut]] : []),
+      ["probe", "probe", scene.probe ?? { angle_deg: 90 }],
+      ...(scene.guides ?? []).map((guide, i) => ["pad", `guides[${i}]`, guide]),
+    ];
+    this.#match(wanted);
+    for (const [kind, path, part] of wanted) {
+      const group = this.things.querySelector(`[data-path="${path}"]`);
+      group.classList.toggle("refused", refusedKey?.startsWith(path) ?? false);
+      this[`_${kind}`](group, part, scene);
+    }
+  }
+
+  #drawGround(scene) {
+    const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
+    const px = this.pixel;
+    const parts = [
+      `<path class="plate" fill-rule="evenodd" d="${toothed(b, scene.blade.teeth ?? 0)}${circle(a)}"/>`,
+      `<path class="bore" d="${circle(a)}"/>`,
+    ];
+    if (scene.mount.kind === "collar") {
+      parts.push(`<path class="collar" fill-rule="evenodd" d="${circle(0.5 * scene.mount.diameter_m)}${circle(a)}"/>`);
+    }
+    // The way it turns.
+    const r = b * 0.5 + a * 0.5;
+    const [x, y] = polar(r, 205);
+    const [u, v] = polar(r, 250);
+    parts.push(`<path class="rotation" d="M${x} ${y}A${r} ${r} 0 0 0 ${u} ${v}"/>`);
+    const [p, q, t] = [polar(r, 257), polar(r - 5 * px, 248), polar(r + 5 * px, 248)];
+    parts.push(`<path class="rotation-head" d="M${p}L${q}L${t}Z"/>`);
+    parts.push(`<path class="axis" d="M${-6 * px} 0H${6 * px}M0 ${-6 * px}V${6 * px}"/>`);
+    this.ground.innerHTML = parts.join("");
+    this.mark.innerHTML = `<circle class="mark" cx="${b * 0.93}" cy="0" r="${4 * px}"/>`;
+  }
+
+  // One group for each thing, kept while it is dragged.
+  #match(wanted) {
+    const paths = wanted.map(([, path]) => path);
+    for (const group of [...this.things.children]) {
+      if (!paths.includes(group.dataset.path)) group.remove();
+    }
+    for (const [kind, path] of wanted) {
+      if (this.things.querySelector(`[data-path="${path}"]`)) continue;
+      const group = element("g", { class: kind, tabindex: "0", role: "button", "data-path": path }, this.things);
+      group.addEventListener("keydown", (event) => this.#key(event, kind, path));
+      group.addEventListener("keyup", () => this.state.settle());
+      element("title", {}, group);
+      element("path", { class: "body" }, group);
+      this.#hold(group.querySelector(".body"), kind, path, "move");
+      if (kind === "pad") {
+        element("rect", { class: "handle" }, group);
+        this.#hold(group.querySelector(".handle"), kind, path, "resize");
+      }
+    }
+  }
+
+  _pad(group, pad) {
+    const px = this.pixel;
+    const [x, y] = polar(pad.radius_m, pad.angle_deg);
+    // A point spring is drawn as large as a finger finds it.
+    const point = pad.radial_length_m === 0;
+    const [long, wide] = point ? [12 * px, 12 * px] : [pad.radial_length_m, pad.tangential_length_m];
+    group.setAttribute("transform", `translate(${x} ${y}) rotate(${-pad.angle_deg})`);
+    const [h, v] = [long / 2, wide / 2];
+    group.querySelector(".body").setAttribute("d", point ? circle(h) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
+    const handle = group.querySelector(".handle");
+    const size = 11 * px;
+    Object.entries({ x: h - size / 2, y: -v - size / 2, width: size, height: size }).forEach(([k, n]) => handle.setAttribute(k, n));
+    handle.style.display = point ? "none" : "";
+    const number = Number(group.dataset.path.match(/\d+/)[0]) + 1;
+    this.#name(group, `Pad ${number}: radius ${shown(pad.radius_m * 1e3, 4)} mm, angle ${shown(pad.angle_deg, 4)}°, `
+      + `${shown(pad.radial_length_m * 1e3, 4)} by ${shown(pad.tangential_length_m * 1e3, 4)} mm. `
+      + "Arrow keys move it, with Shift they change its size.");
+  }
+
+  _cut(group, cut, scene) {
+    const b = 0.5 * scene.blade.outer_diameter_m;
+    const teeth = scene.blade.teeth ?? 1;
+    const pitch = (Math.PI * 2 * b) / Math.max(teeth, 1);
+    const count = cut.teeth_in_cut ?? Math.max((cut.depth_m ?? pitch) / pitch, 1);
+    const half = Math.min((180 * count) / Math.max(teeth, 1), 90);
+    const angle = cut.angle_deg ?? 0;
+    const [r, w] = [b * 1.035, 6 * this.pixel];
+    const [x, y] = polar(r, angle - half);
+    const [u, v] = polar(r, angle + half);
+    const [p, q] = [polar(r + w, angle + half), polar(r + w, angle - half)];
+    group.querySelector(".body").setAttribute("d", `M${x} ${y}A${r} ${r} 0 0 0 ${u} ${v}L${p}A${r + w} ${r + w} 0 0 1 ${q}Z`);
+    this.#name(group, `Cut at ${shown(angle, 4)}°. Arrow keys move it along the rim.`);
+  }
+
+  _probe(group, probe, scene) {
+    const r = probe.radius_m ?? 0.5 * scene.blade.outer_diameter_m;
+    const [x, y] = polar(r, probe.angle_deg);
+    const px = this.pixel;
+    group.setAttribute("transform", `translate(${x} ${y})`);
+    group.querySelector(".body").setAttribute("d", `${circle(7 * px)}M${-11 * px} 0H${11 * px}M0 ${-11 * px}V${11 * px}`);
+    this.#name(group, `Probe: radius ${shown(r * 1e3, 4)} mm, angle ${shown(probe.angle_deg, 4)}°. Arrow keys move it.`);
+  }
+
+  #name(group, text) {
+    group.setAttribute("aria-label", text);
+    group.querySelector("title").textContent = text;
+  }
+
+  #place(event) {
+    const box = this.svg.getBoundingClientRect();
+    const reach = Blade.reach(this.state.scene);
+    const x = (((event.clientX - box.left) / box.width) * 2 - 1) * reach;
+    const y = -(((event.clientY - box.top) / box.height) * 2 - 1) * reach;
+    return [x, y];
+  }
+
+  #hold(target, kind, path, action) {
+    target.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      target.parentNode.focus();
+      target.setPointerCapture(event.pointerId);
+      const grip = this.#grip(kind, path, this.#place(event));
+      const move = (moved) => {
+        const edit = (scene) => this.#drag(scene, kind, path, action, this.#place(moved), grip);
+        this.state.change(edit, { draft: true, stamp: moved.timeStamp });
+      };
+      const end = () => {
+        target.removeEventListener("pointermove", move);
+        target.removeEventListener("pointerup", end);
+        target.removeEventListener("pointercancel", end);
+        this.state.settle();
+      };
+      target.addEventListener("pointermove", move);
+      target.addEventListener("pointerup", end);
+      target.addEventListener("pointercancel", end);
+    });
+  }
+
+  // From the middle of a thing to where it was taken hold of.
+  #grip(kind, path, [x, y]) {
+    if (kind !== "pad") return [0, 0];
+    const pad = this.state.scene.guides[Number(path.match(/\d+/)[0])];
+    const angle = radians(pad.angle_deg);
+    return [x - pad.radius_m * Math.cos(angle), y - pad.radius_m * Math.sin(angle)];
+  }
+
+  #drag(scene, kind, path, action, [x, y], grip) {
+    const angleOf = (u, v) => degrees((Math.atan2(v, u) * 180) / Math.PI);
+    if (kind === "cut") {
+      scene.cut.angle_deg = angleOf(x, y);
+    } else if (kind === "probe") {
+      scene.probe = { radius_m: within(Math.hypot(x, y), scene), angle_deg: angleOf(x, y) };
+    } else {
+      const pad = scene.guides[Number(path.match(/\d+/)[0])];
+      if (action === "resize") {
+        const angle = radians(pad.angle_deg);
+        const along = x * Math.cos(angle) + y * Math.sin(angle) - pad.radius_m;
+        const across = -x * Math.sin(angle) + y * Math.cos(angle);
+        pad.radial_length_m = metres(Math.max(2 * Math.abs(along), LEAST_SIDE_M));
+        pad.tangential_length_m = metres(Math.max(2 * Math.abs(across), LEAST_SIDE_M));
+      } else {
+        const [u, v] = [x - grip[0], y - grip[1]];
+        pad.radius_m = metres(Math.hypot(u, v));
+        pad.angle_deg = angleOf(u, v);
+      }
+    }
+  }
+
+  #key(event, kind, path) {
+    const [along, out] = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [];
+    if (along === undefined) return;
+    event.preventDefault();
+    const edit = (scene) => {
+      if (kind === "cut") scene.cut.angle_deg = degrees((scene.cut.angle_deg ?? 0) + (along + out) * STEP_DEG);
+      else if (kind === "probe") {
+        const probe = (scene.probe ??= { angle_deg: 90 });
+        probe.angle_deg = degrees(probe.angle_deg + along * STEP_DEG);
+        if (out !== 0) probe.radius_m = within((probe.radius_m ?? 0.5 * scene.blade.outer_diameter_m) + out * STEP_M, scene);
+      } else {
+        const pad = scene.guides[Number(path.match(/\d+/)[0])];
+        const larger = (side, by) => metres(Math.max(side + by * 2 * STEP_M, LEAST_SIDE_M));
+        if (event.shiftKey) {
+          pad.radial_length_m = larger(pad.radial_length_m, out);
+          pad.tangential_length_m = larger(pad.tangential_length_m, -along);
+        } else {
+          pad.angle_deg = degrees(pad.angle_deg + along * STEP_DEG);
+          pad.radius_m = metres(Math.max(pad.radius_m + out * STEP_M, 0));
+        }
+      }
+    };
+    this.state.change(edit, { draft: true, stamp: event.timeStamp });
+  }
+}
+
+function within(radius, scene) {
+  const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
+  return Math.min(Math.max(metres(radius), a), b);
+}
+
+// θ is positive with the rotation and drawn against the clock, from the right.
+function polar(r, angle_deg) {
+  return [r * Math.cos(radians(angle_deg)), -r * Math.sin(radians(angle_deg))];
+}
+
+function circle(r) {
+  return `M${-r} 0A${r} ${r} 0 1 0 ${r} 0A${r} ${r} 0 1 0 ${-r} 0Z`;
+}
+
+// The rim, with teeth for the eye: the model has none.
+function toothed(b, teeth) {
+  if (teeth < 3 || teeth > 400) return circle(b);
+  const pitch = 360 / teeth;
+  const depth = Math.min(0.03 * b, 0.4 * ((2 * Math.PI * b) / teeth));
+  let path = "";
+  for (let k = 0; k < teeth; k++) {
+    const [x, y] = polar(b - depth, k * pitch);
+    const [u, v] = polar(b, k * pitch + 0.62 * pitch);
+    const [p, q] = polar(b - depth, k * pitch + 0.7 * pitch);
+    path += `${k === 0 ? "M" : "L"}${x} ${y}L${u} ${v}L${p} ${q}`;
+  }
+  return `${path}Z`;
+}

@@ -1,0 +1,334 @@
+// The Campbell diagram and the growth rates: axes by uPlot, marks by marks.js.
+
+import {
+  NEGLIGIBLE_PER_S, bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
+} from "./marks.js";
+import { shown } from "./words.js";
+
+const FONT = "12px Inter, Helvetica, Arial, sans-serif";
+const NEAR_PX = 14;
+
+function axis(label, size, value = (v) => v) {
+  const values = (_, splits) => splits.map((v) => shown(value(v), 4));
+  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: value(2) === 2 ? 50 : 24, ticks: { size: 4 }, values };
+}
+
+// uPlot wants a series to spread its axes over; the branches have speeds of their own and are
+// drawn by hand.
+function plot(place, { height, label, value, yRange, draw, room, xLabel }) {
+  let range = null;
+  const options = {
+    width: 600,
+    height,
+    padding: [10, room, 0, 0],
+    legend: { show: false },
+    cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
+    scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
+    axes: [axis(xLabel, 28), axis(label, 46, value)],
+    series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
+    hooks: { drawAxes: [draw] },
+  };
+  const chart = new uPlot(options, [[0, 1], [null, null]], place);
+  return {
+    chart,
+    setRange(wanted) {
+      range = wanted;
+      chart.setData([range, [null, null]], false);
+      chart.batch(() => {
+        chart.setScale("x", { min: range[0], max: range[1] });
+        chart.setScale("y", { min: yRange()[0], max: yRange()[1] });
+      });
+      chart.redraw(false, true);
+    },
+    setColours(colours) {
+      for (const each of chart.axes) {
+        Object.assign(each, { stroke: () => colours.quiet });
+        each.grid.stroke = () => colours.grid;
+        each.ticks.stroke = () => colours.grid;
+      }
+      chart.redraw(false, true);
+    },
+  };
+}
+
+export class Charts {
+  report = null;
+  pinned = null;
+  highlighted = null;
+  #zoom = null;
+
+  constructor(campbellPlace, growthPlace, colours, { onHover }) {
+    this.colours = colours;
+    this.onHover = onHover;
+    const narrow = () => campbellPlace.clientWidth < 480;
+    const room = () => (narrow() ? 20 : 108);
+    this.campbell = plot(campbellPlace, {
+      height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
+      yRange: () => [0, this.report ? highestShown(this.report) : 1],
+      draw: (u) => this.#drawCampbell(u, narrow()),
+    });
+    this.growth = plot(growthPlace, {
+      height: 170, label: "Re λ [1/s]", value: (v) => v * Math.abs(v), room: () => room(), xLabel: "Rotation speed [rpm]",
+      yRange: () => this.#growthRange(),
+      draw: (u) => this.#drawGrowth(u),
+    });
+    this.setColours(colours);
+    this.places = [campbellPlace, growthPlace];
+    this.#follow(campbellPlace);
+    for (const { chart } of [this.campbell, this.growth]) this.#zoomTogether(chart);
+    new ResizeObserver(() => this.resize()).observe(campbellPlace);
+    this.resize();
+  }
+
+  setColours(colours) {
+    this.colours = colours;
+    this.campbell.setColours(colours);
+    this.growth.setColours(colours);
+  }
+
+  resize() {
+    const width = this.places[0].clientWidth;
+    if (width === 0) return;
+    const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
+    this.campbell.chart.setSize({ width, height: width < 480 ? 300 : tall });
+    this.growth.chart.setSize({ width, height: 165 });
+  }
+
+  show(report, pinned) {
+    const before = this.report;
+    this.report = report;
+    this.pinned = pinned;
+    const rpm = this.highlighted?.rpm[this.spot];
+    this.highlighted = before && this.highlighted ? sameBranch(report, this.highlighted) : null;
+    if (this.highlighted) this.spot = indexNear(this.highlighted.rpm, rpm);
+    this.redraw();
+  }
+
+  redraw() {
+    if (!this.report) return;
+    const { from_rpm, to_rpm } = this.report.campbell;
+    for (const part of [this.campbell, this.growth]) part.setRange(this.#zoom ?? [from_rpm, to_rpm]);
+  }
+
+  // Both panels show the same speeds: a stretch dragged out in one, all of them on a double click.
+  #zoomTogether(chart) {
+    const over = chart.over;
+    let from = null;
+    over.addEventListener("mousedown", (event) => (from = event.offsetX));
+    over.addEventListener("mouseup", (event) => {
+      const ends = [from, event.offsetX].map((px) => chart.posToVal(px, "x")).sort((x, y) => x - y);
+      if (from !== null && Math.abs(event.offsetX - from) > 8) {
+        this.#zoom = ends;
+        this.redraw();
+      }
+      from = null;
+      chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
+    });
+    over.addEventListener("dblclick", () => {
+      this.#zoom = null;
+      this.redraw();
+    });
+  }
+
+  // How far the growth axis goes, on a root scale: divergence grows thirty times as fast as
+  // the flutter beside it.
+  #growthRange() {
+    if (!this.report) return [0, 1];
+    const damped = this.report.terms.some((term) => term.includes("damping"));
+    const peaks = this.report.instabilities.map((band) => band.peak_growth_per_s);
+    const all = this.report.campbell.branches.flatMap((b) => b.growth_per_s);
+    const most = [...peaks, ...all].reduce((x, y) => Math.max(x, y), 1);
+    const least = damped ? all.reduce((x, y) => Math.min(x, y), 0) : 0;
+    return [Math.max(rooted(least), -rooted(most)), 1.08 * rooted(most)];
+  }
+
+  #drawCampbell(u, narrow) {
+    if (!this.report) return;
+    const { ctx, bbox: box } = u;
+    const scale = devicePixelRatio;
+    const x = (value) => u.valToPos(value, "x", true);
+    const place = (rpm, hz) => [x(rpm), u.valToPos(hz, "y", true)];
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(box.left, box.top, box.width, box.height);
+    ctx.clip();
+    drawBands(ctx, x, box, this.report, this.colours, scale);
+    this.#drawSpeeds(ctx, x, box, scale);
+    if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, ghost: true });
+    drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.highlighted });
+    if (this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
+    this.#dotCritical(ctx, place, scale);
+    this.#drawSpot(ctx, place, scale);
+    ctx.restore();
+    if (!narrow && !this.#zoom) labelEnds(ctx, place, box, this.report, this.colours, scale);
+  }
+
+  #drawSpeeds(ctx, x, box, scale) {
+    const { critical_speeds, operating } = this.report;
+    for (const { rpm } of critical_speeds) verticalLine(ctx, x(rpm), box, this.colours.quiet, 0.8 * scale);
+    if (this.pinned?.critical_speeds.length) {
+      verticalLine(ctx, x(this.pinned.critical_speeds[0].rpm), box, this.colours.standing, scale, [1, 3]);
+    }
+    if (operating) {
+      const good = operating.within_limit !== false && operating.inside_instability === null;
+      verticalLine(ctx, x(operating.rpm), box, good ? this.colours.ink : this.colours.alarm, 1.6 * scale, []);
+    }
+  }
+
+  #dotCritical(ctx, place, scale) {
+    ctx.fillStyle = this.colours.ink;
+    for (const { rpm } of this.report.critical_speeds) {
+      const [x, y] = place(rpm, 0);
+      ctx.beginPath();
+      ctx.arc(x, y, 3.5 * scale, 0, 2 * Math.PI);
+      ctx.fill();
+    }
+  }
+
+  #drawSpot(ctx, place, scale) {
+    if (!this.highlighted || this.spot === undefined) return;
+    const [x, y] = place(this.highlighted.rpm[this.spot], this.highlighted.frequency_hz[this.spot]);
+    ctx.strokeStyle = this.colours.ink;
+    ctx.lineWidth = 2 * scale;
+    ctx.beginPath();
+    ctx.arc(x, y, 6 * scale, 0, 2 * Math.PI);
+    ctx.stroke();
+  }
+
+  #drawGrowth(u) {
+    if (!this.report) return;
+    const { ctx, bbox: box } = u;
+    const scale = devicePixelRatio;
+    const x = (value) => u.valToPos(value, "x", true);
+    const y = (value) => u.valToPos(rooted(value), "y", true);
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(box.left, box.top, box.width, box.height);
+    ctx.clip();
+    drawBands(ctx, x, box, this.report, this.colours, scale);
+    this.#drawSpeeds(ctx, x, box, scale);
+    for (const branch of this.report.campbell.branches) this.#drawGrowthOf(ctx, x, y, branch, scale);
+    for (const band of this.report.instabilities) {
+      ctx.fillStyle = bandColour(this.colours, band.kind);
+      ctx.beginPath();
+      ctx.arc(x(band.peak_rpm), y(band.peak_growth_per_s), 2.75 * scale, 0, 2 * Math.PI);
+      ctx.fill();
+    }
+    ctx.restore();
+    if (this.report.instabilities.length === 0) {
+      ctx.fillStyle = this.colours.quiet;
+      ctx.font = `${12 * scale}px Inter, sans-serif`;
+      ctx.textAlign = "left";
+      ctx.fillText("Stable at every speed of the sweep", box.left + 10 * scale, box.top + box.height / 2);
+    }
+  }
+
+  #drawGrowthOf(ctx, x, y, branch, scale) {
+    const damped = this.report.terms.some((term) => term.includes("damping"));
+    ctx.lineWidth = 1.6 * scale;
+    for (let i = 0; i + 1 < branch.rpm.length; i++) {
+      const ends = [branch.growth_per_s[i], branch.growth_per_s[i + 1]];
+      const grows = Math.max(...ends) > NEGLIGIBLE_PER_S;
+      if (!grows && !damped) continue;
+      const speeds = [branch.rpm[i], branch.rpm[i + 1]];
+      const inside = ends[0] > ends[1] ? speeds[0] : speeds[1];
+      const band = this.report.instabilities.find((b) => b.from_rpm <= inside && inside <= b.to_rpm);
+      ctx.strokeStyle = !grows ? this.colours.standing : bandColour(this.colours, band?.kind ?? "flutter");
+      ctx.beginPath();
+      // Without damping growth begins and ends with the band, wherever the samples are.
+      const at = damped || !band ? speeds : speeds.map((rpm) => Math.min(Math.max(rpm, band.from_rpm), band.to_rpm));
+      ctx.moveTo(x(at[0]), y(damped ? ends[0] : Math.max(ends[0], 0)));
+      ctx.lineTo(x(at[1]), y(damped ? ends[1] : Math.max(ends[1], 0)));
+      ctx.stroke();
+    }
+  }
+
+  // The point that is looked at, on the chart as it is now.
+  get pointed() {
+    return this.highlighted && { branch: this.highlighted, i: this.spot };
+  }
+
+  // The branch next to the pointer, or the one that the arrow keys have come to.
+  #follow(element) {
+    const over = this.campbell.chart.over;
+    over.addEventListener("pointermove", (event) => {
+      if (event.buttons === 0) this.#point(this.#nearest(event.offsetX, event.offsetY));
+    });
+    over.addEventListener("pointerleave", () => this.#point(null));
+    element.addEventListener("blur", () => this.#point(null));
+    element.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+      if (event.key === "Escape") this.#point(null);
+      if (!step || !this.report) return;
+      event.preventDefault();
+      this.#point(this.#walk(...step));
+    });
+  }
+
+  #nearest(left, top) {
+    let best = null;
+    let least = NEAR_PX;
+    const u = this.campbell.chart;
+    for (const branch of this.report?.campbell.branches ?? []) {
+      branch.rpm.forEach((rpm, i) => {
+        const [x, y] = [u.valToPos(rpm, "x"), u.valToPos(branch.frequency_hz[i], "y")];
+        const j = i + 1;
+        // Between two samples the nearer one speaks for both.
+        const distance = j < branch.rpm.length
+          ? toSegment([left, top], [x, y], [u.valToPos(branch.rpm[j], "x"), u.valToPos(branch.frequency_hz[j], "y")])
+          : Math.hypot(left - x, top - y);
+        if (distance >= least) return;
+        least = distance;
+        const next = j < branch.rpm.length && left - x > u.valToPos(branch.rpm[j], "x") - left;
+        best = { branch, i: next ? j : i };
+      });
+    }
+    return best;
+  }
+
+  #walk(along, up) {
+    const shown = this.report.campbell.branches;
+    const branch = this.highlighted ?? shown[0];
+    const i = this.highlighted ? this.spot : Math.floor(branch.rpm.length / 3);
+    if (along !== 0 || !this.highlighted) {
+      return { branch, i: Math.min(Math.max(i + along, 0), branch.rpm.length - 1) };
+    }
+    const rpm = branch.rpm[i];
+    const here = shown
+      .map((other) => ({ branch: other, i: other.rpm.indexOf(rpm) }))
+      .filter((at) => at.i >= 0)
+      .sort((a, b) => a.branch.frequency_hz[a.i] - b.branch.frequency_hz[b.i]);
+    const place = here.findIndex((at) => at.branch === branch);
+    return here[Math.min(Math.max(place + up, 0), here.length - 1)];
+  }
+
+  #point(found) {
+    const changed = found?.branch !== (this.highlighted ?? undefined) || found?.i !== this.spot;
+    if (!changed) return;
+    this.highlighted = found?.branch ?? null;
+    this.spot = found?.i;
+    this.campbell.chart.redraw(false, false);
+    this.onHover(found);
+  }
+}
+
+function sameBranch(report, branch) {
+  const alike = report.campbell.branches.filter((b) => b.name === branch.name);
+  return alike[0] ?? null;
+}
+
+function indexNear(values, wanted) {
+  const off = values.map((value) => Math.abs(value - wanted));
+  return off.indexOf(Math.min(...off));
+}
+
+function rooted(value) {
+  return Math.sign(value) * Math.sqrt(Math.abs(value));
+}
+
+function toSegment([px, py], [ax, ay], [bx, by]) {
+  const [dx, dy] = [bx - ax, by - ay];
+  const length = dx * dx + dy * dy;
+  const t = length > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length, 0), 1) : 0;
+  return Math.hypot(px - ax - t * dx, py - ay - t * dy);
+}

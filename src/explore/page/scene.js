@@ -1,0 +1,90 @@
+// The scene that is being changed, and what it was before.
+
+const STEPS = 200;
+
+export const clone = (value) => structuredClone(value);
+
+// "guides[0].radius_m" → ["guides", 0, "radius_m"]
+export function steps(path) {
+  return [...path.matchAll(/([^.[\]]+)|\[(\d+)\]/g)].map(([, name, index]) => name ?? Number(index));
+}
+
+export function get(scene, path) {
+  return steps(path).reduce((part, step) => part?.[step], scene);
+}
+
+export function set(scene, path, value) {
+  const way = steps(path);
+  const last = way.pop();
+  const place = way.reduce((part, step) => (part[step] ??= {}), scene);
+  if (value === undefined) {
+    if (Array.isArray(place)) place.splice(last, 1);
+    else delete place[last];
+  } else {
+    place[last] = value;
+  }
+}
+
+// Tells `listener(scene, { draft, structure, stamp })` of every change. A change that is still
+// going on, such as a drag, is a draft; all of them make one step of undo.
+export class SceneState {
+  #past = [];
+  #future = [];
+  #before = null;
+
+  constructor(scene, listener) {
+    this.scene = clone(scene);
+    this.listener = listener;
+  }
+
+  change(edit, { draft = false, structure = false, stamp } = {}) {
+    this.#before ??= clone(this.scene);
+    edit(this.scene);
+    if (!draft) this.#settle();
+    this.listener(this.scene, { draft, structure, stamp });
+  }
+
+  set(path, value, options) {
+    this.change((scene) => set(scene, path, value), options);
+  }
+
+  // The end of a drag.
+  settle() {
+    if (this.#before === null) return;
+    this.#settle();
+    this.listener(this.scene, { draft: false, structure: false });
+  }
+
+  #settle() {
+    if (JSON.stringify(this.#before) !== JSON.stringify(this.scene)) {
+      this.#past.push(this.#before);
+      this.#past.splice(0, this.#past.length - STEPS);
+      this.#future = [];
+    }
+    this.#before = null;
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  undo() {
+    this.#travel(this.#past, this.#future);
+  }
+
+  redo() {
+    this.#travel(this.#future, this.#past);
+  }
+
+  #travel(from, to) {
+    if (from.length === 0) return;
+    to.push(this.scene);
+    this.scene = from.pop();
+    this.#before = null;
+    this.listener(this.scene, { draft: false, structure: true });
+  }
+}

@@ -1,0 +1,69 @@
+// What the chart says, in words and tables.
+
+import { modeName, rpm, shown } from "./words.js";
+
+function node(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
+
+export function verdict(place, report) {
+  const { operating, flutter_speed_rpm, flutter_threshold_per_s, instabilities } = report;
+  const band = operating && operating.inside_instability !== null ? instabilities[operating.inside_instability] : null;
+  const good = operating && operating.within_limit === true && !band;
+  place.className = operating ? (good ? "good" : "bad") : "";
+  const share = operating?.of_lowest_critical;
+  const rule = operating && share !== null
+    ? `${Math.round(operating.rpm)} rpm is ${(100 * share).toFixed(1)} % of the lowest critical speed: `
+      + `${operating.within_limit ? "within" : "beyond"} the ${100 * operating.limit} % rule`
+    : "No operating speed to hold against the 85 % rule";
+  const inside = band ? `, and inside a ${band.kind} band` : "";
+  const flutter = flutter_speed_rpm === null
+    ? `No flutter of ${flutter_threshold_per_s} 1/s or more up to ${Math.round(report.campbell.to_rpm)} rpm`
+    : `Flutter (${flutter_threshold_per_s} 1/s or more) from ${Math.round(flutter_speed_rpm)} rpm`;
+  place.textContent = `${good ? "✓ " : operating ? "✗ " : ""}${rule}${inside}. ${flutter}.`;
+}
+
+// The numbers that a change is judged by, against those of the pinned saw.
+export function facts(place, report, pinned) {
+  const rows = [
+    ["First critical", firstCritical, rpm],
+    ["Flutter speed", (r) => r.flutter_speed_rpm, rpm],
+    ["First merging", (r) => r.first_merge_rpm, rpm],
+    ["Fastest growth", (r) => r.instabilities.reduce((top, band) => Math.max(top, band.peak_growth_per_s), 0), (v) => `${shown(v, 3)} 1/s`],
+    ["Of critical", (r) => r.operating?.of_lowest_critical ?? null, (v) => (v === null ? "–" : `${(100 * v).toFixed(1)} %`)],
+  ];
+  place.replaceChildren(...rows.map(([name, value, words]) => {
+    const [before, now] = [words(value(pinned)), words(value(report))];
+    const changed = before !== now;
+    const text = changed ? `${before.replace(/ (rpm|1\/s|%)$/, "")} → ${now}` : now;
+    return node("div", { className: changed ? "fact changed" : "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
+  }));
+}
+
+function table(caption, heads, rows) {
+  const cell = (tag) => (text) => node(tag, { textContent: text, ...(tag === "th" ? { scope: "col" } : {}) });
+  return node("table", {},
+    node("caption", { textContent: caption }),
+    node("thead", {}, node("tr", {}, ...heads.map(cell("th")))),
+    node("tbody", {}, ...rows.map((row) => node("tr", {}, ...row.map(cell("td"))))));
+}
+
+// The chart for those who do not see it, and for who wants the numbers.
+export function tables(place, report) {
+  const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), modeName(c.nodal_diameters, c.nodal_circles)]);
+  const bands = report.instabilities.map((band) => [
+    band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed ? "" : " …"}`,
+    band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.join(" and "),
+  ]);
+  const rest = report.modes_at_rest.slice(0, 8).map((m) => [m.frequency_hz.toFixed(2), m.name]);
+  const both = [
+    table("Critical speeds", ["rpm", "mode"], speeds),
+    table("Bands of instability", ["kind", "from rpm", "to rpm", "growth 1/s", "Hz", "modes"], bands),
+    table("Modes at rest", ["Hz", "mode"], rest),
+  ];
+  place.replaceChildren(...both);
+}

@@ -1,0 +1,64 @@
+// Names, units and numbers as people read them.
+
+// Ending of a key, unit shown, what a number of the scene is multiplied by to be shown in it.
+const UNITS = [
+  ["_n_s_3_2_per_m_3_2", "N (s/m)^1.5", 1],
+  ["_n_per_m_3_2", "N/m^1.5", 1],
+  ["_n_s_per_m3", "N s/m³", 1],
+  ["_n_s_per_m", "N s/m", 1],
+  ["_n_per_tooth", "N per tooth", 1],
+  ["_kg_per_m3", "kg/m³", 1],
+  ["_n_per_m", "MN/m", 1e-6],
+  ["_w_per_m_k", "W/(m K)", 1],
+  ["_per_k", "1/K", 1],
+  ["_m_per_s", "m/s", 1],
+  ["_per_s", "1/s", 1],
+  ["_rpm", "rpm", 1],
+  ["_deg_c", "°C", 1],
+  ["_deg", "°", 1],
+  ["_hz", "Hz", 1],
+  ["_mpa", "MPa", 1],
+  ["_pa", "GPa", 1e-9],
+  ["_kg", "kg", 1],
+  ["_k", "K", 1],
+  ["_w", "W", 1],
+  ["_n", "N", 1],
+  ["_s", "s", 1],
+  ["_m", "mm", 1e3],
+];
+
+export function unitOf(key) {
+  if (key === "rpm") return { unit: "rpm", scale: 1, name: "speed" };
+  const found = UNITS.find(([ending]) => key.endsWith(ending));
+  if (!found) return { unit: "", scale: 1, name: key.replaceAll("_", " ") };
+  const [ending, unit, scale] = found;
+  return { unit, scale, name: key.slice(0, -ending.length).replaceAll("_", " ") };
+}
+
+// Twelve digits: what is typed comes back as typed, whatever the unit.
+export const tidy = (value) => Number(value.toPrecision(12));
+
+export function shown(value, digits = 6) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size !== 0 && (size >= 1e7 || size < 1e-4)) {
+    return value.toExponential(Math.min(3, digits)).replace(/\.?0+e/, "e").replace("e+", "e");
+  }
+  return String(Number(value.toPrecision(digits)));
+}
+
+export const rpm = (value) =>
+  value === null || value === undefined ? "none" : `${value < 100 ? value.toFixed(1) : Math.round(value)} rpm`;
+
+export function modeName(diameters, circles) {
+  const count = (n, noun) => `${n} ${noun}${n === 1 ? "" : "s"}`;
+  return count(diameters, "diameter") + (circles > 0 ? `, ${count(circles, "circle")}` : "");
+}
+
+export function shortName(branch) {
+  const number = branch.nodal_circles > 0 ? `${branch.nodal_diameters}/${branch.nodal_circles}` : branch.nodal_diameters;
+  return `${number} ${branch.direction}`;
+}
+
+// What a Krein sign says.
+export const krein = (sign) => (sign > 0 ? "+1" : sign < 0 ? "−1 (reflected)" : "0 (none)");

@@ -1,0 +1,238 @@
+//! The server: what may be asked, and when it ends.
+
+use std::convert::Infallible;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::{DefaultBodyLimit, Path, State};
+use axum::http::{StatusCode, header};
+use axum::middleware::from_fn_with_state;
+use axum::response::sse::{Event, KeepAlive, Sse};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use futures_core::Stream;
+use tokio::net::TcpListener;
+use tokio::sync::Notify;
+
+use super::guard::{Door, guard};
+use super::job::Jobs;
+use super::reply::{Charts, Fidelity, Refusal, SavedFile, Start};
+use super::{mode, page};
+use crate::scene::{MAX_SCENE_BYTES, Scene};
+
+/// How to serve.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Options {
+    /// Port on 127.0.0.1; 0 takes a free one.
+    pub port: u16,
+}
+
+/// Why the page could not be served.
+#[derive(Debug, thiserror::Error)]
+pub enum ExploreError {
+    /// The port is taken, or not ours to take.
+    #[error("cannot listen on 127.0.0.1:{port}; leave --port out to take a free one")]
+    Listen {
+        /// The port asked for.
+        port: u16,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The system failed the server while it ran.
+    #[error("the server failed")]
+    Serve(#[from] std::io::Error),
+}
+
+/// A page that is reloaded is away for no longer than this.
+const GRACE: Duration = Duration::from_secs(3);
+/// A closed page is noticed within this time.
+const HEARTBEAT: Duration = Duration::from_secs(1);
+
+/// What the routes share.
+#[derive(Clone)]
+pub struct Desk {
+    start: Arc<Start>,
+    jobs: Jobs,
+    charts: Arc<Charts>,
+    pages: Arc<Pages>,
+}
+
+/// Serves the page of a scene until Ctrl-C, or until the last page that was opened has been
+/// closed. `ready` is told the address.
+///
+/// # Errors
+/// [`ExploreError`] when the port cannot be had or the system fails.
+pub fn serve(
+    scene: &Scene,
+    options: Options,
+    ready: impl FnOnce(&str),
+) -> Result<(), ExploreError> {
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()?;
+    let served = runtime.block_on(async {
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
+        let refused = |source| ExploreError::Listen {
+            port: options.port,
+            source,
+        };
+        let listener = TcpListener::bind(address).await.map_err(refused)?;
+        let port = listener.local_addr()?.port();
+        let desk = Desk {
+            start: Arc::new(Start::new(scene)),
+            jobs: Jobs::default(),
+            charts: Arc::default(),
+            pages: Arc::default(),
+        };
+        let pages = desk.pages.clone();
+        let app = router(desk, Door::new(port));
+        ready(&format!("http://127.0.0.1:{port}/"));
+        tokio::select! {
+            served = async { axum::serve(listener, app).await } => served.map_err(ExploreError::from),
+            _ = tokio::signal::ctrl_c() => Ok(()),
+            () = pages.last_closed() => Ok(()),
+        }
+    });
+    // Whatever is still being computed is not waited for: it ends with the process.
+    runtime.shutdown_background();
+    served
+}
+
+fn router(desk: Desk, door: Door) -> Router {
+    Router::new()
+        .route("/", get(|| async { page::file("index.html") }))
+        .route(
+            "/page/{name}",
+            get(|Path(name): Path<String>| async move { page::file(&name) }),
+        )
+        .route("/start", get(start))
+        .route("/alive", get(alive))
+        .route("/jobs", get(jobs))
+        .route("/chart/{fidelity}", post(chart))
+        .route("/mode", post(mode_shape))
+        .route("/save/{name}", post(save))
+        .layer(DefaultBodyLimit::max(MAX_SCENE_BYTES as usize))
+        .layer(from_fn_with_state(door, guard))
+        .with_state(desk)
+}
+
+/// What the page begins with: the scene, its schema, the colours.
+async fn start(State(desk): State<Desk>) -> Response {
+    json(StatusCode::OK, &*desk.start)
+}
+
+/// Computations that were done and that were stopped, to see that nothing stale is computed.
+async fn jobs(State(desk): State<Desk>) -> Response {
+    let [finished, stopped] = desk.jobs.counts();
+    json(
+        StatusCode::OK,
+        &serde_json::json!({ "finished": finished, "stopped": stopped }),
+    )
+}
+
+/// The chart of the scene that is sent.
+async fn chart(
+    State(desk): State<Desk>,
+    Path(fidelity): Path<Fidelity>,
+    scene: String,
+) -> Response {
+    let charts = desk.charts.clone();
+    let work = move |stop: &_| charts.chart(&scene, fidelity, stop);
+    match desk.jobs.run(work).await {
+        Some(Ok(text)) => json_text(StatusCode::OK, text),
+        Some(Err(refusal)) => refused(&refusal),
+        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+    }
+}
+
+/// A mode of a chart that was sent before.
+async fn mode_shape(State(desk): State<Desk>, asked: String) -> Response {
+    match mode::answer(&desk.charts, &asked) {
+        Ok(found) => json(StatusCode::OK, &found),
+        Err(refusal) => refused(&refusal),
+    }
+}
+
+/// A file as `sawflutter analyze` writes it for the scene that is sent.
+async fn save(State(desk): State<Desk>, Path(name): Path<String>, scene: String) -> Response {
+    let Some(kind) = SavedFile::named(&name) else {
+        return StatusCode::NOT_FOUND.into_response();
+    };
+    match desk.jobs.run(move |stop| kind.content(&scene, stop)).await {
+        Some(Ok(content)) => ([(header::CONTENT_TYPE, kind.media_type())], content).into_response(),
+        Some(Err(refusal)) => refused(&refusal),
+        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+    }
+}
+
+fn refused(refusal: &Refusal) -> Response {
+    json(StatusCode::UNPROCESSABLE_ENTITY, refusal)
+}
+
+fn json(status: StatusCode, value: &impl serde::Serialize) -> Response {
+    match serde_json::to_string(value) {
+        Ok(text) => json_text(status, text),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+fn json_text(status: StatusCode, text: String) -> Response {
+    (status, [(header::CONTENT_TYPE, "application/json")], text).into_response()
+}
+
+/// Pages that are open.
+#[derive(Default)]
+struct Pages {
+    open: AtomicUsize,
+    closed: Notify,
+}
+
+impl Pages {
+    /// Ends when the last page has been closed and none has come back since.
+    async fn last_closed(&self) {
+        loop {
+            self.closed.notified().await;
+            tokio::time::sleep(GRACE).await;
+            if self.open.load(Ordering::Relaxed) == 0 {
+                return;
+            }
+        }
+    }
+}
+
+/// A stream without events that a page holds open for as long as it is.
+struct Held(Arc<Pages>);
+
+impl Held {
+    fn new(pages: &Arc<Pages>) -> Self {
+        pages.open.fetch_add(1, Ordering::Relaxed);
+        Held(pages.clone())
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        self.0.open.fetch_sub(1, Ordering::Relaxed);
+        self.0.closed.notify_one();
+    }
+}
+
+impl Stream for Held {
+    type Item = Result<Event, Infallible>;
+
+    fn poll_next(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<Option<Self::Item>> {
+        Poll::Pending
+    }
+}
+
+async fn alive(State(desk): State<Desk>) -> Response {
+    let beats = KeepAlive::new().interval(HEARTBEAT);
+    Sse::new(Held::new(&desk.pages))
+        .keep_alive(beats)
+        .into_response()
+}

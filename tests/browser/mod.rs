@@ -1,0 +1,223 @@
+//! A page of `sawflutter explore` in Chromium, and the hand that uses it.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use thirtyfour::action_chain::ActionChain;
+use thirtyfour::prelude::*;
+
+/// Longer than anything takes, also where others use the machine.
+pub const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A program that is ended with its owner.
+pub struct Running(pub Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Starts a program and waits for a line in which `find` finds what is wanted.
+fn start(command: &mut Command, find: impl Fn(&str) -> Option<String>) -> (Running, String) {
+    let mut child = command
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap_or_else(|error| {
+            panic!("{command:?}: {error}; apt-get install chromium chromium-driver")
+        });
+    let output = child.stdout.take().unwrap();
+    let running = Running(child);
+    let mut lines = BufReader::new(output).lines().map_while(Result::ok);
+    let found = lines
+        .find_map(|line| find(&line))
+        .expect("the program said nothing");
+    // Nobody may be stopped by a full pipe.
+    std::thread::spawn(move || lines.for_each(drop));
+    (running, found)
+}
+
+/// The page, the program that serves it, and the browser.
+pub struct Page {
+    pub driver: WebDriver,
+    folder: tempfile::TempDir,
+    pub program: Running,
+    _chromedriver: Running,
+}
+
+impl Page {
+    pub async fn open(arguments: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let explore = &mut Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let (program, address) = start(explore.arg("explore").args(arguments), |line| {
+            line.starts_with("http://127.0.0.1:")
+                .then(|| line.to_owned())
+        });
+        let (chromedriver, port) = start(Command::new("chromedriver").arg("--port=0"), |line| {
+            let (_, port) = line.split_once("started successfully on port ")?;
+            Some(port.trim_end_matches('.').to_owned())
+        });
+        let mut wishes = DesiredCapabilities::chrome();
+        let profile = format!(
+            "--user-data-dir={}",
+            folder.path().join("profile").display()
+        );
+        for flag in [
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-quic",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--window-size=1280,900",
+            "--hide-scrollbars",
+            &profile,
+        ] {
+            wishes.add_arg(flag).unwrap();
+        }
+        let downloads = json!({ "download.default_directory": folder.path(), "download.prompt_for_download": false });
+        wishes.add_experimental_option("prefs", downloads).unwrap();
+        let driver = WebDriver::new(format!("http://127.0.0.1:{port}"), wishes)
+            .await
+            .unwrap();
+        driver.goto(&address).await.unwrap();
+        let page = Page {
+            driver,
+            folder,
+            program,
+            _chromedriver: chromedriver,
+        };
+        page.wait("window.sawflutter?.computed.length > 0").await;
+        page
+    }
+
+    pub async fn script(&self, script: &str) -> Value {
+        let found = self.driver.execute(script, Vec::new()).await;
+        found
+            .unwrap_or_else(|error| panic!("{script}: {error}"))
+            .json()
+            .clone()
+    }
+
+    pub async fn value(&self, expression: &str) -> Value {
+        self.script(&format!("return {expression}")).await
+    }
+
+    pub async fn text(&self, selector: &str) -> String {
+        let found = self
+            .value(&format!("document.querySelector({selector:?}).textContent"))
+            .await;
+        found.as_str().unwrap().to_owned()
+    }
+
+    pub async fn wait(&self, condition: &str) {
+        let begun = Instant::now();
+        while self.value(condition).await != Value::Bool(true) {
+            assert!(begun.elapsed() < PATIENCE, "{condition} did not come true");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    }
+
+    /// Waits until the chart is that of the scene at its own accuracy.
+    pub async fn settle(&self) {
+        self.wait("sawflutter.settled()").await;
+    }
+
+    pub async fn find(&self, selector: &str) -> WebElement {
+        self.driver.find(By::Css(selector)).await.unwrap()
+    }
+
+    /// Types a number over the one that is there.
+    pub async fn enter(&self, path: &str, text: &str) {
+        let field = self.find(&format!("[id={path:?}]")).await;
+        field.send_keys(Key::Control + "a").await.unwrap();
+        field.send_keys(text).await.unwrap();
+        field.send_keys(Key::Tab + "").await.unwrap();
+    }
+
+    pub async fn screenshot(&self, name: &str) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../explore-screenshots");
+        std::fs::create_dir_all(&folder).unwrap();
+        self.driver.screenshot(&folder.join(name)).await.unwrap();
+    }
+
+    /// Clicks a button that saves a file, and reads what the browser has put on the disk.
+    pub async fn download(&self, name: &str) -> Vec<u8> {
+        let path = self.folder.path().join(name);
+        self.find(&format!("[data-save={name:?}]"))
+            .await
+            .click()
+            .await
+            .unwrap();
+        let begun = Instant::now();
+        while !path.exists() {
+            assert!(begun.elapsed() < PATIENCE, "{name} was not saved");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        std::fs::read(path).unwrap()
+    }
+
+    /// What the command line makes of the scene as saved.
+    pub async fn command_line(&self) -> PathBuf {
+        let scene = self.download("scene.json").await;
+        let path = self.folder.path().join("saved-scene.json");
+        std::fs::write(&path, scene).unwrap();
+        let out = self.folder.path().join("out");
+        let done = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+            .args([
+                "analyze",
+                path.to_str().unwrap(),
+                "--out",
+                out.to_str().unwrap(),
+            ])
+            .output()
+            .unwrap();
+        assert!(
+            done.status.success(),
+            "{}",
+            String::from_utf8_lossy(&done.stderr)
+        );
+        out
+    }
+
+    pub async fn close(self) {
+        self.driver.quit().await.unwrap();
+    }
+}
+
+pub fn run(test: impl Future<Output = ()>) {
+    let mut builder = tokio::runtime::Builder::new_current_thread();
+    builder.enable_all().build().unwrap().block_on(test);
+}
+
+/// A hand that moves sixty times a second, as fast as a screen shows it.
+pub fn hand(page: &Page) -> ActionChain {
+    let frame = Duration::from_millis(16);
+    page.driver.action_chain_with_delay(None, Some(frame))
+}
+
+/// Presses on an element, moves in small steps, and lets go.
+pub async fn drag(page: &Page, selector: &str, steps: usize, step: (i64, i64)) {
+    let grip = page.find(selector).await;
+    let grasp = hand(page);
+    grasp
+        .move_to_element_center(&grip)
+        .click_and_hold()
+        .perform()
+        .await
+        .unwrap();
+    for _ in 0..steps {
+        let moved = hand(page).move_by_offset(step.0, step.1);
+        moved.perform().await.unwrap();
+    }
+}
+
+pub async fn let_go(page: &Page) {
+    hand(page).release().perform().await.unwrap();
+}

@@ -1,0 +1,244 @@
+//! Goal: the server of `sawflutter explore` answers its own page with what the library finds,
+//! refuses everybody else, and cannot be made to do more than it should.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use sawflutter::report::Report;
+use sawflutter::scene::{Accuracy, MAX_SCENE_BYTES, Scene};
+use sawflutter::stability::Analysis;
+use serde_json::Value;
+
+struct Server {
+    child: Child,
+    host: String,
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+struct Answer {
+    status: u16,
+    head: String,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn json(&self) -> Value {
+        serde_json::from_slice(&self.body).unwrap()
+    }
+}
+
+impl Server {
+    fn start() -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let mut child = command
+            .arg("explore")
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap())
+            .read_line(&mut line)
+            .unwrap();
+        let host = line
+            .trim()
+            .strip_prefix("http://")
+            .and_then(|l| l.strip_suffix('/'));
+        let host = host
+            .unwrap_or_else(|| panic!("no address: {line}"))
+            .to_owned();
+        Server { child, host }
+    }
+
+    fn send(&self, line: &str, headers: &[(&str, &str)], body: &str) -> TcpStream {
+        let mut stream = TcpStream::connect(&self.host).unwrap();
+        let mut head = format!("{line} HTTP/1.1\r\nConnection: close\r\n");
+        if headers.iter().all(|(name, _)| *name != "Host") {
+            head += &format!("Host: {}\r\n", self.host);
+        }
+        for (name, value) in headers {
+            head += &format!("{name}: {value}\r\n");
+        }
+        head += &format!("Content-Length: {}\r\n\r\n", body.len());
+        stream.write_all(head.as_bytes()).unwrap();
+        // A server that refuses a body does not read it.
+        let _ = stream.write_all(body.as_bytes());
+        stream
+    }
+
+    fn ask(&self, line: &str, headers: &[(&str, &str)], body: &str) -> Answer {
+        let mut answer = Vec::new();
+        let _ = self.send(line, headers, body).read_to_end(&mut answer);
+        let end = answer
+            .windows(4)
+            .position(|w| w == b"\r\n\r\n")
+            .unwrap_or_else(|| {
+                panic!("{line}: {}", String::from_utf8_lossy(&answer));
+            });
+        let head = String::from_utf8(answer[..end].to_vec()).unwrap();
+        Answer {
+            status: head.split(' ').nth(1).unwrap().parse().unwrap(),
+            head: head.to_lowercase(),
+            body: answer[end + 4..].to_vec(),
+        }
+    }
+}
+
+fn paper() -> String {
+    serde_json::to_string(&Scene::paper().file).unwrap()
+}
+
+#[test]
+fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
+    let server = Server::start();
+    let answer = server.ask("POST /chart/draft", &[], &paper());
+    assert_eq!(answer.status, 200);
+    let mut found = answer.json();
+    let scene = Scene {
+        accuracy: Accuracy::Draft,
+        ..Scene::paper()
+    };
+    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    let report: Report = serde_json::from_value(found["report"].take()).unwrap();
+    // Drawn at fewer speeds, but found by the same search on the same basis.
+    let whole = Report::new(&scene, &analysis).unwrap();
+    assert_eq!(report.critical_speeds, whole.critical_speeds);
+    assert_eq!(report.instabilities, whole.instabilities);
+    assert_eq!(report.operating, whole.operating);
+    assert_eq!(report.accuracy, whole.accuracy);
+    assert_eq!(report.certificate.krein_violations, 0);
+
+    let branch = &report.campbell.branches[2];
+    let (rpm, hz) = (branch.rpm[10], branch.frequency_hz[10]);
+    let asked = format!(
+        r#"{{ "chart": {}, "rpm": {rpm}, "frequency_hz": {hz} }}"#,
+        found["chart"]
+    );
+    let mode = server.ask("POST /mode", &[], &asked).json();
+    assert_eq!(mode["frequency_hz"], hz);
+    assert_eq!(mode["body_frequency_hz"], branch.body_frequency_hz[10]);
+    assert_eq!(mode["krein_sign"], branch.krein_sign[10]);
+    let strongest = &mode["harmonics"][0];
+    assert_eq!(
+        strongest["nodal_diameters"],
+        branch.dominant_harmonics[10][0]
+    );
+    assert_eq!(strongest["cosine"]["re"].as_array().unwrap().len(), 41);
+
+    let gone = server.ask(
+        "POST /mode",
+        &[],
+        r#"{ "chart": 99, "rpm": 0, "frequency_hz": 1 }"#,
+    );
+    assert_eq!(gone.status, 422);
+}
+
+#[test]
+fn strangers_are_turned_away() {
+    let server = Server::start();
+    assert_eq!(server.ask("GET /", &[], "").status, 200);
+    let own = format!("http://{}", server.host);
+    assert_eq!(
+        server.ask("GET /start", &[("Origin", &own)], "").status,
+        200
+    );
+    for stranger in [
+        ("Host", "sawflutter.example"),
+        ("Host", "127.0.0.1"),
+        ("Origin", "http://sawflutter.example"),
+        ("Origin", "null"),
+    ] {
+        for line in [
+            "GET /",
+            "GET /start",
+            "POST /chart/draft",
+            "POST /save/scene.json",
+        ] {
+            let answer = server.ask(line, &[stranger], &paper());
+            assert_eq!(answer.status, 403, "{line} of {stranger:?}");
+        }
+    }
+    let head = server.ask("GET /", &[], "").head;
+    assert!(
+        head.contains("content-security-policy: default-src 'none'"),
+        "{head}"
+    );
+    assert!(!head.contains("access-control-allow-origin"), "{head}");
+}
+
+#[test]
+fn bad_and_boundless_requests_are_refused() {
+    let server = Server::start();
+    let huge = " ".repeat(MAX_SCENE_BYTES as usize + 1);
+    assert_eq!(server.ask("POST /chart/draft", &[], &huge).status, 413);
+    let negative = paper().replace("0.0028", "-0.0028");
+    let refusal = server.ask("POST /chart/scene", &[], &negative);
+    assert_eq!(refusal.status, 422);
+    assert_eq!(refusal.json()["key"], "blade.thickness_m");
+    let words = Scene::from_json(&negative).unwrap_err().to_string();
+    assert_eq!(refusal.json()["message"], words);
+    // No blade holds together at 3e6 rpm, and no basis has the waves of such a sweep.
+    let endless = paper().replace("\"to_rpm\":3000.0", "\"to_rpm\":3000000.0");
+    assert_ne!(endless, paper());
+    let refusal = server.ask("POST /chart/draft", &[], &endless);
+    assert_eq!(refusal.status, 422);
+    assert_eq!(refusal.json()["key"], "sweep.to_rpm");
+    for (line, status) in [
+        ("GET /../Cargo.toml", 404),
+        ("GET /page/../../Cargo.toml", 404),
+        ("POST /save/passwd", 404),
+        ("POST /chart/exact", 400),
+        ("GET /chart/draft", 405),
+    ] {
+        assert_eq!(server.ask(line, &[], &paper()).status, status, "{line}");
+    }
+}
+
+/// A browser that closes its request takes it back: the computation behind it starts before
+/// the first would have been done, and is the only one that is counted as done.
+#[test]
+fn a_request_that_is_taken_back_is_stopped() {
+    let server = Server::start();
+    let reference = paper().replacen('{', r#"{"tolerance":1e-5,"#, 1);
+    let taken_back = server.send("POST /chart/scene", &[], &reference);
+    std::thread::sleep(Duration::from_millis(100));
+    drop(taken_back);
+    let begun = Instant::now();
+    assert_eq!(server.ask("POST /chart/draft", &[], &paper()).status, 200);
+    println!("draft behind a stopped chart: {:?}", begun.elapsed());
+    let jobs = server.ask("GET /jobs", &[], "").json();
+    assert_eq!(
+        (&jobs["finished"], &jobs["stopped"]),
+        (&1.into(), &1.into()),
+        "{jobs}"
+    );
+}
+
+/// Ctrl-C ends the program at once, whatever it computes.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_everything() {
+    let mut server = Server::start();
+    let reference = paper().replacen('{', r#"{"tolerance":1e-5,"#, 1);
+    let _waiting = server.send("POST /chart/scene", &[], &reference);
+    std::thread::sleep(Duration::from_millis(100));
+    let id = server.child.id().to_string();
+    let sent = Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = server.child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(30), "it goes on");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(status.success(), "{status}");
+}

@@ -1,0 +1,325 @@
+//! Goal: what `sawflutter explore` shows and saves in a real browser is what the command line
+//! finds for the same scene, and it answers while a hand moves.
+//!
+//! Needs Debian's `chromium` and `chromium-driver`; `.ci/run` installs them and runs these tests
+//! with `--ignored`. Screenshots go to `target/explore-screenshots/`; the
+//! README's picture is `1280-after.png`.
+
+mod browser;
+
+use std::time::{Duration, Instant};
+
+use browser::{PATIENCE, Page, drag, hand, let_go, run};
+use serde_json::{Value, json};
+use thirtyfour::Key;
+
+fn percentile(times: &Value, share: f64) -> f64 {
+    let mut times: Vec<f64> = times
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[((times.len() - 1) as f64 * share).round() as usize]
+}
+
+/// Equal to the last bit; JavaScript writes 1.0 as 1.
+fn same(left: &Value, right: &Value) -> bool {
+    match (left, right) {
+        (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same(x, y))
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            x.len() == y.len()
+                && x.iter()
+                    .all(|(key, x)| y.get(key).is_some_and(|y| same(x, y)))
+        }
+        _ => left == right,
+    }
+}
+
+const PAD: &str = "[data-path='guides[0]'] .body";
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_dragged_pad_moves_the_chart_to_what_the_command_line_finds() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        let (before, verdict) = (page.text("#facts").await, page.text("#verdict").await);
+        assert!(before.contains("1531 rpm"), "{before}");
+        assert!(verdict.contains("beyond the 85 % rule"), "{verdict}");
+        page.screenshot("1280-light.png").await;
+
+        drag(&page, PAD, 40, (2, -1)).await;
+        page.wait("sawflutter.latencies.draft.length > 0").await;
+        let dragging = page.text("#facts").await;
+        assert_ne!(before, dragging, "the chart did not follow the pad");
+        page.screenshot("1280-dragging.png").await;
+        let_go(&page).await;
+        page.settle().await;
+        let after = page.text("#facts").await;
+        assert!(after.contains("1531 → "), "{after}");
+
+        let out = page.command_line().await;
+        let report: Value =
+            serde_json::from_slice(&std::fs::read(out.join("report.json")).unwrap()).unwrap();
+        let shown = page.value("sawflutter.report()").await;
+        assert!(
+            same(&shown, &report),
+            "the page shows another chart than the command line"
+        );
+        let critical = report["critical_speeds"][0]["rpm"].as_f64().unwrap();
+        assert!(
+            after.contains(&format!("→ {critical:.0} rpm")),
+            "{critical}: {after}"
+        );
+        for name in ["report.json", "campbell.png", "campbell.svg"] {
+            let saved = page.download(name).await;
+            assert!(
+                saved == std::fs::read(out.join(name)).unwrap(),
+                "{name} differs"
+            );
+        }
+        page.screenshot("1280-after.png").await;
+
+        page.find("#undo").await.click().await.unwrap();
+        page.settle().await;
+        assert_eq!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_bad_value_is_refused_at_its_field_and_the_chart_stays() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let before = page.text("#facts").await;
+        page.enter("blade.thickness_m", "-2.8").await;
+        page.wait("document.querySelector('#fault').textContent !== ''")
+            .await;
+
+        let told = page.text("[id='blade.thickness_m:fault']").await;
+        let mut scene = sawflutter::scene::Scene::paper().file;
+        scene.blade.thickness_m = -2.8e-3;
+        let words = sawflutter::scene::Scene::try_from(scene)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(told, words, "not the library's own words at the field");
+        assert_eq!(
+            page.text("#facts").await,
+            before,
+            "the last good chart has gone"
+        );
+        page.screenshot("1280-refused.png").await;
+
+        page.enter("blade.thickness_m", "3.0").await;
+        page.settle().await;
+        assert_eq!(page.text("[id='blade.thickness_m:fault']").await, "");
+        assert_ne!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_branch_that_is_pointed_at_moves_on_the_blade() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        // By keyboard alone: along a branch, and to the next ones.
+        let mut told = Vec::new();
+        for key in [Key::Right, Key::Up, Key::Up, Key::Up] {
+            chart.send_keys(key + "").await.unwrap();
+            let last = told.last().cloned().unwrap_or_default();
+            page.wait(&format!(
+                "document.querySelector('#mode').textContent !== {last:?}"
+            ))
+            .await;
+            page.wait("document.querySelector('#mode').textContent.includes('Krein')")
+                .await;
+            told.push(page.text("#mode").await);
+        }
+        for told in &told {
+            let [wave, numbers] = [told.split(" at ").next().unwrap(), told.as_str()];
+            assert!(numbers.contains("Hz in space") && numbers.contains("Hz on the blade"));
+            // A reflected wave is what has a negative Krein sign.
+            assert_eq!(
+                wave.contains("reflected"),
+                numbers.contains("Krein sign −1"),
+                "{told}"
+            );
+        }
+        assert_eq!(
+            page.value("document.querySelector('#motion').hidden").await,
+            json!(false)
+        );
+        let pixels = "[...document.querySelector('#motion').getContext('2d').getImageData(0, 0, 180, 180).data].join()";
+        let before = page.value(pixels).await;
+        page.wait(&format!("{pixels} !== {before}")).await;
+        page.screenshot("1280-mode.png").await;
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_is_moved_and_put_back_by_keyboard_alone() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let radius = "sawflutter.state.scene.guides[0].radius_m";
+        page.script("document.querySelector(\"[data-path='guides[0]']\").focus()")
+            .await;
+        for key in [Key::Up, Key::Up, Key::Up] {
+            hand(&page).send_keys(key + "").perform().await.unwrap();
+        }
+        page.settle().await;
+        assert_eq!(page.value(radius).await, json!(0.203));
+        assert!(page.text("#facts").await.contains(" → "));
+        let moved = page.text("[data-path='guides[0]'] title").await;
+        assert!(moved.contains("radius 203 mm"), "{moved}");
+        for back in [0.202, 0.201, 0.2] {
+            hand(&page)
+                .key_down(Key::Control)
+                .send_keys("z")
+                .key_up(Key::Control)
+                .perform()
+                .await
+                .unwrap();
+            page.settle().await;
+            assert_eq!(page.value(radius).await, json!(back));
+        }
+        page.close().await;
+    });
+}
+
+/// Prints the times from a move of the pointer to the painted chart that has it in.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        // To and fro until enough charts have come, however busy the machine is.
+        for (charts, step) in [(5, 1), (10, -1), (15, 1)] {
+            drag(&page, PAD, 1, (step, 0)).await;
+            let begun = Instant::now();
+            for moves in 0.. {
+                let painted =
+                    page.value("sawflutter.computed.filter(([kind]) => kind === 'draft').length");
+                if painted.await.as_u64() >= Some(charts) {
+                    break;
+                }
+                assert!(begun.elapsed() < PATIENCE, "no charts while the hand moves");
+                let back = if moves / 40 % 2 == 0 { step } else { -step };
+                let moved = hand(&page).move_by_offset(back, 1 - 2 * (moves % 2));
+                moved.perform().await.unwrap();
+            }
+            let_go(&page).await;
+            page.settle().await;
+        }
+        let times = page.value("sawflutter.latencies.draft").await;
+        let computed = page
+            .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
+            .await;
+        let last = page.value("sawflutter.latencies.scene").await;
+        println!(
+            "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
+             ({} moves, {} charts of {:.0} ms median); moves still waiting at the release, to the \
+             final chart: {}; load {}",
+            percentile(&times, 0.5),
+            percentile(&times, 0.95),
+            times.as_array().unwrap().len(),
+            computed.as_array().unwrap().len(),
+            percentile(&computed, 0.5),
+            last.as_array().unwrap().len(),
+            std::fs::read_to_string("/proc/loadavg")
+                .unwrap_or_default()
+                .trim(),
+        );
+
+        // A design chart that a further change has made stale is stopped, not computed.
+        let jobs = "fetch('jobs').then((answer) => answer.json())";
+        let before = page.value(jobs).await;
+        for _ in 0..4 {
+            page.script("sawflutter.state.set('blade.thickness_m', sawflutter.state.scene.blade.thickness_m + 1e-6)").await;
+        }
+        page.settle().await;
+        let after = page.value(jobs).await;
+        let more = |key: &str| after[key].as_u64().unwrap() - before[key].as_u64().unwrap();
+        assert_eq!(more("finished"), 1, "{before} {after}");
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let tools = page.driver.cdp();
+        let mut wide = Vec::new();
+        for (width, height) in [(1280, 900), (390, 844)] {
+            let size = json!({ "width": width, "height": height, "deviceScaleFactor": 2, "mobile": width < 500 });
+            tools
+                .send_raw("Emulation.setDeviceMetricsOverride", size)
+                .await
+                .unwrap();
+            for scheme in ["light", "dark"] {
+                let media =
+                    json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
+                tools
+                    .send_raw("Emulation.setEmulatedMedia", media)
+                    .await
+                    .unwrap();
+                tokio::time::sleep(Duration::from_millis(300)).await;
+                page.screenshot(&format!("{width}-{scheme}.png")).await;
+                let paper = page
+                    .value("getComputedStyle(document.body).backgroundColor")
+                    .await;
+                assert_eq!(paper == json!("rgb(255, 255, 255)"), scheme == "light");
+            }
+            wide.push(
+                page.value("document.documentElement.scrollWidth <= innerWidth")
+                    .await,
+            );
+        }
+        assert_eq!(
+            wide,
+            [json!(true), json!(true)],
+            "the page is wider than the screen"
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_program_ends_with_its_page() {
+    run(async {
+        let mut page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.driver.goto("about:blank").await.unwrap();
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = page.program.0.try_wait().unwrap() {
+                break status;
+            }
+            assert!(
+                begun.elapsed() < PATIENCE,
+                "the program goes on without its page"
+            );
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        };
+        assert!(status.success(), "{status}");
+        page.close().await;
+    });
+}
