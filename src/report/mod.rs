@@ -5,7 +5,9 @@ mod branches;
 mod build;
 mod csv;
 mod cut;
+mod fit;
 mod membrane;
+mod place;
 mod remarks;
 mod runup;
 mod spline;
@@ -15,7 +17,11 @@ use serde::{Deserialize, Serialize};
 pub use self::cut::{
     ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
 };
+pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
+pub use self::place::{
+    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 pub use self::spline::SplineEntry;
 use crate::scene::{Accuracy, SceneFile};

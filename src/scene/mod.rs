@@ -4,6 +4,7 @@
 mod check;
 mod cut;
 mod file;
+mod freed;
 mod guide;
 mod membrane;
 mod parameter;
@@ -19,6 +20,7 @@ pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
+pub use freed::{Freed, common_turn, scene_at, spread};
 pub use guide::Guide;
 pub use membrane::{
     Membrane, MembraneFile, RollBand, RollBandFile, Temperature, TemperatureFile, TemperatureRow,

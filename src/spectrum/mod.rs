@@ -7,6 +7,7 @@ pub mod derivative;
 mod free_reduction;
 mod growth;
 mod low;
+mod lowest;
 mod mode;
 mod model;
 mod name;
@@ -22,6 +23,7 @@ pub use buckling::{AddedStress, SingularStress, first_singular};
 pub use dense::{companion_eigenpairs, time_scale};
 pub use growth::{fastest_growing, fastest_growing_of};
 pub use low::{LowModel, LowModes};
+pub use lowest::LowestModes;
 pub use mode::{Mode, ModeKind, split};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
@@ -86,6 +88,16 @@ pub enum SpectrumError {
         modes: usize,
         /// Speeds.
         speeds: usize,
+    },
+    /// The blade would be torn long before the end of the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
+    )]
+    Overstretched {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Fastest speed allowed.
+        limit_rpm: f64,
     },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(

@@ -75,7 +75,7 @@ pub struct SpectralModel {
 /// At rest the two waves of equal n are degenerate. This share of the blade's
 /// frequency scale, as a rotation, splits them into forward and backward as at any
 /// other speed, and moves frequencies by no more than itself.
-const SPLITTING: f64 = 1e-9;
+pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
     /// Prepares the modes for speeds from `from` to `to`.

@@ -9,6 +9,8 @@ mod finder;
 mod flutter;
 mod heat;
 mod loci;
+mod peak;
+mod pursuit;
 mod refine;
 mod sensitivity;
 mod station;
