@@ -159,7 +159,7 @@ fn of_membrane(file: &SceneFile) -> Vec<Parameter> {
             path: format!("membrane.{path}"),
             words,
             shift: Box::new(move |file, share| {
-                let found = file.membrane.as_mut().and_then(|m| number(m));
+                let found = file.membrane.as_mut().and_then(&number);
                 found.into_iter().for_each(|n| change(n, share));
             }),
         });
