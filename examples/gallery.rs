@@ -16,6 +16,7 @@ fn main() -> anyhow::Result<()> {
     let mut scenes: Vec<_> = std::fs::read_dir(root.join("scenes"))?
         .map(|entry| entry.map(|entry| entry.path()))
         .collect::<Result<_, _>>()?;
+    scenes.retain(|path| path.is_file());
     scenes.sort();
     for path in scenes {
         let name = path
@@ -69,6 +70,12 @@ fn main() -> anyhow::Result<()> {
         }
         println!("{name}");
     }
+    // A thousand saws take minutes: README.md says how its report was made.
+    let figures = root.join("figures");
+    let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
+    let report = serde_json::from_str(&report)?;
+    std::fs::write(figures.join("paper-study.png"), figure::study_png(&report)?)?;
+    println!("paper-study");
     Ok(())
 }
 

@@ -20,7 +20,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, InstabilityKind, OPERATING_LIMIT};
+use crate::stability::{Analysis, Instability, InstabilityKind, OPERATING_LIMIT};
 use crate::system::GyroscopicSystem;
 
 /// What a saw has to keep.
@@ -46,11 +46,24 @@ impl Limits {
             min_critical_rad_per_s: None,
         }
     }
+
+    /// How far a sweep has to go: past every speed asked for, so that a band that begins there
+    /// is seen to.
+    pub fn reach_rad_per_s(&self) -> f64 {
+        let asked = [
+            Some(self.operating_rad_per_s / self.margin),
+            self.min_flutter_rad_per_s,
+            self.min_critical_rad_per_s,
+        ];
+        BEYOND * asked.into_iter().flatten().fold(0.0, f64::max)
+    }
 }
 
 /// One limit and what was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
+    /// The same in a word, for tables.
+    pub key: &'static str,
     /// What is compared, in words.
     pub name: &'static str,
     /// What was found, in rad/s; `None` where there is no such speed within the sweep.
@@ -80,8 +93,7 @@ const POINT_LOAD_BASIS: Resolution = Resolution {
     max_diameters: 30,
     radial_functions: 12,
 };
-/// The sweep reaches past the speeds asked for by this factor, so that a band that begins
-/// there is seen to.
+/// The sweep reaches past the speeds asked for by this factor.
 const BEYOND: f64 = 1.02;
 
 impl Check {
@@ -90,16 +102,10 @@ impl Check {
     /// # Errors
     /// [`SpectrumError`] when the saw cannot be analysed that far.
     pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, SpectrumError> {
-        let asked = [
-            Some(limits.operating_rad_per_s / limits.margin),
-            limits.min_flutter_rad_per_s,
-            limits.min_critical_rad_per_s,
-        ];
-        let farthest = asked.into_iter().flatten().fold(0.0, f64::max);
         let swept = Scene {
             sweep: Some(SpeedRange {
                 from_rad_per_s: 0.0,
-                to_rad_per_s: BEYOND * farthest,
+                to_rad_per_s: limits.reach_rad_per_s(),
             }),
             ..scene.clone()
         };
@@ -107,7 +113,12 @@ impl Check {
         let angle = scene.cut.as_ref().map_or(0.0, |cut| cut.angle_rad);
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
         Ok(Check {
-            criteria: criteria(&analysis, limits, scene.flutter_threshold_per_s),
+            criteria: limits.criteria(
+                analysis.model.critical.first().map(|c| c.speed_rad_per_s),
+                analysis.flutter_speed,
+                &analysis.chart.instabilities,
+                scene.flutter_threshold_per_s,
+            ),
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
             rim_stiffness_n_per_m: rim_stiffness_n_per_m(plate, angle, limits.operating_rad_per_s),
             analysis,
@@ -140,41 +151,59 @@ impl std::fmt::Display for Criterion {
     }
 }
 
-fn criteria(analysis: &Analysis, limits: &Limits, threshold_per_s: f64) -> Vec<Criterion> {
-    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
-    let operating = limits.operating_rad_per_s;
-    let at_least = |name, found: Option<f64>, asked: f64| Criterion {
-        name,
-        found,
-        asked,
-        // A speed that is not reached within the sweep is beyond all that is asked.
-        passed: found.is_none_or(|found| found >= asked),
-    };
-    let mut criteria = vec![at_least(
-        "lowest critical speed, operating speed over margin",
-        lowest,
-        operating / limits.margin,
-    )];
-    let strong = analysis.chart.instabilities.iter().filter(|band| {
-        band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold_per_s
-    });
-    let inside = strong
-        .filter(|band| (band.from..=band.to).contains(&operating))
-        .map(|band| band.from)
-        .reduce(f64::min);
-    criteria.push(Criterion {
-        name: "instability at the operating speed, from",
-        found: inside,
-        asked: operating,
-        passed: inside.is_none(),
-    });
-    if let Some(asked) = limits.min_critical_rad_per_s {
-        criteria.push(at_least("lowest critical speed", lowest, asked));
+impl Limits {
+    /// Every limit held against the speeds and bands of a saw, in rad/s; bands that grow more
+    /// slowly than the threshold are none.
+    pub fn criteria(
+        &self,
+        lowest_critical: Option<f64>,
+        flutter_speed: Option<f64>,
+        bands: &[Instability],
+        threshold_per_s: f64,
+    ) -> Vec<Criterion> {
+        let operating = self.operating_rad_per_s;
+        let at_least = |key, name, found: Option<f64>, asked: f64| Criterion {
+            key,
+            name,
+            found,
+            asked,
+            // A speed that is not reached within the sweep is beyond all that is asked.
+            passed: found.is_none_or(|found| found >= asked),
+        };
+        let mut criteria = vec![at_least(
+            "margin",
+            "lowest critical speed, operating speed over margin",
+            lowest_critical,
+            operating / self.margin,
+        )];
+        let strong = bands.iter().filter(|band| {
+            band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold_per_s
+        });
+        let inside = strong
+            .filter(|band| (band.from..=band.to).contains(&operating))
+            .map(|band| band.from)
+            .reduce(f64::min);
+        criteria.push(Criterion {
+            key: "operating",
+            name: "instability at the operating speed, from",
+            found: inside,
+            asked: operating,
+            passed: inside.is_none(),
+        });
+        if let Some(asked) = self.min_critical_rad_per_s {
+            let name = "lowest critical speed";
+            criteria.push(at_least("min_critical", name, lowest_critical, asked));
+        }
+        if let Some(asked) = self.min_flutter_rad_per_s {
+            criteria.push(at_least(
+                "min_flutter",
+                "flutter speed",
+                flutter_speed,
+                asked,
+            ));
+        }
+        criteria
     }
-    if let Some(asked) = limits.min_flutter_rad_per_s {
-        criteria.push(at_least("flutter speed", analysis.flutter_speed, asked));
-    }
-    criteria
 }
 
 /// 1/(φᵀ K(Ω)⁻¹ φ) with φ the functions at the rim: force over deflection of a point that

@@ -3,7 +3,8 @@
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
+//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`], [`study`]
+//! after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone.
 //!
 //! ```
@@ -30,5 +31,6 @@ pub mod scene;
 pub mod spectrum;
 pub mod spline;
 pub mod stability;
+pub mod study;
 pub mod system;
 pub mod transient;

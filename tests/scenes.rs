@@ -1,9 +1,10 @@
 //! Goal: every scene that comes with the program is one that the program accepts,
 //! says where its numbers come from, and reads back as it was written.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use sawflutter::scene::{Scene, SceneFile, json_schema};
+use sawflutter::study::{self, Study, StudyFile, StudyReport};
 
 /// Every file in `scenes/`, by name.
 fn scene_paths() -> Vec<PathBuf> {
@@ -11,6 +12,7 @@ fn scene_paths() -> Vec<PathBuf> {
     let mut paths: Vec<PathBuf> = std::fs::read_dir(folder)
         .expect("scenes/ is a folder")
         .map(|entry| entry.expect("a readable entry").path())
+        .filter(|path| path.is_file())
         .collect();
     paths.sort();
     // The paper's saw, the same blade unguided, a collar saw, a saw with two pads.
@@ -81,4 +83,57 @@ fn the_built_in_saw_is_the_papers() {
         Scene::from_path(path.as_ref()).unwrap_or_else(|error| panic!("{error}")),
         Scene::paper()
     );
+}
+
+/// Every study that comes with the program suits the scene that its name begins with.
+#[test]
+fn every_study_suits_its_scene_and_the_schema() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let schema = study::json_schema();
+    let validator = jsonschema::validator_for(&schema).expect("the schema is a JSON schema");
+    let studies: Vec<_> = std::fs::read_dir(folder.join("studies"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    assert!(!studies.is_empty());
+    for path in studies {
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(validator.is_valid(&serde_json::from_str(&text).unwrap()));
+        let file = StudyFile::from_json(&text).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!file.notes.is_empty(), "{}", path.display());
+        let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let scene = scene_paths().into_iter().find(|scene| {
+            let name = scene.file_stem().unwrap().to_string_lossy().into_owned();
+            stem.starts_with(&format!("{name}-"))
+        });
+        let scene = Scene::from_path(&scene.expect("a scene of this name")).unwrap();
+        let study = Study::new(scene.file, file).unwrap_or_else(|error| panic!("{error}"));
+        assert!(study.count() > 1);
+    }
+    for bad in [
+        r#"{"name": "x"}"#,
+        r#"{"name": "x", "parameters": [], "points": 3}"#,
+        r#"{"name": "x", "parameters": [{"path": "y", "distribution": {"kind": "even"}}]}"#,
+        r#"{"name": "x", "parameters": [{"path": "y", "distribution":
+            {"kind": "tolerance", "plus_minus": 1, "to": 2}}]}"#,
+    ] {
+        assert!(
+            !validator.is_valid(&serde_json::from_str(bad).unwrap()),
+            "{bad}"
+        );
+        assert!(StudyFile::from_json(bad).is_err(), "{bad}");
+    }
+}
+
+/// The gallery draws it, for it takes minutes to make.
+#[test]
+fn the_stored_report_is_of_the_sample_study_and_the_papers_saw() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |inside: &str| std::fs::read_to_string(root.join(inside)).unwrap();
+    let report: StudyReport = serde_json::from_str(&read("figures/paper-study.json")).unwrap();
+    let study = StudyFile::from_json(&read("scenes/studies/paper-tolerances.json")).unwrap();
+    assert_eq!(report.study, study);
+    assert_eq!(report.scene, Scene::paper().file);
+    assert_eq!(report.sawflutter, env!("CARGO_PKG_VERSION"));
+    assert_eq!(report.all.saws, study.saws.unwrap() as usize);
 }

@@ -1,7 +1,7 @@
 //! What every command that looks at a scene has in common.
 
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -15,6 +15,13 @@ use super::output::OutputFolder;
 pub struct Input {
     /// Scene to look at; without it, the built-in guided spline saw
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    finely: Finely,
+}
+
+/// How finely to look at a saw.
+#[derive(Args, Default)]
+pub struct Finely {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
@@ -28,12 +35,19 @@ pub struct Input {
 pub struct Common {
     #[command(flatten)]
     input: Input,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// Where results go.
+#[derive(Args, Default)]
+pub struct Output {
     /// Folder for the files [default: sawflutter-out]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print the report as JSON instead of the summary
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -49,12 +63,22 @@ pub type NamedFile = (&'static str, Vec<u8>);
 impl Input {
     /// The scene asked for.
     pub fn scene(&self) -> anyhow::Result<Scene> {
-        let mut scene = match &self.scene {
-            Some(path) => {
-                Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))?
-            }
+        let scene = match &self.scene {
+            Some(path) => read_scene(path)?,
             None => Scene::paper(),
         };
+        self.finely.applied(scene)
+    }
+}
+
+/// The scene of a file.
+pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
+    Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))
+}
+
+impl Finely {
+    /// The scene, looked at as finely as asked.
+    pub fn applied(&self, mut scene: Scene) -> anyhow::Result<Scene> {
         if let Some(name) = self.accuracy {
             let accuracy = match name {
                 AccuracyName::Draft => Accuracy::Draft,
@@ -80,6 +104,25 @@ impl Common {
         self.input.scene()
     }
 
+    /// The folder asked for, seen to take files.
+    pub fn folder(&self) -> anyhow::Result<OutputFolder> {
+        self.output.folder()
+    }
+
+    /// Writes the files and prints the report, as [`Output::print`] does.
+    pub fn print(
+        &self,
+        folder: &OutputFolder,
+        files: &[NamedFile],
+        stale: &[&str],
+        json: &str,
+        summary: impl FnOnce() -> String,
+    ) -> anyhow::Result<()> {
+        self.output.print(folder, files, stale, json, summary)
+    }
+}
+
+impl Output {
     /// The folder asked for, seen to take files.
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
         let out = self.out.clone();

@@ -11,6 +11,8 @@ mod output;
 mod place;
 mod runup;
 mod schema;
+mod study;
+mod study_summary;
 mod summary;
 mod tradeoff;
 
@@ -45,14 +47,17 @@ enum Command {
     /// Put the guides where flutter comes latest; place.json, a scene, a map
     #[command(after_help = place::EXAMPLES)]
     Place(place::Arguments),
+    /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
+    #[command(after_help = study::EXAMPLES)]
+    Study(study::Arguments),
     /// Measure what digits cost: time against true error; tradeoff.png
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
     /// Write the matrices of a saw as NumPy files
     #[command(after_help = export::EXAMPLES)]
     Export(export::Arguments),
-    /// Print the JSON schema of a scene
-    Schema,
+    /// Print the JSON schema of a scene, or of a study
+    Schema(schema::Arguments),
 }
 
 const EXAMPLES: &str = "\
@@ -79,7 +84,8 @@ pub fn run() -> anyhow::Result<bool> {
         Some(Command::Export(arguments)) => export::run(&arguments),
         Some(Command::Place(arguments)) => return place::run(&arguments),
         Some(Command::Check(arguments)) => return check::run(&arguments),
-        Some(Command::Schema) => schema::run(),
+        Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Schema(arguments)) => schema::run(&arguments),
     }
     .map(|()| true)
 }

@@ -2,9 +2,22 @@
 
 use std::io::Write;
 
-/// Prints the JSON schema of a scene.
-pub fn run() -> anyhow::Result<()> {
-    let schema = sawflutter::scene::json_schema();
+use clap::Args;
+use sawflutter::{scene, study};
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Print that of a study instead
+    #[arg(long)]
+    study: bool,
+}
+
+/// Prints the JSON schema of a scene, or of a study.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let schema = match arguments.study {
+        true => study::json_schema(),
+        false => scene::json_schema(),
+    };
     writeln!(
         std::io::stdout(),
         "{}",

@@ -251,7 +251,7 @@ fn more(text: &mut String, rows: usize) -> std::fmt::Result {
     }
 }
 
-fn shortened(line: &str, width: usize) -> String {
+pub fn shortened(line: &str, width: usize) -> String {
     if line.chars().count() <= width {
         return line.to_owned();
     }

@@ -26,6 +26,7 @@ mod runup;
 #[cfg(test)]
 mod sample;
 mod spline_orbit;
+mod study;
 mod style;
 #[cfg(test)]
 mod tidy;
@@ -41,6 +42,7 @@ pub use response_map::{response_map_png, response_map_svg};
 pub use root_loci::{root_loci_png, root_loci_svg};
 pub use runup::{runup_png, runup_svg};
 pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
+pub use study::{study_png, study_svg};
 pub use tradeoff::tradeoff_png;
 
 /// Whether any term of the equation of motion takes energy out of the saw.

@@ -15,6 +15,7 @@ mod runup;
 mod spline;
 mod validate;
 
+pub(crate) use check::MAX_RPM;
 pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,

@@ -26,6 +26,8 @@ pub enum Strategy {
     /// Projection on the low modes of a few speeds.
     #[default]
     Reduced,
+    /// The same for the modes that bands are made of alone: no chart can be drawn.
+    Bands,
     /// Every eigenvalue of the whole basis at every speed: slow, the test oracle.
     Dense,
 }
@@ -100,12 +102,19 @@ impl SpectralModel {
         let counters = WorkCounters::default();
         let mut parts = Part::of(&plate);
         let mut complete_to_rad_per_s = f64::INFINITY;
-        if strategy == Strategy::Reduced {
+        if strategy != Strategy::Dense {
             let scale = frequency_scale(&plate);
             for (index, part) in parts.iter_mut().enumerate() {
                 if plate.is_axisymmetric() {
                     let basis = free_reduction::of_harmonic(&plate, index, range);
                     part.chart = vec![Projection::new(&part.full, basis, range.1)];
+                } else if let Some((low, height)) = (strategy == Strategy::Bands)
+                    .then(|| reduction::for_bands(&part.full, range, scale, &critical, &counters))
+                    .flatten()
+                {
+                    part.chart = vec![low.clone()];
+                    part.low = Some((low, height));
+                    complete_to_rad_per_s = height;
                 } else {
                     let found =
                         reduction::of_guided(&part.full, range, scale, &critical, &counters);

@@ -9,7 +9,7 @@ use super::mode::{Mode, split};
 use super::state::{State, StateModel};
 
 /// A part projected on few orthonormal vectors.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Projection {
     /// Last speed that it is good for.
     pub to_rad_per_s: f64,

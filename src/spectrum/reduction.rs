@@ -61,28 +61,13 @@ pub fn of_guided(
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
 ) -> GuidedReductions {
-    let mut builder = Builder {
-        system,
-        range,
-        scale,
-        critical,
-        counters,
-        window: 0.0,
-        snapshots: Vec::new(),
-    };
+    let mut builder = Builder::new(system, range, scale, critical, counters);
     let ((low_rad_per_s, last), (chart_rad_per_s, first)) = rayon::join(
         || builder.reflected_height(range.1),
         || builder.chart_height(range.0),
     );
     builder.window = chart_rad_per_s.max(low_rad_per_s);
-    let mut speeds = first_speeds(range).to_vec();
-    for known in [Some(first), last].into_iter().flatten() {
-        if builder.covers(&known) {
-            speeds.retain(|speed| *speed != known.speed);
-            builder.snapshots.push(known);
-        }
-    }
-    builder.add_snapshots(&speeds);
+    builder.add_first_snapshots([Some(first), last]);
     let low = (low_rad_per_s > 0.0).then(|| builder.whole_range(low_rad_per_s));
     GuidedReductions {
         chart: builder.pieces(),
@@ -90,6 +75,25 @@ pub fn of_guided(
         chart_rad_per_s: builder.window,
         low_rad_per_s,
     }
+}
+
+/// The projection on the modes that bands are made of alone, and their height; nothing where no
+/// wave is reflected. Without the modes above, that only a chart shows, it costs a third.
+pub fn for_bands(
+    system: &GyroscopicSystem,
+    range: (f64, f64),
+    scale: f64,
+    critical: &[NamedCriticalSpeed],
+    counters: &WorkCounters,
+) -> Option<(Projection, f64)> {
+    let mut builder = Builder::new(system, range, scale, critical, counters);
+    let (height, last) = builder.reflected_height(range.1);
+    if height == 0.0 {
+        return None;
+    }
+    builder.window = height;
+    builder.add_first_snapshots([None, last]);
+    Some((builder.whole_range(height), height))
 }
 
 /// Low modes of the whole system at one speed.
@@ -108,7 +112,37 @@ struct Builder<'a> {
     snapshots: Vec<Snapshot>,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
+    fn new(
+        system: &'a GyroscopicSystem,
+        range: (f64, f64),
+        scale: f64,
+        critical: &'a [NamedCriticalSpeed],
+        counters: &'a WorkCounters,
+    ) -> Self {
+        Builder {
+            system,
+            range,
+            scale,
+            critical,
+            counters,
+            window: 0.0,
+            snapshots: Vec::new(),
+        }
+    }
+
+    /// The first snapshots, of which some may be known already.
+    fn add_first_snapshots(&mut self, known: [Option<Snapshot>; 2]) {
+        let mut speeds = first_speeds(self.range).to_vec();
+        for known in known.into_iter().flatten() {
+            if self.covers(&known) {
+                speeds.retain(|speed| *speed != known.speed);
+                self.snapshots.push(known);
+            }
+        }
+        self.add_snapshots(&speeds);
+    }
+
     fn lowest(&self, speed: f64, count: usize) -> Vec<Eigenpair> {
         self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
         lowest_eigenpairs(self.system, speed, count, 0.5 * self.scale)

@@ -1,8 +1,9 @@
 //! From a scene to its stability chart: the library's main call.
 
-use super::bands::{InstabilityKind, StabilityChart, chart};
+use super::bands::{StabilityChart, chart};
 use super::basis::ChosenBasis;
 use super::loci::RootLoci;
+use super::onsets::first_flutter;
 use crate::campbell::Progress;
 use crate::scene::Scene;
 use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
@@ -11,7 +12,7 @@ use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 /// usual rule of thumb of saw makers.
 pub const OPERATING_LIMIT: f64 = 0.85;
 /// Speeds of a chart, before those that its events add.
-const CHART_SPEEDS: usize = 51;
+pub(super) const CHART_SPEEDS: usize = 51;
 /// The same for a free blade, of which a speed costs next to nothing.
 const FREE_CHART_SPEEDS: usize = 101;
 
@@ -51,12 +52,7 @@ impl Analysis {
             false => CHART_SPEEDS,
         };
         let chart = chart(&model, range, count, progress)?;
-        let mut flutter = chart
-            .instabilities
-            .iter()
-            .filter(|b| b.kind == InstabilityKind::Flutter);
-        let first = flutter.clone().next();
-        let strong = flutter.find(|b| b.peak_growth_per_s >= scene.flutter_threshold_per_s);
+        let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s);
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
         let followed = strong.or(first).filter(|_| model.is_conservative());
         let root_loci = match followed {

@@ -64,7 +64,7 @@ pub struct StabilityChart {
 
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
-const SEARCH_SPEEDS: usize = 25;
+pub(super) const SEARCH_SPEEDS: usize = 25;
 
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.
 ///

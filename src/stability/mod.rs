@@ -9,6 +9,7 @@ mod finder;
 mod flutter;
 mod heat;
 mod loci;
+mod onsets;
 mod peak;
 mod pursuit;
 mod refine;
@@ -21,5 +22,6 @@ pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart
 pub use basis::ChosenBasis;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
+pub use onsets::Onsets;
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
 pub use tradeoff::{Method, Setting, recommended, tradeoff};

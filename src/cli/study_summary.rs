@@ -1,0 +1,162 @@
+//! A study in words, 80 columns wide.
+
+use std::fmt::Write;
+
+use sawflutter::study::{Group, Passing, SpeedEntry, StudyReport};
+
+use super::summary::shortened;
+
+/// Lines of a table before the rest is only counted.
+const ROWS: usize = 24;
+const WIDTH: usize = 80;
+/// Quantiles that fit side by side.
+const COLUMNS: usize = 7;
+
+/// Quantiles, the probability of passing, and what was not analysed.
+pub fn summary(report: &StudyReport) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = header(&mut text, report);
+    let _ = quantiles(&mut text, report);
+    if let Some(passing) = &report.all.passing {
+        let _ = limits(&mut text, passing, report.all.saws);
+    }
+    if !report.groups.is_empty() {
+        let _ = groups(&mut text, report);
+    }
+    let _ = remarks(&mut text, report);
+    text
+}
+
+fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.study.name, WIDTH))?;
+    let scene = shortened(&report.scene.name, WIDTH - 24);
+    writeln!(text, "{} saws of {scene}", report.all.saws)?;
+    for entry in &report.study.parameters {
+        writeln!(text, "  {}", shortened(&entry.to_string(), WIDTH - 2))?;
+    }
+    Ok(())
+}
+
+fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    let all = &report.all;
+    let columns = all.lowest_critical.quantiles.iter().take(COLUMNS);
+    write!(text, "\nShare of saws below   ")?;
+    for quantile in columns {
+        write!(
+            text,
+            "{:>8}",
+            format!("{} %", rounded(100.0 * quantile.share))
+        )?;
+    }
+    let speeds = [
+        ("lowest critical [rpm]", &all.lowest_critical),
+        ("flutter speed [rpm]", &all.flutter),
+    ];
+    for (name, speed) in speeds {
+        write!(text, "\n  {name:<21}")?;
+        for quantile in speed.quantiles.iter().take(COLUMNS) {
+            let cell = quantile
+                .rpm
+                .map_or("beyond".into(), |rpm| format!("{rpm:.1}"));
+            write!(text, "{cell:>8}")?;
+        }
+    }
+    writeln!(text)?;
+    let SpeedEntry { beyond, .. } = all.flutter;
+    if beyond > 0 {
+        let to = report.swept_to_rpm;
+        writeln!(text, "  {beyond} saws do not flutter up to {to:.0} rpm")?;
+    }
+    Ok(())
+}
+
+/// 0.1 + 0.2 is 0.3 to the reader.
+fn rounded(value: f64) -> f64 {
+    (1e6 * value).round() / 1e6
+}
+
+fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result {
+    let Passing { passed, .. } = passing;
+    writeln!(
+        text,
+        "\nProbability of passing: {:.2} %  ({passed} of {saws} saws)",
+        100.0 * passing.probability
+    )?;
+    if let Some([low, high]) = passing.interval {
+        writeln!(
+            text,
+            "  with {} % confidence between {:.2} % and {:.2} %",
+            rounded(100.0 * passing.confidence),
+            100.0 * low,
+            100.0 * high
+        )?;
+    }
+    for criterion in &passing.criteria {
+        let share = 100.0 * criterion.passed as f64 / saws.max(1) as f64;
+        writeln!(text, "  {share:>6.2} %  {}", criterion.name)?;
+    }
+    Ok(())
+}
+
+fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    writeln!(text, "\nIn each point of the grid: medians [rpm]")?;
+    writeln!(text, "  critical  flutter   pass")?;
+    let median = |speed: &SpeedEntry| {
+        let median = speed.median_rpm;
+        median.map_or("beyond".into(), |rpm| format!("{rpm:.1}"))
+    };
+    let pass = |group: &Group| {
+        let passing = group.passing.as_ref();
+        passing.map_or("–".into(), |p| format!("{:.1} %", 100.0 * p.probability))
+    };
+    for group in report.groups.iter().take(ROWS) {
+        let place: Vec<String> = group
+            .grid
+            .iter()
+            .map(|entry| format!("{} = {}", entry.parameter, entry.value))
+            .collect();
+        writeln!(
+            text,
+            "  {:>8} {:>8} {:>6}  {}",
+            median(&group.lowest_critical),
+            median(&group.flutter),
+            pass(group),
+            shortened(&place.join(", "), WIDTH - 28)
+        )?;
+    }
+    if report.groups.len() > ROWS {
+        writeln!(
+            text,
+            "  and {} more in study.json",
+            report.groups.len() - ROWS
+        )?;
+    }
+    Ok(())
+}
+
+fn remarks(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    let all = &report.all;
+    writeln!(
+        text,
+        "\nEstimated error of critical speeds: {:.2e} at most",
+        report.largest_estimated_relative_error
+    )?;
+    if report.saws_with_krein_violations > 0 {
+        writeln!(
+            text,
+            "The Krein index does not match in {} saws: column krein_violations of study.csv",
+            report.saws_with_krein_violations
+        )?;
+    }
+    for (count, word) in [(all.refused, "refused"), (all.failed, "failed")] {
+        if count > 0 {
+            writeln!(text, "{count} saws were {word} and count as not passing:")?;
+        }
+    }
+    for refusal in report.not_analysed.iter().take(3) {
+        let reason = shortened(&refusal.reason, WIDTH - 12);
+        writeln!(text, "  saw {}: {reason}", refusal.saw)?;
+    }
+    Ok(())
+}

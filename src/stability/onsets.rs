@@ -1,0 +1,90 @@
+//! Where a saw becomes unstable, without a chart: what a study of many saws asks.
+
+use super::analysis::CHART_SPEEDS;
+use super::bands::{
+    Certificate, Instability, InstabilityKind, SEARCH_SPEEDS, chart, undamped_bands,
+};
+use super::basis::ChosenBasis;
+use crate::plate::Plate;
+use crate::scene::Scene;
+use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy};
+
+/// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
+#[derive(Debug)]
+pub struct Onsets {
+    /// Lowest critical speed, in rad/s.
+    pub lowest_critical: Option<f64>,
+    /// Bands by onset.
+    pub instabilities: Vec<Instability>,
+    /// Onset of the first flutter band whose peak growth reaches the scene's threshold, in rad/s.
+    pub flutter_speed: Option<f64>,
+    /// Onset of the first flutter band of all, in rad/s.
+    pub first_merge: Option<f64>,
+    /// Proof that no band is missing; nothing was compared in damped scenes.
+    pub certificate: Certificate,
+    /// Functions of the basis.
+    pub functions: usize,
+    /// Estimated relative error of the critical speeds within the range.
+    pub estimated_relative_error: f64,
+}
+
+impl Onsets {
+    /// Finds the onsets of a saw over the speeds of its scene.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(scene: &Scene) -> Result<Self, SpectrumError> {
+        let ChosenBasis {
+            plate,
+            critical,
+            range,
+            estimated_relative_error,
+        } = ChosenBasis::new(scene, scene.tolerance())?;
+        let lowest_critical = critical.first().map(|c| c.speed_rad_per_s);
+        let functions = plate.degrees_of_freedom();
+        // Nothing couples the waves of a free blade, and nothing is reflected below the lowest
+        // critical speed: then there are no bands to search for.
+        let is_damped = plate.damping.is_some() || plate.guide_damping.is_some();
+        let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
+        let (instabilities, certificate) = match plate.is_axisymmetric() || is_slow {
+            true if !is_damped => Default::default(),
+            _ => bands(plate, critical, range)?,
+        };
+        let (first, strong) = first_flutter(&instabilities, scene.flutter_threshold_per_s);
+        let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
+        Ok(Onsets {
+            lowest_critical,
+            flutter_speed,
+            first_merge,
+            instabilities,
+            certificate,
+            functions,
+            estimated_relative_error,
+        })
+    }
+}
+
+fn bands(
+    plate: Plate,
+    critical: Vec<NamedCriticalSpeed>,
+    range: (f64, f64),
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    if plate.damping.is_none() && plate.guide_damping.is_none() {
+        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
+        return undamped_bands(&model, range, SEARCH_SPEEDS);
+    }
+    let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
+    let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;
+    Ok((chart.instabilities, chart.certificate))
+}
+
+/// The first flutter band of all, and the first that grows as fast as the threshold.
+pub(super) fn first_flutter(
+    bands: &[Instability],
+    threshold_per_s: f64,
+) -> (Option<&Instability>, Option<&Instability>) {
+    let mut flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
+    let first = flutter.clone().next();
+    let strong = flutter.find(|b| b.peak_growth_per_s >= threshold_per_s);
+    (first, strong)
+}

@@ -1,0 +1,129 @@
+//! `study.csv`, one row a saw; the rows of the log are the same.
+
+use super::plan::Study;
+use super::saw::{Found, Outcome, Saw};
+
+/// Names of the outcomes in the column `status`.
+pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
+
+/// The saws as comma-separated values.
+///
+/// # Errors
+/// [`csv::Error`], which writing to memory does not raise.
+pub fn csv(study: &Study, saws: &[Saw]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(columns(study))?;
+    for saw in saws {
+        writer.write_record(record(study, saw))?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
+}
+
+/// Names of the columns.
+pub(super) fn columns(study: &Study) -> Vec<String> {
+    let paths = study.varying.iter().map(|(p, _)| p.path().to_owned());
+    let kept = study.criteria_of_nothing().into_iter();
+    let kept = kept.map(|criterion| format!("keeps_{}", criterion.key));
+    let before = [
+        "status",
+        "lowest_critical_rpm",
+        "flutter_rpm",
+        "first_merge_rpm",
+        "passed",
+    ];
+    let after = [
+        "functions",
+        "estimated_relative_error",
+        "krein_violations",
+        "reason",
+    ];
+    let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
+    std::iter::once("saw".to_owned())
+        .chain(paths)
+        .chain(owned(&before))
+        .chain(kept)
+        .chain(owned(&after))
+        .collect()
+}
+
+/// The cells of a saw. Numbers are written with the digits that give the same bits again.
+pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
+    let mut cells = vec![saw.index.to_string()];
+    cells.extend(saw.values.iter().map(f64::to_string));
+    let (status, found, reason) = match &saw.outcome {
+        Outcome::Analysed(found) => (STATUS[0], Some(found), ""),
+        Outcome::Refused(reason) => (STATUS[1], None, reason.as_str()),
+        Outcome::Failed(reason) => (STATUS[2], None, reason.as_str()),
+    };
+    let number = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
+    let text = |value: Option<String>| value.unwrap_or_default();
+    cells.push(status.to_owned());
+    cells.push(number(found.and_then(|f| f.lowest_critical_rpm)));
+    cells.push(number(found.and_then(|f| f.flutter_rpm)));
+    cells.push(number(found.and_then(|f| f.first_merge_rpm)));
+    cells.push(text(found.and_then(Found::passed).map(|p| p.to_string())));
+    let kept = 0..study.criteria_of_nothing().len();
+    cells.extend(kept.map(|k| text(found.map(|f| f.kept[k].to_string()))));
+    cells.push(text(found.map(|f| f.functions.to_string())));
+    cells.push(number(found.map(|f| f.estimated_relative_error)));
+    cells.push(text(found.map(|f| f.krein_violations.to_string())));
+    cells.push(reason.to_owned());
+    cells
+}
+
+/// The saw of a row; `None` where it is none of this study's.
+pub(super) fn saw(study: &Study, record: &csv::StringRecord) -> Option<Saw> {
+    let mut cells = record.iter();
+    let index: usize = cells.next()?.parse().ok()?;
+    let mut values = Vec::new();
+    for _ in 0..study.varying.len() {
+        values.push(cells.next()?.parse().ok()?);
+    }
+    let status = cells.next()?;
+    let rest: Vec<&str> = cells.collect();
+    let (reason, speeds) = rest.split_last()?;
+    let outcome = match STATUS.iter().position(|name| *name == status)? {
+        0 => Outcome::Analysed(found(study, speeds)?),
+        1 => Outcome::Refused((*reason).to_owned()),
+        _ => Outcome::Failed((*reason).to_owned()),
+    };
+    let width = study.criteria_of_nothing().len() + 7;
+    (index < study.count() && speeds.len() == width).then_some(Saw {
+        index,
+        values,
+        outcome,
+    })
+}
+
+fn found(study: &Study, cells: &[&str]) -> Option<Found> {
+    let number = |cell: &str| match cell {
+        "" => Some(None),
+        digits => digits.parse::<f64>().ok().map(Some),
+    };
+    let [
+        critical,
+        flutter,
+        merge,
+        _passed,
+        kept @ ..,
+        functions,
+        error,
+        violations,
+    ] = cells
+    else {
+        return None;
+    };
+    let kept: Vec<bool> = kept.iter().map(|k| k.parse().ok()).collect::<Option<_>>()?;
+    (kept.len() == study.criteria_of_nothing().len()).then_some(())?;
+    Some(Found {
+        lowest_critical_rpm: number(critical)?,
+        flutter_rpm: number(flutter)?,
+        first_merge_rpm: number(merge)?,
+        kept,
+        functions: functions.parse().ok()?,
+        estimated_relative_error: number(error)??,
+        krein_violations: violations.parse().ok()?,
+    })
+}

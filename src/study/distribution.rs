@@ -1,0 +1,182 @@
+//! From an even number between 0 and 1 to a value of a distribution.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::file::{DistributionFile, StudyError};
+
+/// Beyond these a normal distribution is a uniform one, or none that is cut off.
+const TRUNCATION: (f64, f64) = (0.1, 8.0);
+/// More values than anybody lists.
+const MAX_VALUES: usize = 10_000;
+
+/// A distribution about a known value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Distribution {
+    /// Evenly from a value to another.
+    Uniform(f64, f64),
+    /// Mean, standard deviation, share of the uncut distribution below the lower cut.
+    Normal(f64, f64, f64),
+    /// Each of these.
+    Grid(Vec<f64>),
+}
+
+impl Distribution {
+    /// Validates a distribution of a number whose value in the scene is `nominal`; `key` is the
+    /// place of the distribution in the study.
+    pub fn new(file: &DistributionFile, nominal: f64, key: &str) -> Result<Self, StudyError> {
+        match file {
+            DistributionFile::Tolerance { plus_minus } => {
+                let deviation = positive(&format!("{key}.plus_minus"), *plus_minus)?;
+                Ok(Distribution::Uniform(
+                    nominal - deviation,
+                    nominal + deviation,
+                ))
+            }
+            DistributionFile::Uniform { from, to } if from < to => {
+                Ok(Distribution::Uniform(*from, *to))
+            }
+            DistributionFile::Uniform { from, to } => Err(StudyError::Value {
+                key: format!("{key}.to"),
+                value: to.to_string(),
+                allowed: format!("above from, {from}"),
+                remedy: "exchange them, or leave a number that does not vary out of the study",
+            }),
+            DistributionFile::Normal {
+                mean,
+                standard_deviation,
+                truncated_at_deviations,
+            } => {
+                let spread = positive(&format!("{key}.standard_deviation"), *standard_deviation)?;
+                let cut = *truncated_at_deviations;
+                if !(TRUNCATION.0..=TRUNCATION.1).contains(&cut) {
+                    return Err(StudyError::Value {
+                        key: format!("{key}.truncated_at_deviations"),
+                        value: cut.to_string(),
+                        allowed: format!("between {} and {}", TRUNCATION.0, TRUNCATION.1),
+                        remedy: "3 leaves 0.3 % out",
+                    });
+                }
+                let mean = mean.unwrap_or(nominal);
+                Ok(Distribution::Normal(
+                    mean,
+                    spread,
+                    Normal::standard().cdf(-cut),
+                ))
+            }
+            DistributionFile::Grid { values } => grid(values, key),
+        }
+    }
+
+    /// The value below which the share `share`, within 0 and 1, of all values lies; of a grid,
+    /// its first value.
+    pub fn at(&self, share: f64) -> f64 {
+        match self {
+            Distribution::Uniform(from, to) => from + share * (to - from),
+            Distribution::Normal(mean, spread, cut) => {
+                let within = cut + share * (1.0 - 2.0 * cut);
+                mean + spread * Normal::standard().inverse_cdf(within)
+            }
+            Distribution::Grid(values) => values[0],
+        }
+    }
+}
+
+fn positive(key: &str, value: f64) -> Result<f64, StudyError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(StudyError::Value {
+        key: key.to_owned(),
+        value: value.to_string(),
+        allowed: "above 0".into(),
+        remedy: "give it in the unit of the number, or leave a number that does not vary out",
+    })
+}
+
+fn grid(values: &[f64], key: &str) -> Result<Distribution, StudyError> {
+    let repeated = (1..values.len()).find(|k| values[..*k].contains(&values[*k]));
+    let refuse = |value: String, allowed: String| StudyError::Value {
+        key: format!("{key}.values"),
+        value,
+        allowed,
+        remedy: "list each value once",
+    };
+    if values.is_empty() || values.len() > MAX_VALUES {
+        let count = format!("a list of {}", values.len());
+        return Err(refuse(count, format!("of 1 to {MAX_VALUES} values")));
+    }
+    match repeated {
+        Some(k) => {
+            let twice = format!("a list with {} twice", values[k]);
+            Err(refuse(twice, "of different values".into()))
+        }
+        None => Ok(Distribution::Grid(values.to_vec())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn distribution(json: &str) -> Result<Distribution, StudyError> {
+        Distribution::new(&serde_json::from_str(json).unwrap(), 10.0, "here")
+    }
+
+    /// Source: Φ⁻¹(0.75) = 0.67448975019608171, Φ(−2) = 0.022750131948179195.
+    #[test]
+    fn shares_are_those_of_the_truncated_normal_distribution() {
+        let wide = distribution(
+            r#"{"kind": "normal", "standard_deviation": 2, "truncated_at_deviations": 8}"#,
+        );
+        let quartile = wide.unwrap().at(0.75);
+        let exact = 10.0 + 2.0 * 0.674_489_750_196_081_7;
+        assert!((quartile - exact).abs() < 1e-12, "{quartile}");
+        let cut = distribution(
+            r#"{"kind": "normal", "mean": 0, "standard_deviation": 1, "truncated_at_deviations": 2}"#,
+        )
+        .unwrap();
+        // The library's Φ has ten digits; of tolerances three are known.
+        for (share, exact) in [(0.0, -2.0), (1.0, 2.0)] {
+            let error = cut.at(share) - exact;
+            assert!(error.abs() < 1e-9, "{share}: {error:e}");
+        }
+        let below = 0.022_750_131_948_179_195;
+        // Φ(−1) = 0.15865525393145707 of the uncut one is this share of the cut one.
+        let share = (0.158_655_253_931_457_07 - below) / (1.0 - 2.0 * below);
+        let error = cut.at(share) + 1.0;
+        assert!(error.abs() < 1e-9, "{error:e}");
+    }
+
+    #[test]
+    fn a_tolerance_lies_about_the_value_of_the_scene() {
+        let even = distribution(r#"{"kind": "tolerance", "plus_minus": 0.5}"#).unwrap();
+        assert_eq!(
+            [even.at(0.0), even.at(0.5), even.at(1.0)],
+            [9.5, 10.0, 10.5]
+        );
+    }
+
+    #[test]
+    fn what_is_no_distribution_is_refused_by_key() {
+        for (json, key) in [
+            (
+                r#"{"kind": "tolerance", "plus_minus": 0}"#,
+                "here.plus_minus",
+            ),
+            (r#"{"kind": "uniform", "from": 2, "to": 2}"#, "here.to"),
+            (
+                r#"{"kind": "normal", "standard_deviation": -1}"#,
+                "here.standard_deviation",
+            ),
+            (
+                r#"{"kind": "normal", "standard_deviation": 1, "truncated_at_deviations": 9}"#,
+                "here.truncated_at_deviations",
+            ),
+            (r#"{"kind": "grid", "values": []}"#, "here.values"),
+            (r#"{"kind": "grid", "values": [1, 2, 1]}"#, "here.values"),
+        ] {
+            let error = distribution(json).unwrap_err().to_string();
+            assert!(error.starts_with(key), "{error}");
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The study as typed: the JSON that a user writes, key by key.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::SceneError;
+use crate::spectrum::SpectrumError;
+
+/// Which numbers of a scene vary, how, and what the saws have to keep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyFile {
+    /// Title of reports and figures.
+    pub name: String,
+    /// Where the numbers come from: measured, assumed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+    /// The numbers that vary, independently of each other.
+    pub parameters: Vec<ParameterFile>,
+    /// Saws drawn from the distributions, in every point of the grid; left out where all
+    /// parameters are grids. Powers of two fill the ranges most evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub saws: Option<u32>,
+    /// Another seed draws other saws.
+    #[serde(default)]
+    pub seed: u32,
+    /// Last speed looked at; by default the end of the scene's sweep. Limits extend it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to_rpm: Option<f64>,
+    /// What each saw is held against, as by `sawflutter check`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsFile>,
+    /// Shares of the saws whose speeds are reported.
+    #[serde(default = "default_quantiles")]
+    pub quantiles: Vec<f64>,
+    /// Confidence of the interval around the probability of passing.
+    #[serde(default = "default_confidence")]
+    pub confidence: f64,
+}
+
+fn default_quantiles() -> Vec<f64> {
+    vec![0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99]
+}
+
+fn default_confidence() -> f64 {
+    0.95
+}
+
+/// A number of the scene that varies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterFile {
+    /// Its JSON path in the scene, like `guides[0].radius_m`.
+    pub path: String,
+    /// How it varies, in its own unit.
+    pub distribution: DistributionFile,
+}
+
+/// How a number varies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum DistributionFile {
+    /// Evenly about the scene's value.
+    Tolerance {
+        /// Largest deviation to either side.
+        plus_minus: f64,
+    },
+    /// Evenly between two values.
+    Uniform {
+        /// Least value.
+        from: f64,
+        /// Greatest value.
+        to: f64,
+    },
+    /// Normally, cut off on both sides: nobody sells what is far outside.
+    Normal {
+        /// Mean; the scene's value by default.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        mean: Option<f64>,
+        /// Standard deviation, before the cut.
+        standard_deviation: f64,
+        /// Where it is cut, in standard deviations from the mean.
+        #[serde(default = "default_truncation")]
+        truncated_at_deviations: f64,
+    },
+    /// Each of these values, with every combination of the others.
+    Grid {
+        /// The values.
+        values: Vec<f64>,
+    },
+}
+
+impl std::fmt::Display for ParameterFile {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} ", self.path)?;
+        match &self.distribution {
+            DistributionFile::Tolerance { plus_minus } => write!(formatter, "± {plus_minus}"),
+            DistributionFile::Uniform { from, to } => write!(formatter, "from {from} to {to}"),
+            DistributionFile::Normal {
+                mean,
+                standard_deviation,
+                truncated_at_deviations,
+            } => {
+                let about = mean.map_or(String::new(), |mean| format!("about {mean}, "));
+                write!(
+                    formatter,
+                    "normal, {about}σ {standard_deviation}, cut at {truncated_at_deviations} σ"
+                )
+            }
+            DistributionFile::Grid { values } => write!(formatter, "at {} values", values.len()),
+        }
+    }
+}
+
+/// 0.3 % of the saws lie beyond.
+fn default_truncation() -> f64 {
+    3.0
+}
+
+/// What a saw has to keep, as the options of `sawflutter check`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsFile {
+    /// Speed at which it is run; the scene's by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_rpm: Option<f64>,
+    /// Largest share of the lowest critical speed that the operating speed may be.
+    #[serde(default = "default_margin")]
+    pub margin: f64,
+    /// Least flutter speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_flutter_rpm: Option<f64>,
+    /// Least first critical speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_critical_rpm: Option<f64>,
+}
+
+fn default_margin() -> f64 {
+    crate::stability::OPERATING_LIMIT
+}
+
+/// Why a study was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// Not JSON, or not a study: wrong type, unknown or missing key.
+    #[error(
+        "{key}: {message}; `sawflutter schema --study` prints the keys and types of a study, and scenes/studies/ has examples"
+    )]
+    Syntax {
+        /// JSON path of the key.
+        key: String,
+        /// What the parser said, with line and column.
+        message: String,
+    },
+    /// A value that no study has.
+    #[error("{key} is {value}, but must be {allowed}; {remedy}")]
+    Value {
+        /// JSON path of the key.
+        key: String,
+        /// What was given.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// The scene, as it stands or without a number that is to vary.
+    #[error("{key}: {source}")]
+    Scene {
+        /// JSON path of the study's key that asks for it.
+        key: String,
+        /// What the scene is refused for.
+        source: SceneError,
+    },
+    /// The saw without deviations cannot be analysed.
+    #[error("the saw of the scene itself: {0}")]
+    Nominal(#[from] SpectrumError),
+}
+
+impl StudyFile {
+    /// Reads a study from its JSON text.
+    ///
+    /// # Errors
+    /// [`StudyError::Syntax`] with the JSON path of the offending key.
+    pub fn from_json(text: &str) -> Result<Self, StudyError> {
+        let mut json = serde_json::Deserializer::from_str(text);
+        let file = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+            let key = match error.path().to_string().as_str() {
+                "." => "the study".to_owned(),
+                path => path.to_owned(),
+            };
+            StudyError::Syntax {
+                key,
+                message: error.into_inner().to_string(),
+            }
+        })?;
+        json.end().map_err(|error| StudyError::Syntax {
+            key: "the study".into(),
+            message: error.to_string(),
+        })?;
+        Ok(file)
+    }
+}
+
+/// The JSON schema of a study file, derived from [`StudyFile`].
+pub fn json_schema() -> serde_json::Value {
+    schemars::schema_for!(StudyFile).to_value()
+}

@@ -1,0 +1,50 @@
+//! Many saws: what tolerances of making and grids of design do to the speeds of a saw.
+//!
+//! A [`Study`] names numbers of a scene and how they vary. Each of its [`Saw`]s is analysed on
+//! its own, written to a [`Log`] as soon as it is done, and summed up in a [`StudyReport`].
+//!
+//! ```
+//! use sawflutter::scene::{Accuracy, Scene};
+//! use sawflutter::study::{Study, StudyFile, StudyReport};
+//!
+//! let mut scene = Scene::paper();
+//! scene.file.accuracy = Accuracy::Draft;
+//! scene.file.guides.clear();
+//! let study = StudyFile::from_json(
+//!     r#"{ "name": "Thickness", "saws": 8, "parameters": [{ "path": "blade.thickness_m",
+//!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
+//! )?;
+//! let study = Study::new(scene.file, study)?;
+//! let saws: Vec<_> = (0..study.count()).map(|index| study.saw(index)).collect();
+//! let report = StudyReport::new(&study, &saws);
+//! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
+//! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
+//! # Ok::<(), sawflutter::study::StudyError>(())
+//! ```
+
+mod csv;
+mod distribution;
+mod file;
+mod inputs;
+mod log;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod plan;
+mod report;
+mod run;
+mod saw;
+mod statistics;
+
+pub use csv::csv;
+pub use file::{DistributionFile, LimitsFile, ParameterFile, StudyError, StudyFile, json_schema};
+pub use inputs::Inputs;
+pub use log::{Log, LogError, read_inputs, read_log};
+#[cfg(feature = "parquet")]
+pub use parquet::parquet;
+pub use plan::{Shard, Study};
+pub use report::{
+    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, SpeedEntry,
+    StudyReport,
+};
+pub use run::run;
+pub use saw::{Found, Outcome, Saw};

@@ -1,0 +1,149 @@
+//! `study.parquet`: the table of `study.csv`, with types.
+
+use std::sync::Arc;
+
+use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{Type, TypePtr};
+
+use super::csv::{STATUS, columns};
+use super::inputs::Inputs;
+use super::plan::Study;
+use super::saw::{Found, Outcome, Saw};
+
+/// A column; saws that were not analysed have none of its values.
+enum Column {
+    Integers(Vec<Option<i64>>),
+    Numbers(Vec<Option<f64>>),
+    Answers(Vec<Option<bool>>),
+    Texts(Vec<Option<String>>),
+}
+
+/// The saws as an Apache Parquet file of one row group; its metadata holds the scene and the
+/// study under `sawflutter`.
+///
+/// # Errors
+/// [`ParquetError`], which writing to memory does not raise.
+pub fn parquet(study: &Study, saws: &[Saw]) -> Result<Vec<u8>, ParquetError> {
+    let columns: Vec<(String, Column)> = columns(study)
+        .into_iter()
+        .zip(values(study, saws))
+        .collect();
+    let inputs = serde_json::to_string(&Inputs::of(study))
+        .map_err(|error| ParquetError::External(Box::new(error)))?;
+    let properties = WriterProperties::builder()
+        .set_key_value_metadata(Some(vec![KeyValue::new("sawflutter".to_owned(), inputs)]))
+        .build();
+    let mut writer =
+        SerializedFileWriter::new(Vec::new(), schema(&columns)?, Arc::new(properties))?;
+    let mut rows = writer.next_row_group()?;
+    for (_, column) in &columns {
+        if let Some(mut open) = rows.next_column()? {
+            write(&mut open, column)?;
+            open.close()?;
+        }
+    }
+    rows.close()?;
+    writer.into_inner()
+}
+
+/// The columns in the order of their names.
+fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
+    let numbers = |of: &dyn Fn(&Saw) -> Option<f64>| Column::Numbers(saws.iter().map(of).collect());
+    let speeds = |of: fn(&Found) -> Option<f64>| numbers(&|saw| saw.found().and_then(of));
+    let integers = |of: &dyn Fn(&Saw) -> Option<usize>| {
+        Column::Integers(saws.iter().map(|saw| of(saw).map(|n| n as i64)).collect())
+    };
+    let answers = |of: &dyn Fn(&Found) -> Option<bool>| {
+        Column::Answers(saws.iter().map(|saw| saw.found().and_then(of)).collect())
+    };
+    let texts = |of: fn(&Saw) -> Option<String>| Column::Texts(saws.iter().map(of).collect());
+    let mut columns = vec![integers(&|saw| Some(saw.index))];
+    columns.extend((0..study.varying.len()).map(|k| numbers(&|saw| Some(saw.values[k]))));
+    columns.extend([
+        texts(|saw| Some(status(saw).to_owned())),
+        speeds(|found| found.lowest_critical_rpm),
+        speeds(|found| found.flutter_rpm),
+        speeds(|found| found.first_merge_rpm),
+        answers(&Found::passed),
+    ]);
+    let kept = 0..study.criteria_of_nothing().len();
+    columns.extend(kept.map(|k| answers(&|found| Some(found.kept[k]))));
+    columns.extend([
+        integers(&|saw| saw.found().map(|found| found.functions)),
+        speeds(|found| Some(found.estimated_relative_error)),
+        integers(&|saw| saw.found().map(|found| found.krein_violations)),
+        texts(|saw| match &saw.outcome {
+            Outcome::Analysed(_) => None,
+            Outcome::Refused(reason) | Outcome::Failed(reason) => Some(reason.clone()),
+        }),
+    ]);
+    columns
+}
+
+fn status(saw: &Saw) -> &'static str {
+    match saw.outcome {
+        Outcome::Analysed(_) => STATUS[0],
+        Outcome::Refused(_) => STATUS[1],
+        Outcome::Failed(_) => STATUS[2],
+    }
+}
+
+fn schema(columns: &[(String, Column)]) -> Result<TypePtr, ParquetError> {
+    let mut fields = Vec::new();
+    for (name, column) in columns {
+        let physical = match column {
+            Column::Integers(_) => Physical::INT64,
+            Column::Numbers(_) => Physical::DOUBLE,
+            Column::Answers(_) => Physical::BOOLEAN,
+            Column::Texts(_) => Physical::BYTE_ARRAY,
+        };
+        let mut field =
+            Type::primitive_type_builder(name, physical).with_repetition(Repetition::OPTIONAL);
+        if let Column::Texts(_) = column {
+            field = field
+                .with_converted_type(ConvertedType::UTF8)
+                .with_logical_type(Some(LogicalType::String));
+        }
+        fields.push(Arc::new(field.build()?));
+    }
+    let group = Type::group_type_builder("study").with_fields(fields);
+    Ok(Arc::new(group.build()?))
+}
+
+fn write(open: &mut SerializedColumnWriter<'_>, column: &Column) -> Result<(), ParquetError> {
+    match column {
+        Column::Integers(cells) => {
+            let (values, levels) = dense(cells);
+            open.typed::<Int64Type>()
+                .write_batch(&values, Some(&levels), None)?;
+        }
+        Column::Numbers(cells) => {
+            let (values, levels) = dense(cells);
+            open.typed::<DoubleType>()
+                .write_batch(&values, Some(&levels), None)?;
+        }
+        Column::Answers(cells) => {
+            let (values, levels) = dense(cells);
+            open.typed::<BoolType>()
+                .write_batch(&values, Some(&levels), None)?;
+        }
+        Column::Texts(cells) => {
+            let (values, levels) = dense(cells);
+            let values: Vec<ByteArray> = values.iter().map(|v| v.as_str().into()).collect();
+            open.typed::<ByteArrayType>()
+                .write_batch(&values, Some(&levels), None)?;
+        }
+    }
+    Ok(())
+}
+
+/// The values there are, and a level a row: 1 where there is one, 0 where there is none.
+fn dense<T: Clone>(cells: &[Option<T>]) -> (Vec<T>, Vec<i16>) {
+    let levels = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
+    (cells.iter().flatten().cloned().collect(), levels)
+}

@@ -1,0 +1,364 @@
+//! A validated study: which saws there are.
+//!
+//! Saws are numbered through the grid, its first parameter slowest, and within each point of
+//! the grid through the points of a Sobol sequence with Owen's scrambling (Burley, Journal of
+//! Computer Graphics Techniques 9 (2020), 1). A saw depends on its number alone, so that any
+//! machine can compute any of them. Every point of the grid gets the same deviations: what
+//! differs between two of them is then due to the grid.
+
+use super::distribution::Distribution;
+use super::file::{LimitsFile, StudyError, StudyFile};
+use crate::check::{Criterion, Limits};
+use crate::scene::{MAX_RPM, Parameter, Scene, SceneFile, SpeedRange, rad_per_s};
+use crate::stability::ChosenBasis;
+
+/// Length of the library's Sobol sequences.
+const MAX_DRAWN: u32 = 1 << 16;
+/// Their dimensions.
+const MAX_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
+/// Saws of a study: weeks of computing, and a table that still fits into memory.
+const MAX_SAWS: usize = 1_000_000;
+/// Quantiles that a report lists.
+const MAX_QUANTILES: usize = 100;
+/// Confidence below this is none; above, more saws are needed than a study has.
+const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
+/// Half a step of the sequence's 24 bits: its numbers begin at 0, ours lie within 0 and 1.
+const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
+
+/// A scene, what varies in it, and what it is held against.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The saw without deviations, as typed.
+    pub scene: SceneFile,
+    /// The study as typed.
+    pub file: StudyFile,
+    /// What every saw is held against.
+    pub limits: Option<Limits>,
+    /// Last speed looked at, the same for every saw.
+    pub to_rad_per_s: f64,
+    /// The numbers that vary, in the order of the file.
+    pub(super) varying: Vec<(Parameter, Distribution)>,
+    /// Saws in each point of the grid.
+    drawn: usize,
+    count: usize,
+}
+
+/// One of several equal parts of a study, for a machine of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which part, from 1.
+    pub number: usize,
+    /// How many there are.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All in one.
+    pub const WHOLE: Shard = Shard { number: 1, of: 1 };
+
+    /// Whether a saw belongs to this part: every `of`-th does, so that all parts take as long.
+    pub fn holds(&self, index: usize) -> bool {
+        index % self.of == self.number - 1
+    }
+}
+
+impl Study {
+    /// Validates a study of a scene.
+    ///
+    /// # Errors
+    /// [`StudyError`] that names the key, what is allowed and what to do.
+    pub fn new(scene: SceneFile, file: StudyFile) -> Result<Self, StudyError> {
+        let nominal = Scene::try_from(scene.clone()).map_err(|source| StudyError::Scene {
+            key: "the scene".into(),
+            source,
+        })?;
+        let varying = varying(&scene, &file)?;
+        let (drawn, count) = counts(&file, &varying)?;
+        check_statistics(&file)?;
+        let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
+        let end = match (file.to_rpm, nominal.sweep) {
+            (Some(rpm), _) => rad_per_s(speed("to_rpm", rpm)?),
+            (None, Some(sweep)) => sweep.to_rad_per_s,
+            (None, None) => ChosenBasis::new(&nominal, nominal.tolerance())?.range.1,
+        };
+        let reach = limits.map_or(0.0, |limits| limits.reach_rad_per_s());
+        Ok(Study {
+            scene,
+            file,
+            limits,
+            to_rad_per_s: end.max(reach),
+            varying,
+            drawn,
+            count,
+        })
+    }
+
+    /// Number of saws.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Saws in each point of the grid.
+    pub fn drawn(&self) -> usize {
+        self.drawn
+    }
+
+    /// Values of the numbers that vary, of one saw.
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        let mut point = index / self.drawn;
+        let mut values = vec![0.0; self.varying.len()];
+        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying).rev() {
+            if let Distribution::Grid(grid) = distribution {
+                *value = grid[point % grid.len()];
+                point /= grid.len();
+            }
+        }
+        let mut dimension = 0;
+        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying) {
+            if !matches!(distribution, Distribution::Grid(_)) {
+                let place = (index % self.drawn) as u32;
+                let even = sobol_burley::sample(place, dimension, self.file.seed);
+                *value = distribution.at(f64::from(even) + HALF_STEP);
+                dimension += 1;
+            }
+        }
+        values
+    }
+
+    /// The scene of one saw, over the speeds of the study.
+    pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, crate::scene::SceneError> {
+        let parameters = self.varying.iter().map(|(parameter, _)| parameter);
+        let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
+        let scene = self.scene.with(&numbers)?;
+        Ok(Scene {
+            sweep: Some(SpeedRange {
+                from_rad_per_s: 0.0,
+                to_rad_per_s: self.to_rad_per_s,
+            }),
+            ..scene
+        })
+    }
+
+    /// The limits that every saw is held against, as one without any event keeps them.
+    pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
+        let criteria = self.limits.map(|l| l.criteria(None, None, &[], 0.0));
+        criteria.unwrap_or_default()
+    }
+}
+
+fn refuse(
+    key: impl Into<String>,
+    value: impl ToString,
+    allowed: impl Into<String>,
+    remedy: &'static str,
+) -> StudyError {
+    StudyError::Value {
+        key: key.into(),
+        value: value.to_string(),
+        allowed: allowed.into(),
+        remedy,
+    }
+}
+
+fn varying(
+    scene: &SceneFile,
+    file: &StudyFile,
+) -> Result<Vec<(Parameter, Distribution)>, StudyError> {
+    if file.parameters.is_empty() {
+        let allowed = "a list of the numbers that vary";
+        let remedy = "name one, like blade.thickness_m; one saw is what `analyze` is for";
+        return Err(refuse("parameters", "empty", allowed, remedy));
+    }
+    let mut varying: Vec<(Parameter, Distribution)> = Vec::new();
+    for (k, entry) in file.parameters.iter().enumerate() {
+        let parameter = Parameter::new(&entry.path);
+        let key = format!("parameters[{k}].path");
+        if varying.iter().any(|(other, _)| *other == parameter) {
+            let value = format!("{:?} again", entry.path);
+            let remedy = "a number varies in one way";
+            return Err(refuse(key, value, "named once", remedy));
+        }
+        let unusable = |source| StudyError::Scene {
+            key: key.clone(),
+            source,
+        };
+        let nominal = parameter.get(scene).map_err(unusable)?;
+        // Whole numbers, such as of teeth, do not vary.
+        scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
+        let key = format!("parameters[{k}].distribution");
+        let distribution = Distribution::new(&entry.distribution, nominal, &key)?;
+        varying.push((parameter, distribution));
+    }
+    Ok(varying)
+}
+
+/// Saws in each point of the grid, and in all.
+fn counts(
+    file: &StudyFile,
+    varying: &[(Parameter, Distribution)],
+) -> Result<(usize, usize), StudyError> {
+    let grids = varying.iter().filter_map(|(_, distribution)| {
+        let Distribution::Grid(values) = distribution else {
+            return None;
+        };
+        Some(values.len())
+    });
+    let points = grids.clone().fold(1, usize::saturating_mul);
+    let dimensions = varying.len() - grids.count();
+    let drawn = match (file.saws, dimensions) {
+        (None, 0) => 1,
+        (Some(saws), 0) => {
+            let remedy = "leave it out: the grids alone say which saws there are";
+            return Err(refuse("saws", saws, "left out of a study of grids", remedy));
+        }
+        (Some(saws), 1..=MAX_DIMENSIONS) if (1..=MAX_DRAWN).contains(&saws) => saws as usize,
+        (saws, 1..=MAX_DIMENSIONS) => {
+            let value = saws.map_or("missing".into(), |saws| saws.to_string());
+            let allowed = format!("between 1 and {MAX_DRAWN}");
+            let remedy = "1024 give a probability of passing to 3 %, 4096 to 1.5 %";
+            return Err(refuse("saws", value, allowed, remedy));
+        }
+        _ => {
+            let allowed = format!("at most {MAX_DIMENSIONS} numbers with a distribution");
+            let value = format!("a list with {dimensions} of them");
+            let remedy = "leave those out that matter least (`analyze --sensitivity`)";
+            return Err(refuse("parameters", value, allowed, remedy));
+        }
+    };
+    match drawn.saturating_mul(points) {
+        count if count <= MAX_SAWS => Ok((drawn, count)),
+        count => {
+            let allowed = format!("of at most {MAX_SAWS} saws in all");
+            let remedy = "take fewer saws, or a coarser grid";
+            Err(refuse(
+                "the study",
+                format!("one of {count} saws"),
+                allowed,
+                remedy,
+            ))
+        }
+    }
+}
+
+fn check_statistics(file: &StudyFile) -> Result<(), StudyError> {
+    if file.quantiles.len() > MAX_QUANTILES {
+        let value = format!("a list of {}", file.quantiles.len());
+        let allowed = format!("a list of at most {MAX_QUANTILES}");
+        return Err(refuse(
+            "quantiles",
+            value,
+            allowed,
+            "study.csv has every saw",
+        ));
+    }
+    if let Some(k) = (file.quantiles.iter()).position(|share| !(0.0..=1.0).contains(share)) {
+        let key = format!("quantiles[{k}]");
+        let remedy = "give it as a share: 0.05 for 5 %";
+        return Err(refuse(key, file.quantiles[k], "between 0 and 1", remedy));
+    }
+    if !(CONFIDENCE.0..=CONFIDENCE.1).contains(&file.confidence) {
+        let allowed = format!("between {} and {}", CONFIDENCE.0, CONFIDENCE.1);
+        let remedy = "0.95 is usual";
+        return Err(refuse("confidence", file.confidence, allowed, remedy));
+    }
+    Ok(())
+}
+
+fn speed(key: &str, rpm: f64) -> Result<f64, StudyError> {
+    if rpm > 0.0 && rpm <= MAX_RPM {
+        return Ok(rpm);
+    }
+    let allowed = format!("above 0 and at most {MAX_RPM:e}");
+    Err(refuse(
+        key,
+        rpm,
+        allowed,
+        "give it in revolutions per minute",
+    ))
+}
+
+fn limits(file: &LimitsFile, scene: &SceneFile) -> Result<Limits, StudyError> {
+    let Some(operating) = file.operating_rpm.or(scene.operating_rpm) else {
+        let remedy = "give it here, or operating_rpm in the scene";
+        let allowed = "how fast the saw is run";
+        return Err(refuse("limits.operating_rpm", "missing", allowed, remedy));
+    };
+    if !(file.margin > 0.0 && file.margin <= 1.0) {
+        let allowed = "above 0 and at most 1";
+        return Err(refuse(
+            "limits.margin",
+            file.margin,
+            allowed,
+            "the usual rule is 0.85",
+        ));
+    }
+    let asked = |key, rpm: Option<f64>| rpm.map(|rpm| speed(key, rpm).map(rad_per_s)).transpose();
+    Ok(Limits {
+        operating_rad_per_s: rad_per_s(speed("limits.operating_rpm", operating)?),
+        margin: file.margin,
+        min_flutter_rad_per_s: asked("limits.min_flutter_rpm", file.min_flutter_rpm)?,
+        min_critical_rad_per_s: asked("limits.min_critical_rpm", file.min_critical_rpm)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::statistics::interval;
+    use super::*;
+
+    fn study(seed: u32, saws: u32) -> Study {
+        let text = format!(
+            r#"{{ "name": "even", "seed": {seed}, "saws": {saws}, "parameters": [
+                {{ "path": "blade.material.density_kg_per_m3",
+                   "distribution": {{ "kind": "uniform", "from": 7000, "to": 8000 }} }},
+                {{ "path": "guides[0].angle_deg",
+                   "distribution": {{ "kind": "uniform", "from": -60, "to": -50 }} }} ] }}"#
+        );
+        let file = StudyFile::from_json(&text).unwrap();
+        Study::new(Scene::paper().file, file).unwrap()
+    }
+
+    /// Points of the unit square, as the saws of a study.
+    fn points(study: &Study) -> Vec<[f64; 2]> {
+        let even = |v: &[f64]| [(v[0] - 7000.0) / 1000.0, (v[1] + 60.0) / 10.0];
+        let saws = 0..study.count();
+        saws.map(|index| even(&study.values(index))).collect()
+    }
+
+    /// Clopper and Pearson's interval is meant for independent points. That Sobol's are spread
+    /// more evenly makes it hold the truth more often still, and the estimate better.
+    #[test]
+    fn intervals_hold_the_truth_at_least_as_often_as_they_say() {
+        const SEEDS: u32 = 300;
+        const SAWS: usize = 200;
+        for limit in [0.1_f64, 0.4, 0.9] {
+            let exact = 0.5 * limit * limit;
+            let (mut held, mut square) = (0, 0.0);
+            for seed in 0..SEEDS {
+                let inside = |p: &&[f64; 2]| p[0] + p[1] < limit;
+                let passed = points(&study(seed, SAWS as u32))
+                    .iter()
+                    .filter(inside)
+                    .count();
+                let [low, high] = interval(passed, SAWS, 0.9);
+                held += u32::from(low <= exact && exact <= high);
+                square += (passed as f64 / SAWS as f64 - exact).powi(2) / f64::from(SEEDS);
+            }
+            assert!(f64::from(held) >= 0.9 * f64::from(SEEDS), "{limit}: {held}");
+            let independent = exact * (1.0 - exact) / SAWS as f64;
+            assert!(square < independent, "{limit}: {square} {independent}");
+        }
+    }
+
+    #[test]
+    fn seeds_draw_other_saws_and_parts_hold_each_saw_once() {
+        assert_eq!(points(&study(3, 8)), points(&study(3, 8)));
+        assert_ne!(points(&study(3, 8)), points(&study(4, 8)));
+        // The first saws of a longer study are those of a shorter one.
+        assert_eq!(points(&study(3, 64))[..8], points(&study(3, 8)));
+        for index in 0..100 {
+            let parts = (1..=7).map(|number| Shard { number, of: 7 });
+            assert_eq!(parts.filter(|part| part.holds(index)).count(), 1);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Quantiles of speeds of which some lie beyond the sweep, and intervals of a probability.
+
+use statrs::distribution::{Beta, ContinuousCDF};
+
+/// The value below which a share of all lies, `sorted` ascending and `beyond` more that are
+/// greater than any: between order statistics linearly (type 7 of Hyndman and Fan, The
+/// American Statistician 50 (1996), 361). `None` where it lies among those beyond.
+pub fn quantile(sorted: &[f64], beyond: usize, share: f64) -> Option<f64> {
+    let last = (sorted.len() + beyond).checked_sub(1)?;
+    let place = share * last as f64;
+    let below = place.floor();
+    let lower = *sorted.get(below as usize)?;
+    if place == below {
+        return Some(lower);
+    }
+    let upper = *sorted.get(below as usize + 1)?;
+    Some(lower + (place - below) * (upper - lower))
+}
+
+/// The interval of Clopper and Pearson (Biometrika 26 (1934), 404) for a probability, of
+/// `passed` out of `of` independent trials: it holds the truth at least as often as the
+/// confidence says, for any probability and number of trials.
+pub fn interval(passed: usize, of: usize, confidence: f64) -> [f64; 2] {
+    let tail = 0.5 * (1.0 - confidence);
+    let beta = |a: usize, b: usize, share: f64| {
+        let beta = Beta::new(a as f64, b as f64).expect("both are at least 1");
+        beta.inverse_cdf(share)
+    };
+    let failed = of - passed;
+    let low = match passed {
+        0 => 0.0,
+        _ => beta(passed, failed + 1, tail),
+    };
+    let high = match failed {
+        0 => 1.0,
+        _ => beta(passed + 1, failed, 1.0 - tail),
+    };
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_stand_between_order_statistics_and_know_what_lies_beyond() {
+        let sorted = [1.0, 2.0, 4.0];
+        assert_eq!(quantile(&sorted, 0, 0.0), Some(1.0));
+        assert_eq!(quantile(&sorted, 0, 0.75), Some(3.0));
+        assert_eq!(quantile(&sorted, 0, 1.0), Some(4.0));
+        assert_eq!(quantile(&sorted, 2, 0.5), Some(4.0));
+        assert_eq!(quantile(&sorted, 2, 0.6), None);
+        assert_eq!(quantile(&[], 3, 0.0), None);
+        assert_eq!(quantile(&[], 0, 0.5), None);
+    }
+
+    /// Closed forms at the ends: (α/2)^(1/n); and Clopper and Pearson's own definition, the
+    /// binomial tail of α/2, summed here term by term.
+    #[test]
+    fn the_interval_is_that_of_the_binomial_tails() {
+        let [low, high] = interval(10, 10, 0.95);
+        assert!(
+            (low - 0.025_f64.powf(0.1)).abs() < 1e-10 && high == 1.0,
+            "{low}"
+        );
+        let [low, high] = interval(0, 1000, 0.99);
+        assert!(
+            (high - (1.0 - 0.005_f64.powf(1e-3))).abs() < 1e-10 && low == 0.0,
+            "{high}"
+        );
+        for (passed, of) in [(7, 10), (1, 3), (930, 1000), (2000, 4096)] {
+            let [low, high] = interval(passed, of, 0.95);
+            let above: f64 = (passed..=of).map(|k| binomial(of, k, low)).sum();
+            let below: f64 = (0..=passed).map(|k| binomial(of, k, high)).sum();
+            assert!((above - 0.025).abs() < 1e-8, "{passed} of {of}: {above}");
+            assert!((below - 0.025).abs() < 1e-8, "{passed} of {of}: {below}");
+        }
+    }
+
+    fn binomial(n: usize, k: usize, p: f64) -> f64 {
+        let logarithm: f64 = (1..=k).map(|j| ((n - k + j) as f64 / j as f64).ln()).sum();
+        (logarithm + k as f64 * p.ln() + (n - k) as f64 * (-p).ln_1p()).exp()
+    }
+}

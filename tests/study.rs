@@ -1,0 +1,269 @@
+//! Goal: a study says what its saws are: quantiles and probabilities with answers known
+//! exactly, the numbers of `analyze` and `check`, and the same bytes however it was computed.
+//!
+//! Source: the waves of a free blade feel nothing but bending and rotation, K_b ~ h³ and
+//! M ~ h, so every critical speed is proportional to the thickness h.
+
+mod common;
+
+use common::{assert_close, scene};
+use sawflutter::check::{Check, Limits};
+use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
+use sawflutter::stability::{Analysis, Onsets};
+use sawflutter::study::{Outcome, Saw, Study, StudyError, StudyFile, StudyReport};
+
+fn free_blade() -> SceneFile {
+    let mut file = scene("free-blade").file;
+    file.accuracy = Accuracy::Draft;
+    file
+}
+
+fn study(scene: SceneFile, json: &str) -> Result<Study, StudyError> {
+    Study::new(scene, StudyFile::from_json(json)?)
+}
+
+fn all(study: &Study) -> Vec<Saw> {
+    (0..study.count()).map(|index| study.saw(index)).collect()
+}
+
+const THICKNESS: f64 = 0.0028;
+
+fn nominal_critical_rpm() -> f64 {
+    let mut file = free_blade();
+    file.sweep.as_mut().unwrap().to_rpm = 1000.0;
+    let nominal = Scene::try_from(file).unwrap();
+    rpm(Onsets::new(&nominal).unwrap().lowest_critical.unwrap())
+}
+
+#[test]
+fn quantiles_of_critical_speed_are_those_of_thickness() {
+    let study = study(
+        free_blade(),
+        r#"{ "name": "thickness", "saws": 512, "to_rpm": 1000, "quantiles": [0, 0.1, 0.5, 0.9, 1],
+             "parameters": [{ "path": "blade.thickness_m",
+                              "distribution": { "kind": "tolerance", "plus_minus": 1e-4 } }] }"#,
+    )
+    .unwrap();
+    let report = StudyReport::new(&study, &all(&study));
+    let per_metre = nominal_critical_rpm() / THICKNESS;
+    for quantile in &report.all.lowest_critical.quantiles {
+        let exact = THICKNESS + 1e-4 * (2.0 * quantile.share - 1.0);
+        // One of 512 points lies in every 512th of the range, and each quantile between two
+        // neighbours.
+        let allowed = 2.0 * 2e-4 / 512.0 / THICKNESS;
+        let found = quantile.rpm.unwrap();
+        assert_close(
+            &format!("{} of the saws", quantile.share),
+            found,
+            per_metre * exact,
+            allowed,
+        );
+    }
+    assert_eq!(
+        (report.all.flutter.saws, report.all.flutter.beyond),
+        (0, 512)
+    );
+    assert!(report.all.flutter.quantiles.iter().all(|q| q.rpm.is_none()));
+    let histogram = report.all.lowest_critical.histogram.unwrap();
+    assert_eq!(histogram.counts.iter().sum::<usize>(), 512);
+}
+
+/// Critical speed is proportional to the root of the modulus: a normal one makes a probability
+/// that a table of the normal distribution gives.
+#[test]
+fn the_probability_of_passing_is_that_of_the_distribution() {
+    let critical = nominal_critical_rpm();
+    // One standard deviation below the mean: passed by Φ(1) of all, Φ(3) − Φ(−1) of those
+    // within three deviations.
+    let asked = critical * (1.0_f64 - 0.02).sqrt();
+    let text = format!(
+        r#"{{ "name": "modulus", "saws": 1024, "seed": 7, "to_rpm": 1000,
+             "parameters": [{{ "path": "blade.material.youngs_modulus_pa",
+                 "distribution": {{ "kind": "normal", "standard_deviation": 4.06e9 }} }}],
+             "limits": {{ "operating_rpm": 100, "min_critical_rpm": {asked} }} }}"#
+    );
+    let study = study(free_blade(), &text).unwrap();
+    let passing = StudyReport::new(&study, &all(&study)).all.passing.unwrap();
+    let (three, one) = (0.998_650_101_968_369_9, 0.158_655_253_931_457_05);
+    let exact = (three - one) / (2.0 * three - 1.0);
+    assert!(
+        (passing.probability - exact).abs() <= 1.0 / 1024.0,
+        "{}",
+        passing.probability
+    );
+    let [low, high] = passing.interval.unwrap();
+    assert!(low < exact && exact < high);
+    let kept: Vec<usize> = passing.criteria.iter().map(|c| c.passed).collect();
+    assert_eq!(kept, [1024, 1024, passing.passed]);
+}
+
+/// Of the paper's saw, at the value of its scene and at another.
+#[test]
+fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
+    let mut paper = Scene::paper().file;
+    paper.accuracy = Accuracy::Draft;
+    let text = r#"{ "name": "pads", "to_rpm": 2400,
+        "parameters": [{ "path": "guides[0].angle_deg",
+                         "distribution": { "kind": "grid", "values": [-55, -80] } }],
+        "limits": { "operating_rpm": 1800, "min_flutter_rpm": 2300 } }"#;
+    let study = study(paper.clone(), text).unwrap();
+    for saw in all(&study) {
+        let mut file = paper.clone();
+        file.guides[0].angle_deg = saw.values[0];
+        let limits = Limits {
+            min_flutter_rad_per_s: Some(rad_per_s(2300.0)),
+            ..Limits::at(rad_per_s(1800.0))
+        };
+        let mut own = Scene::try_from(file).unwrap();
+        let found = saw.found().unwrap();
+        let check = Check::new(&own, &limits).unwrap();
+        let passed: Vec<bool> = check.criteria.iter().map(|c| c.passed).collect();
+        assert_eq!(found.kept, passed);
+        own.sweep.as_mut().unwrap().to_rad_per_s = rad_per_s(2400.0);
+        let analysis = Analysis::new(&own, &|_, _| ()).unwrap();
+        assert!(analysis.flutter_speed.is_some());
+        // Bands are searched on fewer modes than are charted, each right to 1e-8.
+        for (one, other) in [
+            (found.flutter_rpm, analysis.flutter_speed),
+            (found.first_merge_rpm, analysis.first_merge),
+        ] {
+            assert_close("onset", one.unwrap(), rpm(other.unwrap()), 1e-7);
+        }
+        let lowest = analysis.model.critical[0].speed_rad_per_s;
+        assert_eq!(found.lowest_critical_rpm, Some(rpm(lowest)));
+        assert_eq!(
+            Some(found.estimated_relative_error),
+            analysis.estimated_relative_error
+        );
+    }
+}
+
+#[test]
+fn a_grid_has_every_combination_and_shares_its_deviations() {
+    let study = study(
+        free_blade(),
+        r#"{ "name": "grid", "saws": 4, "to_rpm": 1000, "parameters": [
+            { "path": "blade.thickness_m", "distribution": { "kind": "grid", "values": [0.002, 0.003] } },
+            { "path": "blade.material.density_kg_per_m3",
+              "distribution": { "kind": "uniform", "from": 7700, "to": 7900 } },
+            { "path": "blade.material.poisson_ratio",
+              "distribution": { "kind": "grid", "values": [0.28, 0.29, 0.3] } } ] }"#,
+    )
+    .unwrap();
+    assert_eq!((study.count(), study.drawn()), (24, 4));
+    let values: Vec<Vec<f64>> = (0..24).map(|index| study.values(index)).collect();
+    for (index, saw) in values.iter().enumerate() {
+        let point = index / 4;
+        assert_eq!(saw[0], [0.002, 0.003][point / 3]);
+        assert_eq!(saw[2], [0.28, 0.29, 0.3][point % 3]);
+        assert_eq!(saw[1], values[index % 4][1]);
+        assert!((7700.0..7900.0).contains(&saw[1]));
+    }
+    let report = StudyReport::new(&study, &all(&study));
+    assert_eq!(report.groups.len(), 6);
+    assert_eq!(report.groups[4].grid[0].value, 0.003);
+    assert_eq!(report.groups[4].grid[1].value, 0.29);
+    let thicker = report.groups[4].lowest_critical.median_rpm.unwrap();
+    let thinner = report.groups[1].lowest_critical.median_rpm.unwrap();
+    assert_close("half as thick again", thicker, 1.5 * thinner, 1e-9);
+}
+
+#[test]
+fn saws_that_no_saw_can_be_are_rows_with_a_reason() {
+    let study = study(
+        free_blade(),
+        r#"{ "name": "refused", "limits": { "operating_rpm": 100 }, "parameters": [
+            { "path": "blade.thickness_m",
+              "distribution": { "kind": "grid", "values": [-0.001, 0.0028, 0.9] } } ] }"#,
+    )
+    .unwrap();
+    let saws = all(&study);
+    for (index, key) in [
+        (0, "blade.thickness_m is -0.001"),
+        (2, "blade.thickness_m is 0.9"),
+    ] {
+        let Outcome::Refused(reason) = &saws[index].outcome else {
+            panic!("{:?}", saws[index]);
+        };
+        assert!(reason.contains(key), "{reason}");
+    }
+    let report = StudyReport::new(&study, &saws);
+    assert_eq!(
+        (report.all.saws, report.all.refused, report.all.failed),
+        (3, 2, 0)
+    );
+    assert_eq!(report.all.lowest_critical.saws, 1);
+    let passing = report.all.passing.unwrap();
+    assert_eq!((passing.passed, passing.interval), (1, None));
+    assert_eq!(report.not_analysed.len(), 2);
+}
+
+#[test]
+fn what_is_no_study_is_refused_by_key() {
+    let thickness = r#""path": "blade.thickness_m""#;
+    let even = r#""distribution": { "kind": "tolerance", "plus_minus": 1e-5 }"#;
+    let grid = r#""distribution": { "kind": "grid", "values": [1, 2] }"#;
+    let one = format!("{{ {thickness}, {even} }}");
+    let cases = [
+        (String::new(), r#""saws": 4"#, "parameters is empty"),
+        (one.clone(), r#""seed": 4"#, "saws is missing"),
+        (one.clone(), r#""saws": 0"#, "saws is 0"),
+        (one.clone(), r#""saws": 65537"#, "saws is 65537"),
+        (
+            format!("{{ {thickness}, {grid} }}"),
+            r#""saws": 4"#,
+            "saws is 4",
+        ),
+        (
+            format!("{one}, {one}"),
+            r#""saws": 4"#,
+            "parameters[1].path",
+        ),
+        (
+            format!(r#"{{ "path": "blade.teeth", {even} }}"#),
+            r#""saws": 4"#,
+            "parameters[0].path: ",
+        ),
+        (
+            format!(r#"{{ "path": "guides[0].radius_m", {even} }}"#),
+            r#""saws": 4"#,
+            "parameters[0].path: the parameter is \"guides[0].radius_m\"",
+        ),
+        (one.clone(), r#""saws": 4, "to_rpm": 0"#, "to_rpm is 0"),
+        (
+            one.clone(),
+            r#""saws": 4, "limits": {}"#,
+            "limits.operating_rpm is missing",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "limits": { "operating_rpm": 9, "margin": 2 }"#,
+            "limits.margin is 2",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "limits": { "operating_rpm": 9, "min_flutter_rpm": -1 }"#,
+            "limits.min_flutter_rpm is -1",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "quantiles": [0.5, 5]"#,
+            "quantiles[1] is 5",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "confidence": 95"#,
+            "confidence is 95",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "limit": {}"#,
+            "limit: unknown field",
+        ),
+    ];
+    for (parameters, rest, expected) in cases {
+        let json = format!(r#"{{ "name": "x", "parameters": [{parameters}], {rest} }}"#);
+        let error = study(free_blade(), &json).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{json}: {error}");
+    }
+}
