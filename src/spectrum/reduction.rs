@@ -77,8 +77,8 @@ pub fn of_guided(
     }
 }
 
-/// The projection on the modes that bands are made of alone, and their height; nothing where no
-/// wave is reflected. Without the modes above, that only a chart shows, it costs a third.
+/// The projection on the modes that bands are made of alone, without those that only a chart
+/// shows, and their height; nothing where no wave is reflected.
 pub fn for_bands(
     system: &GyroscopicSystem,
     range: (f64, f64),
@@ -88,9 +88,7 @@ pub fn for_bands(
 ) -> Option<(Projection, f64)> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
     let (height, last) = builder.reflected_height(range.1);
-    if height == 0.0 {
-        return None;
-    }
+    (height > 0.0).then_some(())?;
     builder.window = height;
     builder.add_first_snapshots([None, last]);
     Some((builder.whole_range(height), height))
