@@ -4,8 +4,10 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::figure;
-use sawflutter::report::{CutReport, Report, RunUpReport};
-use sawflutter::scene::Scene;
+use sawflutter::fit::{Fit, Measurement};
+use sawflutter::place::{Demands, Placement};
+use sawflutter::report::{CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use sawflutter::scene::{Freed, Scene};
 use sawflutter::stability::Analysis;
 use sawflutter::transient::{Cutting, RunningUp};
 
@@ -44,6 +46,9 @@ fn main() -> anyhow::Result<()> {
         if let Some(png) = figure::root_loci_png(&report)? {
             write("root-loci.png", &png)?;
         }
+        if let Some(png) = figure::membrane_png(&report)? {
+            write("membrane.png", &png)?;
+        }
         if let Some(cut) = &scene.cut {
             let cutting = Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?;
             let report = CutReport::new(&scene, &cutting);
@@ -56,6 +61,13 @@ fn main() -> anyhow::Result<()> {
             write("runup.png", &figure::runup_png(&report)?)?;
             write("response-map.png", &figure::response_map_png(&report)?)?;
         }
+        if scene.file.measured.is_some() {
+            write("fit.png", &figure::fit_png(&fit(&scene)?)?)?;
+        }
+        if scene.guides.len() > 1 {
+            let png = figure::place_png(&place(&scene)?)?.context("it has a map")?;
+            write("place.png", &png)?;
+        }
         println!("{name}");
     }
     // A thousand saws take minutes: README.md says how its report was made.
@@ -65,4 +77,42 @@ fn main() -> anyhow::Result<()> {
     std::fs::write(figures.join("paper-study.png"), figure::study_png(&report)?)?;
     println!("paper-study");
     Ok(())
+}
+
+/// `sawflutter fit --to-rpm 1250`.
+fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
+    let to_rpm = 1250.0;
+    let own = scene.file.measured.as_ref().context("it is measured")?;
+    let measurement = Measurement::of_scene(own);
+    let freed = ["radius_m", "stiffness_n_per_m"]
+        .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
+    let freed = freed.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let options = sawflutter::fit::Options::default();
+    let fit = Fit::new(
+        scene,
+        &measurement.up_to(to_rpm),
+        &freed,
+        &options,
+        &|_, _| (),
+    )?;
+    Ok(FitReport::new(
+        scene,
+        &measurement,
+        to_rpm,
+        options.confidence,
+        &fit,
+    )?)
+}
+
+/// `sawflutter place` with the pad's radius and angle free.
+fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
+    let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.2, 0.3)?;
+    let angle = Freed::new(&scene.file, "guides[0].angle_deg", -120.0, 0.0)?;
+    let options = sawflutter::place::Options {
+        map: 31,
+        ..Default::default()
+    };
+    let demands = Demands::default();
+    let found = Placement::new(scene, &[radius, angle], &demands, &options, &|_, _, _| ())?;
+    Ok(PlaceReport::new(&demands, &found))
 }

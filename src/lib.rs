@@ -3,7 +3,7 @@
 //! The rooms of this crate stand in the order in which a saw goes through them, and
 //! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`]. [`check`] stands after [`stability`], [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
+//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`], [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone.
 //!
 //! ```
@@ -22,6 +22,8 @@
 pub mod campbell;
 pub mod check;
 pub mod figure;
+pub mod fit;
+pub mod place;
 pub mod plate;
 pub mod report;
 pub mod scene;

@@ -1,7 +1,7 @@
 //! The equation of motion at a rotation speed.
 //!
 //! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ] q = 0, mass matrix one,
-//! K₀ = K_b + K_g + K_e. Terms that the scene does not name are absent.
+//! K₀ = K_b + K_m + K_g + K_e. Terms that the scene does not name are absent.
 
 use faer::{Col, Mat, MatRef, Scale};
 
@@ -11,7 +11,7 @@ use crate::plate::{HarmonicBlock, Plate};
 /// gives a system of the same kind.
 #[derive(Debug, Clone)]
 pub struct GyroscopicSystem {
-    /// K₀ = K_b + K_g + K_e, in 1/s², symmetric.
+    /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric.
     pub stiffness: Mat<f64>,
     /// K_σ − N, dimensionless, symmetric.
     pub spin: Mat<f64>,
@@ -61,7 +61,7 @@ impl GyroscopicSystem {
         let mut stiffness = Mat::zeros(size, size);
         let mut spin = Mat::zeros(size, size);
         let mut gyroscopic = Mat::zeros(size, size);
-        for harmonic in &plate.harmonics[range] {
+        for harmonic in &plate.harmonics[range.clone()] {
             let n = harmonic.diameters;
             let cosine = plate.offset(n) - first;
             put(&mut stiffness, cosine, &harmonic.bending);
@@ -86,10 +86,14 @@ impl GyroscopicSystem {
             drift: None,
         };
         system.add_blade_damping(plate);
+        if plate.membrane.is_some() {
+            let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.as_ref());
+            system.stiffness += spread(plate, range, &blocks.collect::<Vec<_>>());
+        }
         system
     }
 
-    /// Called before guides and edge loads join the stiffness, so K₀ is K_b here.
+    /// Called before membrane stress, guides and edge loads join the stiffness, so K₀ is K_b here.
     fn add_blade_damping(&mut self, plate: &Plate) {
         let Some(damping) = plate.damping else {
             return;
@@ -280,6 +284,26 @@ impl GyroscopicSystem {
 /// Share of the largest number below which a number is rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// A matrix that couples no harmonics, from its blocks of n = 0 … n_max: the part of the given n,
+/// the same block for cosines and sines.
+pub(crate) fn spread(
+    plate: &Plate,
+    range: std::ops::RangeInclusive<usize>,
+    blocks: &[&nalgebra::DMatrix<f64>],
+) -> Mat<f64> {
+    let first = plate.offset(*range.start());
+    let size = plate.offset(range.end() + 1) - first;
+    let mut matrix = Mat::zeros(size, size);
+    for n in range {
+        let cosine = plate.offset(n) - first;
+        put(&mut matrix, cosine, blocks[n]);
+        if n > 0 {
+            put(&mut matrix, cosine + plate.basis.count(), blocks[n]);
+        }
+    }
+    matrix
+}
+
 fn put(matrix: &mut Mat<f64>, offset: usize, block: &nalgebra::DMatrix<f64>) {
     for j in 0..block.nrows() {
         for k in 0..block.ncols() {
@@ -298,13 +322,14 @@ fn skew(matrix: Mat<f64>) -> Mat<f64> {
 }
 
 /// K₀ and K_σ − N of one harmonic in the body frame, where the undamped free blade
-/// is a symmetric problem: (K_b + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
+/// is a symmetric problem: (K_b + K_m + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
 pub fn body_frame_stiffness(block: &HarmonicBlock, speed_rad_per_s: f64) -> Mat<f64> {
     let n2 = (block.diameters * block.diameters) as f64;
     let speed2 = speed_rad_per_s.powi(2);
     Mat::from_fn(block.bending.nrows(), block.bending.ncols(), |j, k| {
         let inertia = if j == k { n2 } else { 0.0 };
-        block.bending[(j, k)] + speed2 * (block.spin[(j, k)] + inertia)
+        let membrane = block.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
+        block.bending[(j, k)] + membrane + speed2 * (block.spin[(j, k)] + inertia)
     })
 }
 

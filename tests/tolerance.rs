@@ -1,7 +1,7 @@
 //! Goal: a tolerance is a promise, and the estimate that it is checked by is one too.
 //!
 //! Pads of 1e4 to 1e9 N/m on blades with bores of 0.1 to 0.8, one or two of them, of many
-//! sizes and places: 30 saws. The truth is a basis of 1176 functions, half as large again
+//! sizes and places: 30 saws, and 30 others. The truth is a basis of 1176 functions, half as large again
 //! as the largest that the program takes.
 
 mod common;
@@ -56,11 +56,57 @@ fn saws() -> Vec<Saw> {
     saws
 }
 
-/// The true error of every tolerance, against its estimate and against the promise.
+/// Saws with every quantity spread evenly over its range, by the fractions of multiples of
+/// irrational numbers. The first fifteen had a part in choosing the margin of the estimate, the
+/// others had none.
+fn other_saws() -> Vec<Saw> {
+    let saw = |k: usize| {
+        let spread = |prime: f64, low: f64, high: f64| {
+            low + (high - low) * ((k + 1) as f64 * prime.sqrt()).fract()
+        };
+        let mut file = Scene::paper().file;
+        let rim_m = spread(2.0, 0.1, 0.6);
+        let bore = spread(3.0, 0.1, 0.8);
+        let width_m = rim_m * (1.0 - bore);
+        let stiffness_n_per_m = 10_f64.powf(spread(5.0, 4.0, 9.0));
+        file.blade.outer_diameter_m = 2.0 * rim_m;
+        file.blade.inner_diameter_m = 2.0 * rim_m * bore;
+        file.blade.thickness_m = rim_m * spread(7.0, 0.004, 0.012);
+        file.sweep = None;
+        file.operating_rpm = None;
+        (file.cut, file.runup, file.probe, file.measured) = (None, None, None, None);
+        let pad = |turn: f64| GuideFile {
+            radius_m: rim_m - width_m * spread(11.0, 0.1, 0.9),
+            angle_deg: turn * spread(13.0, 60.0, 180.0),
+            radial_length_m: width_m * spread(17.0, 0.1, 0.8),
+            tangential_length_m: rim_m * spread(19.0, 0.05, 0.6),
+            stiffness_n_per_m,
+            damping_n_s_per_m: 0.0,
+        };
+        file.guides = (0..=k % 3).map(|turn| pad(turn as f64)).collect();
+        Saw {
+            what: format!("{stiffness_n_per_m:.1e} N/m, bore {bore:.2}, other saw {k}"),
+            scene: Scene::try_from(file).unwrap(),
+        }
+    };
+    (0..30).map(saw).collect()
+}
+
 #[test]
 fn estimates_and_promises_hold_on_thirty_saws() {
+    assert_promises(&saws(), 60);
+}
+
+#[test]
+fn estimates_and_promises_hold_on_thirty_others() {
+    assert_promises(&other_saws(), 60);
+}
+
+/// The true error of every tolerance, against its estimate and against the promise, of
+/// which at least so many must be within reach.
+fn assert_promises(saws: &[Saw], reached: usize) {
     let tolerances = [1e-2, 1e-3, 1e-4];
-    let rows: Vec<[(f64, f64); 3]> = saws()
+    let rows: Vec<[(f64, f64); 3]> = saws
         .par_iter()
         .map(|saw| {
             let truth = SpectralModel::critical_speeds(&Plate::new(&saw.scene, TRUTH)).unwrap();
@@ -83,7 +129,7 @@ fn estimates_and_promises_hold_on_thirty_saws() {
     let mut ratios = Worst::default();
     let mut promises = Worst::default();
     let mut short = 0;
-    for (saw, row) in saws().iter().zip(&rows) {
+    for (saw, row) in saws.iter().zip(&rows) {
         let [draft, design, reference] =
             row.map(|(error, estimate)| format!("{error:.1e} of {estimate:.1e}"));
         println!("{}: {draft}, {design}, {reference}", saw.what);
@@ -103,7 +149,10 @@ fn estimates_and_promises_hold_on_thirty_saws() {
     println!("{short} of {} tolerances are out of reach", 3 * rows.len());
     ratios.assert_at_most("true error over its estimate", 3.0);
     promises.assert_at_most("true error over its tolerance", 1.0);
-    assert!(promises.count > 60, "too much is out of reach: {short}");
+    assert!(
+        promises.count > reached,
+        "too much is out of reach: {short}"
+    );
 }
 
 /// Flutter onsets keep the promise too.

@@ -41,24 +41,28 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
-    // An earlier run may have left the loci of another saw.
-    let fluttered = files.iter().any(|(name, _)| name.starts_with("root-loci"));
-    let stale: &[&str] = if fluttered {
-        &[]
-    } else {
-        &["root-loci.png", "root-loci.svg"]
-    };
+    // An earlier run may have left those of another saw.
+    let mut stale = OPTIONAL.to_vec();
+    stale.retain(|name| files.iter().all(|(drawn, _)| drawn != name));
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, stale, &json, || summary(&report))
+        .print(&folder, &files, &stale, &json, || summary(&report))
 }
+
+/// Figures that not every saw has.
+const OPTIONAL: [&str; 4] = [
+    "root-loci.png",
+    "root-loci.svg",
+    "membrane.png",
+    "membrane.svg",
+];
 
 /// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.
 fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::FigureError> {
     type Draw = fn(&Report) -> Result<Option<Vec<u8>>, figure::FigureError>;
-    let all: [(&'static str, Draw); 4] = [
+    let all: [(&'static str, Draw); 6] = [
         ("campbell.png", |r| figure::campbell_png(r).map(Some)),
         ("campbell.svg", |r| {
             Ok(Some(figure::campbell_svg(r)?.into_bytes()))
@@ -66,6 +70,10 @@ fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::Figu
         ("root-loci.png", figure::root_loci_png),
         ("root-loci.svg", |r| {
             Ok(figure::root_loci_svg(r)?.map(String::into_bytes))
+        }),
+        ("membrane.png", figure::membrane_png),
+        ("membrane.svg", |r| {
+            Ok(figure::membrane_svg(r)?.map(String::into_bytes))
         }),
     ];
     let drawn: Vec<_> = all

@@ -5,7 +5,10 @@ mod check;
 mod common;
 mod cut;
 mod export;
+mod fit;
+mod free;
 mod output;
+mod place;
 mod runup;
 mod schema;
 mod study;
@@ -38,6 +41,12 @@ enum Command {
     /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
+    /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
+    #[command(after_help = fit::EXAMPLES)]
+    Fit(fit::Arguments),
+    /// Put the guides where flutter comes latest; place.json, a scene, a map
+    #[command(after_help = place::EXAMPLES)]
+    Place(place::Arguments),
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
@@ -70,8 +79,10 @@ pub fn run() -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Fit(arguments)) => fit::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
+        Some(Command::Place(arguments)) => return place::run(&arguments),
         Some(Command::Check(arguments)) => return check::run(&arguments),
         Some(Command::Study(arguments)) => study::run(&arguments),
         Some(Command::Schema(arguments)) => schema::run(&arguments),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sawflutter::report::{InstabilityEntry, InstabilityKind, Report};
+use sawflutter::report::{HeatLimitEntry, InstabilityEntry, InstabilityKind, Report};
 use sawflutter::spectrum::{Direction, in_words};
 
 /// Lines of a table before the rest is only counted.
@@ -113,6 +113,7 @@ fn verdict(text: &mut String, report: &Report) -> std::fmt::Result {
         )?;
     }
     operating(text, report)?;
+    heat(text, report)?;
     if let Some(error) = report.accuracy.estimated_relative_error {
         writeln!(
             text,
@@ -160,6 +161,54 @@ fn operating(text: &mut String, report: &Report) -> std::fmt::Result {
     )
 }
 
+/// How hot the blade may become, on the scene's temperature profile.
+fn heat(text: &mut String, report: &Report) -> std::fmt::Result {
+    let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
+    let Some(heat) = heat else {
+        return Ok(());
+    };
+    writeln!(text, "Heat, peak of the profile now {:+.1} K:", heat.rise_k)?;
+    let shape = |limit: &HeatLimitEntry| {
+        let (diameters, circles) = (limit.nodal_diameters, limit.nodal_circles);
+        in_words(diameters, circles, Direction::Standing)
+    };
+    if let Some(limit) = &heat.operating_limit {
+        writeln!(
+            text,
+            "  {:+.1} K brings the first critical speed down to the operating speed\n    ({})",
+            limit.rise_k,
+            shape(limit)
+        )?;
+    } else if heat.past_critical_when_cold {
+        writeln!(
+            text,
+            "  the operating speed is critical even for the cold blade"
+        )?;
+    } else if report.operating.is_some() && !heat.buckles_first {
+        writeln!(
+            text,
+            "  it never brings a critical speed down to the operating speed"
+        )?;
+    }
+    if let Some(limit) = &heat.flat_from {
+        let (rise, shape) = (limit.rise_k, shape(limit));
+        writeln!(text, "  below {rise:+.1} K it is buckled at rest ({shape})")?;
+    }
+    match &heat.buckling {
+        Some(limit) => writeln!(
+            text,
+            "  {:+.1} K buckles the blade at rest{}\n    ({})",
+            limit.rise_k,
+            match heat.buckles_first {
+                true => ", before a critical speed is that low",
+                false => "",
+            },
+            shape(limit)
+        ),
+        None => writeln!(text, "  it never buckles the blade at rest"),
+    }
+}
+
 fn sensitivity(text: &mut String, report: &Report) -> std::fmt::Result {
     if report.sensitivities.is_empty() {
         return Ok(());
@@ -178,7 +227,7 @@ fn sensitivity(text: &mut String, report: &Report) -> std::fmt::Result {
         let percent = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:+.3} %"));
         writeln!(
             text,
-            "  {:<8} more {:<34} {:>11} {:>11}",
+            "  {:<8} more {:<36} {:>11} {:>11}",
             entry.change,
             entry.parameter,
             percent(critical),

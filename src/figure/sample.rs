@@ -29,6 +29,7 @@ pub fn empty_report(name: &str) -> Report {
         mount: Mount::Spline {},
         guides: Vec::new(),
         damping: None,
+        membrane: None,
         spline: None,
         cut: None,
         runup: None,
@@ -74,6 +75,7 @@ pub fn empty_report(name: &str) -> Report {
             branches: Vec::new(),
         },
         root_loci: None,
+        membrane: None,
         sensitivities: Vec::new(),
         warnings: Vec::new(),
     }

@@ -17,10 +17,12 @@ pub struct HarmonicBlock {
     pub bending: DMatrix<f64>,
     /// K_σ − N: ∫ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
+    /// K_m, in 1/s², of a membrane stress that does not depend on the speed.
+    pub membrane: Option<DMatrix<f64>>,
 }
 
 impl HarmonicBlock {
-    /// Assembles both matrices for n nodal diameters.
+    /// Assembles bending and rotation for n nodal diameters.
     pub fn new(blade: &Blade, basis: &RadialBasis, diameters: usize) -> Self {
         let n2 = (diameters * diameters) as f64;
         let n = diameters as f64;
@@ -57,6 +59,7 @@ impl HarmonicBlock {
             diameters,
             bending,
             spin,
+            membrane: None,
         };
         block.free_rigid_motion(basis);
         block.bending.fill_upper_triangle_with_lower_triangle();

@@ -6,6 +6,7 @@
 
 mod edge_load;
 mod harmonic;
+mod membrane;
 mod pad;
 mod quadrature;
 mod radial;
@@ -13,6 +14,7 @@ mod stress;
 
 pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
+pub use membrane::{Eigenstrain, MembraneSource, MembraneStress, PlaneStress, membrane_stiffness};
 pub use radial::{RadialBasis, RadialValues};
 pub use stress::CentrifugalStress;
 
@@ -58,7 +60,7 @@ pub struct Plate {
     pub resolution: Resolution,
     /// Radial functions.
     pub basis: RadialBasis,
-    /// K_b and K_σ − N of n = 0 … n_max.
+    /// K_b, K_m and K_σ − N of n = 0 … n_max.
     pub harmonics: Vec<HarmonicBlock>,
     /// K_g, in 1/s², when a guide has a stiffness.
     pub guide_stiffness: Option<Mat<f64>>,
@@ -68,6 +70,8 @@ pub struct Plate {
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
     pub damping: Option<Damping>,
+    /// Stress of heat, roll tension or manufacture, when the scene names one.
+    pub membrane: Option<MembraneStress>,
     /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
     samples: [Vec<Vec<f64>>; 2],
 }
@@ -84,9 +88,17 @@ impl Plate {
     /// Assembles the matrices that the scene asks for.
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(&scene.blade, resolution.radial_functions);
-        let harmonics = (0..=resolution.max_diameters)
+        let mut harmonics: Vec<HarmonicBlock> = (0..=resolution.max_diameters)
             .map(|n| HarmonicBlock::new(&scene.blade, &basis, n))
             .collect();
+        let membrane = scene.membrane.as_ref();
+        let membrane = membrane.and_then(|named| MembraneStress::new(&scene.blade, named));
+        if let Some(stress) = &membrane {
+            let stiffness = membrane_stiffness(&basis, stress, resolution.max_diameters);
+            for (harmonic, block) in harmonics.iter_mut().zip(stiffness) {
+                harmonic.membrane = Some(block);
+            }
+        }
         let samples = [0, 1].map(|n| {
             sampled_radii(&scene.blade)
                 .map(|r| basis.evaluate(n, r).value)
@@ -101,6 +113,7 @@ impl Plate {
             guide_damping: None,
             edge_stiffness: None,
             damping: scene.damping,
+            membrane,
             samples,
         };
         for guide in &scene.guides {
@@ -136,6 +149,16 @@ impl Plate {
             edge_stiffness: Some(edge_stiffness),
             ..self.clone()
         }
+    }
+
+    /// The same plate without stress of heat, roll tension or manufacture.
+    pub fn without_membrane(&self) -> Self {
+        let mut plate = Plate {
+            membrane: None,
+            ..self.clone()
+        };
+        plate.harmonics.iter_mut().for_each(|h| h.membrane = None);
+        plate
     }
 
     /// The same plate without any damping.

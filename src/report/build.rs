@@ -9,8 +9,8 @@ use super::branches::branches;
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, OperatingEntry, Report, RestMode, RootLociEntry, RootPathEntry,
-    SensitivityEntry, ShapeEntry, WorkEntry,
+    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry,
+    RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
@@ -26,7 +26,7 @@ impl Report {
     /// Reports an analysis of a scene.
     ///
     /// # Errors
-    /// [`SpectrumError`] when the modes at rest cannot be computed.
+    /// [`SpectrumError`] when the modes at rest or the limits of heat cannot be computed.
     pub fn new(scene: &Scene, analysis: &Analysis) -> Result<Self, SpectrumError> {
         let model = &analysis.model;
         let at_rest = model.describe(0.0, model.modes(0.0)?);
@@ -72,6 +72,7 @@ impl Report {
                 branches: branches(analysis),
             },
             root_loci: root_loci(analysis),
+            membrane: MembraneEntry::new(scene, analysis)?,
             sensitivities: Vec::new(),
             warnings: warnings(scene, analysis, &at_rest),
         })

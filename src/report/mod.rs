@@ -5,6 +5,9 @@ mod branches;
 mod build;
 mod csv;
 mod cut;
+mod fit;
+mod membrane;
+mod place;
 mod remarks;
 mod runup;
 mod spline;
@@ -13,6 +16,11 @@ use serde::{Deserialize, Serialize};
 
 pub use self::cut::{
     ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
+};
+pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
+pub use self::place::{
+    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 pub use self::spline::SplineEntry;
@@ -55,6 +63,8 @@ pub struct Report {
     /// The two modes that meet at the flutter speed (or at the first merging), followed
     /// through it in the complex plane.
     pub root_loci: Option<RootLociEntry>,
+    /// Stress of heat, roll tension and manufacture, when the scene names one.
+    pub membrane: Option<MembraneEntry>,
     /// How critical speeds and onsets move with the saw, when asked for.
     pub sensitivities: Vec<SensitivityEntry>,
     /// Remarks on the validity of the result.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::plate::Plate;
+use crate::plate::{MembraneSource, Plate};
 use crate::scene::{Bore, Scene, rpm};
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
@@ -27,6 +27,14 @@ pub fn terms(plate: &Plate) -> Vec<String> {
             terms.push(name.to_owned());
         }
     };
+    for (source, name) in [
+        (MembraneSource::Heat, "heat K_m"),
+        (MembraneSource::RollTension, "roll tension K_m"),
+        (MembraneSource::Residual, "residual stress K_m"),
+    ] {
+        let membrane = plate.membrane.as_ref();
+        add(membrane.is_some_and(|stress| stress.has(source)), name);
+    }
     add(plate.guide_stiffness.is_some(), "guide stiffness K_g");
     add(plate.guide_damping.is_some(), "guide damping C");
     let damping = plate.damping.as_ref();
@@ -73,6 +81,16 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
         warnings.push(format!(
             "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
             blade.thickness_m / width
+        ));
+    }
+    let membrane = scene.membrane.as_ref();
+    if let Some(residual) = membrane.and_then(|m| m.residual_stress.as_ref())
+        && residual.imbalance != 0.0
+    {
+        warnings.push(format!(
+            "the measured hoop stress is out of balance by {:.1} % of its size; its mean was \
+             taken off, for the edges of the blade are free",
+            100.0 * residual.imbalance
         ));
     }
     let rounded = |m: &&DescribedMode| analysis.model.relative_rounding(&m.mode) > LEAST_DIGITS;

@@ -6,9 +6,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::SplineFile;
 use super::cut::CutFile;
+use super::membrane::MembraneFile;
 use super::runup::{ProbeFile, RunUpFile};
+use super::spline::SplineFile;
 
 /// A saw and what to find out about it, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +30,9 @@ pub struct SceneFile {
     /// Damping. None by default, as in the classical analysis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingFile>,
+    /// Membrane stress from heat, roll tension or as measured. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub membrane: Option<MembraneFile>,
     /// Contact between bore and splined arbor. Not simulated by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spline: Option<SplineFile>,

@@ -4,9 +4,13 @@
 mod check;
 mod cut;
 mod file;
+mod freed;
 mod guide;
+mod membrane;
 mod parameter;
+mod profile;
 mod read;
+mod residual;
 mod runup;
 mod spline;
 mod validate;
@@ -17,9 +21,16 @@ pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
+pub use freed::{Freed, common_turn, scene_at, spread};
 pub use guide::Guide;
+pub use membrane::{
+    Membrane, MembraneFile, RollBand, RollBandFile, Temperature, TemperatureFile, TemperatureRow,
+    TemperatureShape,
+};
 pub use parameter::Parameter;
+pub use profile::Profile;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use residual::{ResidualStress, ResidualStressRow};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
 pub use validate::{Blade, Bore, Damping, Scene, SpeedRange};

@@ -4,6 +4,7 @@
 use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
 use super::guide::{Guide, guide};
+use super::membrane::Membrane;
 use super::runup::{Probe, RunUp};
 use super::{
     Accuracy, DampingFile, InPlane, Material, Mount, SceneError, SceneFile, Spline, SweepFile,
@@ -21,6 +22,8 @@ pub struct Scene {
     pub guides: Vec<Guide>,
     /// Damping, if any number of it is not zero.
     pub damping: Option<Damping>,
+    /// Membrane stress from heat, roll tension or as measured.
+    pub membrane: Option<Membrane>,
     /// Contact between bore and arbor, if its motion is asked for.
     pub spline: Option<Spline>,
     /// Speeds asked for; `None` leaves the choice to the program.
@@ -135,6 +138,11 @@ impl TryFrom<SceneFile> for Scene {
                 .transpose()?,
             runup: file.runup.as_ref().map(RunUp::new).transpose()?,
             probe: Probe::new(file.probe.as_ref(), &blade)?,
+            membrane: file
+                .membrane
+                .as_ref()
+                .map(|membrane| Membrane::new(membrane, &blade))
+                .transpose()?,
             blade,
             guides: guides
                 .into_iter()

@@ -147,4 +147,10 @@ impl<'a> LowModel<'a> {
             [first, second],
         ))
     }
+
+    /// A pair at another speed, by a factorization in place of an eigenproblem.
+    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        pair.moved(self.system, speed_rad_per_s, self.height_rad_per_s)
+    }
 }

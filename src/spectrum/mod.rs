@@ -1,11 +1,13 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
+mod buckling;
 mod deflation;
 mod dense;
 pub mod derivative;
 mod free_reduction;
 mod growth;
 mod low;
+mod lowest;
 mod mode;
 mod model;
 mod name;
@@ -17,16 +19,18 @@ mod reduction;
 mod shift_invert;
 mod state;
 
+pub use buckling::{AddedStress, SingularStress, first_singular};
 pub use dense::{companion_eigenpairs, time_scale};
 pub use growth::{fastest_growing, fastest_growing_of};
 pub use low::{LowModel, LowModes};
+pub use lowest::LowestModes;
 pub use mode::{Mode, ModeKind, split};
 pub use model::{DescribedMode, SpectralModel, Strategy, WorkCounters};
 pub use name::{Direction, HarmonicShare, ModeName, in_words};
 pub use pair::ModePair;
-pub(crate) use part::frequency_scale;
 pub use part::{NamedCriticalSpeed, Part};
-pub use pencil::{CriticalSpeed, critical_speeds};
+pub(crate) use part::{frequency_scale, standing_name};
+pub use pencil::{CriticalSpeed, critical_speeds, singular_multiples};
 pub use projection::{Projection, orthonormal};
 pub use shift_invert::lowest_eigenpairs;
 pub use state::{State, StateModel};
@@ -51,6 +55,16 @@ pub enum SpectrumError {
         /// Order of the stiffness matrix.
         order: usize,
     },
+    /// Heat, roll tension or residual stress press the blade out of its plane.
+    #[error(
+        "the blade buckles at rest, in {diameters} nodal diameters: it stays flat up to {share:.3} of the stress of `membrane` and no more; lower the temperature or the residual stress there, roll it otherwise (a hot rim and roll tension work against each other), or hold the blade by stiffer guides"
+    )]
+    Buckled {
+        /// Nodal diameters of the shape that it takes.
+        diameters: usize,
+        /// Share of the scene's membrane stress under which it would buckle.
+        share: f64,
+    },
     /// Numbers so far apart that their products overflow.
     #[error(
         "the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart"
@@ -74,6 +88,16 @@ pub enum SpectrumError {
         modes: usize,
         /// Speeds.
         speeds: usize,
+    },
+    /// The blade would be torn long before the end of the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
+    )]
+    Overstretched {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Fastest speed allowed.
+        limit_rpm: f64,
     },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(

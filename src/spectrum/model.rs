@@ -10,6 +10,7 @@ use faer::{Col, c64};
 
 use crate::plate::Plate;
 
+use super::buckling;
 use super::derivative;
 use super::low::LowModel;
 use super::mode::{Mode, ModeKind, classify};
@@ -76,7 +77,7 @@ pub struct SpectralModel {
 /// At rest the two waves of equal n are degenerate. This share of the blade's
 /// frequency scale, as a rotation, splits them into forward and backward as at any
 /// other speed, and moves frequencies by no more than itself.
-const SPLITTING: f64 = 1e-9;
+pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
     /// Prepares the modes for speeds from `from` to `to`.
@@ -139,9 +140,11 @@ impl SpectralModel {
     /// Every critical speed of a plate, ascending, without preparing anything else.
     ///
     /// # Errors
-    /// [`SpectrumError::UnstableAtRest`].
+    /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
+    /// the reason.
     pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         named_critical_speeds(plate, &Part::of(plate))
+            .map_err(|error| buckling::explained(plate, error))
     }
 
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.

@@ -11,16 +11,24 @@ use super::state::{State, StateModel};
 #[derive(Debug)]
 pub struct ModePair {
     model: StateModel,
+    subspace: Subspace,
+}
+
+/// Two states (q, q̇) side by side, one a column.
+#[derive(Debug, Clone)]
+struct Subspace {
+    q: Mat<c64>,
+    v: Mat<c64>,
 }
 
 /// Steps of inverse iteration with one factorization: each divides what is foreign by the
 /// ratio of the distances of other modes and of the pair from the shift.
-const STEPS: usize = 4;
+const STEPS: std::ops::RangeInclusive<usize> = 4..=16;
 /// Relative residual beyond which the two states are not modes.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 impl ModePair {
-    /// Block inverse iteration from two states, shifted to their mean iω. `None` where it
+    /// The pair of two states of a speed, refined there. `None` where block inverse iteration
     /// does not settle on two modes.
     pub(super) fn new(
         system: &GyroscopicSystem,
@@ -28,12 +36,40 @@ impl ModePair {
         scale: f64,
         states: [&State; 2],
     ) -> Option<Self> {
+        let order = system.order();
+        let start = Subspace {
+            q: Mat::from_fn(order, 2, |i, k| states[k].q[i]),
+            v: Mat::from_fn(order, 2, |i, k| states[k].q[i] * states[k].lambda),
+        };
         let mean = 0.5 * (states[0].lambda.im + states[1].lambda.im);
+        Self::iterated(system, speed_rad_per_s, scale, start, mean)
+    }
+
+    /// The same pair at another speed, from what it is here.
+    pub(super) fn moved(
+        &self,
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        scale: f64,
+    ) -> Option<Self> {
+        let mean = self.mean_frequency(speed_rad_per_s);
+        Self::iterated(system, speed_rad_per_s, scale, self.subspace.clone(), mean)
+    }
+
+    /// Block inverse iteration, shifted to a frequency next to those of the pair.
+    fn iterated(
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        scale: f64,
+        start: Subspace,
+        mean_rad_per_s: f64,
+    ) -> Option<Self> {
         // A hair off, so that L is not singular to the last bit where both modes are one.
-        let shift = c64::new(0.0, mean * (1.0 + 1e-9));
+        let shift = c64::new(0.0, mean_rad_per_s * (1.0 + 1e-9));
+        let order = system.order();
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
-        let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
+        let dynamic: Mat<c64> = Mat::from_fn(order, order, |i, k| {
             let inertia = if i == k {
                 shift * shift
             } else {
@@ -42,33 +78,40 @@ impl ModePair {
             inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
         });
         let factors = dynamic.partial_piv_lu();
-        let damping = Mat::from_fn(system.order(), system.order(), |i, k| {
-            c64::new(velocity[(i, k)], 0.0)
-        });
-        let order = system.order();
-        let mut q = Mat::from_fn(order, 2, |i, k| states[k].q[i]);
-        let mut v = Mat::from_fn(order, 2, |i, k| states[k].q[i] * states[k].lambda);
-        for _ in 0..STEPS {
+        let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
+        let Subspace { mut q, mut v } = start;
+        for step in 1..=*STEPS.end() {
             // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
             let load = &damping * &q + Scale(shift) * &q + &v;
             let u = Scale(c64::new(-1.0, 0.0)) * factors.solve(load);
             v = &q + Scale(shift) * &u;
             q = u;
             orthonormalise(&mut q, &mut v, scale)?;
+            let settled = || residual(&stiffness, &damping, &q, &v) <= LARGEST_RESIDUAL;
+            if step >= *STEPS.start() && settled() {
+                return Self::projected(system, speed_rad_per_s, scale, Subspace { q, v });
+            }
         }
-        if residual(&stiffness, &damping, &q, &v) > LARGEST_RESIDUAL {
-            return None;
-        }
+        None
+    }
+
+    fn projected(
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        scale: f64,
+        subspace: Subspace,
+    ) -> Option<Self> {
+        let Subspace { q, v } = &subspace;
         let states: Vec<State> = (0..2)
             .map(|k| {
-                let (q, v) = (q.col(k).to_owned(), v.col(k).to_owned());
-                let mut state = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q));
-                state.p += v;
+                let zero = c64::new(0.0, 0.0);
+                let mut state = State::new(system, speed_rad_per_s, (zero, q.col(k).to_owned()));
+                state.p += v.col(k);
                 state
             })
             .collect();
         let model = StateModel::new(system, scale, &states)?;
-        (model.order() == 4).then_some(ModePair { model })
+        (model.order() == 4).then_some(ModePair { model, subspace })
     }
 
     /// ((ω₁ − ω₂)/2)², and once merged −σ²; exact at the pair's speed, and to the square of

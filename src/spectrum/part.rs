@@ -95,21 +95,10 @@ pub(super) fn named_critical_speeds(
     let mut named = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         for critical in critical_speeds(&part.full)? {
-            let mut shape = Col::zeros(plate.degrees_of_freedom());
-            for i in 0..critical.shape.nrows() {
-                shape[part.first + i] = c64::new(critical.shape[i], 0.0);
-            }
-            let standing = Mode {
-                lambda: c64::new(0.0, 0.0),
-                kind: ModeKind::Positive,
-                frequency_slope: 0.0,
-                action: 1,
-                part: 0,
-                coordinates: Col::zeros(0),
-            };
-            let name = ModeName::new(plate, &standing, &shape, critical.speed_rad_per_s);
+            let speed = critical.speed_rad_per_s;
+            let name = standing_name(plate, part.first, &critical.shape, speed);
             named.push(NamedCriticalSpeed {
-                speed_rad_per_s: critical.speed_rad_per_s,
+                speed_rad_per_s: speed,
                 diameters: name.diameters,
                 circles: name.circles,
                 part: index,
@@ -119,4 +108,31 @@ pub(super) fn named_critical_speeds(
     }
     named.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     Ok(named)
+}
+
+/// The name of a wave that stands still, from its unknowns in a part.
+pub(crate) fn standing_name(
+    plate: &Plate,
+    first: usize,
+    unknowns: &Col<f64>,
+    speed_rad_per_s: f64,
+) -> ModeName {
+    let mut shape = Col::zeros(plate.degrees_of_freedom());
+    for i in 0..unknowns.nrows() {
+        shape[first + i] = c64::new(unknowns[i], 0.0);
+    }
+    // A shape at rest has no kinetic energy to be named by: it is named as an oscillation.
+    let lambda = match speed_rad_per_s > 0.0 {
+        true => c64::new(0.0, 0.0),
+        false => c64::new(0.0, 1.0),
+    };
+    let standing = Mode {
+        lambda,
+        kind: ModeKind::Positive,
+        frequency_slope: 0.0,
+        action: 1,
+        part: 0,
+        coordinates: Col::zeros(0),
+    };
+    ModeName::new(plate, &standing, &shape, speed_rad_per_s)
 }

@@ -1,4 +1,4 @@
-//! Critical speeds: (K_b + K_g) x = Ω² (N − K_σ) x, without a sweep.
+//! Critical speeds: K₀ x = Ω² (N − K_σ) x, without a sweep.
 
 use faer::linalg::solvers::SelfAdjointEigen;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -19,7 +19,7 @@ pub struct CriticalSpeed {
 
 /// Every critical speed of a part of the blade, ascending.
 ///
-/// With A = K_b + K_g = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
+/// With A = K₀ = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
 /// [`GyroscopicSystem::standing_spin`]) the values 1/Ω² are the positive
 /// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
 /// most accurate. A and B both vanish on the rigid motions that no guide holds, so
@@ -28,31 +28,47 @@ pub struct CriticalSpeed {
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
 pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
-    let order = system.order();
-    let mut stiffness = system.stiffness.clone();
+    let softening = Scale(-1.0) * system.standing_spin();
+    let found = singular_multiples(&system.stiffness, &system.free_rigid, &softening)?;
+    let speeds = found.into_iter().map(|(square, shape)| CriticalSpeed {
+        speed_rad_per_s: square.sqrt(),
+        shape,
+    });
+    Ok(speeds.collect())
+}
+
+/// Every m > 0 at which A − m B is singular, ascending, with x of (A − m B) x = 0, ‖x‖ = 1, for
+/// symmetric A and B. A is positive definite but for the motions `free`, on which both vanish.
+///
+/// # Errors
+/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
+pub fn singular_multiples(
+    stiffness: &Mat<f64>,
+    free: &[Col<f64>],
+    softening: &Mat<f64>,
+) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
+    let order = stiffness.nrows();
+    let mut stiffness = stiffness.clone();
     let mean = stiffness.norm_l2() / (order as f64).sqrt();
-    for z in &system.free_rigid {
+    for z in free {
         stiffness += Scale(mean) * z * z.transpose();
     }
     let unstable = || SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(|_| unstable())?;
     let lower = factor.L();
-    let mut whitened = Scale(-1.0) * system.standing_spin();
+    let mut whitened = softening.clone();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let mut whitened = whitened.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower).map_err(|_| unstable())?;
     let noise = 1e-14 * whitened.norm_l2();
-    let mut speeds: Vec<CriticalSpeed> = (0..order)
+    let mut multiples: Vec<(f64, Col<f64>)> = (0..order)
         .map(|i| (eigen.S()[i], i))
-        .filter(|(inverse_square, _)| *inverse_square > noise)
-        .map(|(inverse_square, i)| CriticalSpeed {
-            speed_rad_per_s: inverse_square.sqrt().recip(),
-            shape: unwhiten(lower, eigen.U().col(i)),
-        })
+        .filter(|(inverse, _)| *inverse > noise)
+        .map(|(inverse, i)| (inverse.recip(), unwhiten(lower, eigen.U().col(i))))
         .collect();
-    speeds.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    Ok(speeds)
+    multiples.sort_by(|x, y| x.0.total_cmp(&y.0));
+    Ok(multiples)
 }
 
 /// x = L⁻ᵀy, scaled to unit length.

@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use super::bands::{
     self, Certificate, Instability, InstabilityKind, StabilityChart, with_critical_speeds,
 };
-use super::refine::maximise;
+use super::peak::maximise;
+use super::station::hermite;
 use crate::campbell::{self, Branch, Campbell, Progress};
 use crate::spectrum::{DescribedMode, Mode, SpectralModel, SpectrumError, Strategy, in_words};
 
@@ -112,12 +113,6 @@ fn doubtful_speeds(model: &SpectralModel, campbell: &Campbell, branch: &Branch) 
             (cubic(top) > 0.0).then_some(pair[0].speed + top * width)
         })
         .collect()
-}
-
-/// Cubic Hermite polynomial on [0, 1].
-fn hermite(t: f64, f0: f64, d0: f64, f1: f64, d1: f64) -> f64 {
-    let u = 1.0 - t;
-    u * u * ((1.0 + 2.0 * t) * f0 + t * d0) + t * t * ((1.0 + 2.0 * u) * f1 - u * d1)
 }
 
 fn unstable_stretches(
@@ -247,16 +242,4 @@ fn stretch(
         frequency: lambda.im,
         modes: vec![in_words(first.diameters, first.circles, first.direction)],
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_hermite_cubic_meets_its_ends() {
-        assert_eq!(hermite(0.0, 2.0, 1.0, 5.0, 1.0), 2.0);
-        assert_eq!(hermite(1.0, 2.0, 1.0, 5.0, 1.0), 5.0);
-        assert_eq!(hermite(0.5, 0.0, 1.0, 1.0, 1.0), 0.5);
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::bands::{Instability, InstabilityKind};
 use super::finder::{CRITICAL_GAP, CRITICAL_GROUP, Event, Finder};
-use super::refine;
+use super::peak::maximise;
 use super::station::{Sign, Station};
 use crate::spectrum::{Direction, SpectralModel, SpectrumError, in_words};
 
@@ -32,7 +32,7 @@ pub(super) fn divergence(
             let zero_at_ends = [begins, ends].map(|edge| edge == Edge::Critical);
             let growth =
                 |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
-            let (peak, square) = refine::maximise((from, to), zero_at_ends, growth)?;
+            let (peak, square) = maximise((from, to), zero_at_ends, growth)?;
             bands.push(Instability {
                 kind: InstabilityKind::Divergence,
                 from,

@@ -11,8 +11,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::bands::Certificate;
-use super::refine::{self, Inside};
-use super::station::{Change, Sign, Station, change};
+use super::pursuit::Inside;
+use super::refine;
+use super::station::{Change, Sign, Station, between_crossings, change};
 use crate::spectrum::{LowModel, LowModes, ModePair, SpectralModel, SpectrumError};
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
@@ -175,6 +176,11 @@ impl<'a> Finder<'a> {
         }
     }
 
+    /// A pair followed to another speed.
+    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        self.low.as_ref()?.moved(pair, speed_rad_per_s)
+    }
+
     /// Largest growth of a divergent mode next to a critical speed, where the Krein index
     /// cannot be read off rounded eigenvalues.
     ///
@@ -221,7 +227,7 @@ impl<'a> Finder<'a> {
             .map(|pair| {
                 let mut events = Vec::new();
                 if !self.spans_critical(&pair[0], &pair[1]) {
-                    self.search(&pair[0], &pair[1], &mut events)?;
+                    self.search(&pair[0], &pair[1], 0, &mut events)?;
                 }
                 Ok(events)
             })
@@ -240,21 +246,23 @@ impl<'a> Finder<'a> {
         &self,
         a: &Station,
         b: &Station,
+        depth: usize,
         events: &mut Vec<Event>,
     ) -> Result<(), SpectrumError> {
         let (x, y) = (a.speed_rad_per_s, b.speed_rad_per_s);
         let seen = change(&a.word(), &b.word());
         if y - x > LEAST_WIDTH * y && !self.is_exhausted() {
-            if seen == Change::Several || (seen == Change::None && may_touch(a, b)) {
-                let middle = self.station(0.5 * (x + y))?;
-                self.search(a, &middle, events)?;
-                return self.search(&middle, b, events);
-            }
-            if seen == Change::None && a.merged().next().is_some() {
-                let middle = self.station(0.5 * (x + y))?;
-                if merged_pairs_bend(a, &middle, b) {
-                    self.search(a, &middle, events)?;
-                    return self.search(&middle, b, events);
+            let doubtful = seen == Change::None && a.merged().next().is_some();
+            if seen == Change::Several || doubtful || (seen == Change::None && may_touch(a, b)) {
+                let share = match between_crossings(a, b) {
+                    // Halving now and then bounds the depth wherever the waves go.
+                    Some(share) if seen == Change::Several && depth % 4 != 3 => share,
+                    _ => 0.5,
+                };
+                let middle = self.station(x + share * (y - x))?;
+                if !doubtful || may_touch(a, b) || merged_pairs_bend(a, &middle, b) {
+                    self.search(a, &middle, depth + 1, events)?;
+                    return self.search(&middle, b, depth + 1, events);
                 }
             }
         }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::bands::{Instability, InstabilityKind};
 use super::finder::{Edge, Event, Finder};
-use super::refine;
+use super::peak::maximise;
+use super::pursuit::Pursuit;
 use super::station::Station;
 use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
 
@@ -100,19 +101,11 @@ fn band(
         let share = (speed - from) / (to - from);
         frequencies[0] + share * (frequencies[1] - frequencies[0])
     };
-    let pair = |speed: f64| -> Result<(f64, f64), SpectrumError> {
-        let near = |f: f64| (f - expected(speed)).abs();
-        let station = finder.station(speed)?;
-        let nearest = station
-            .merged()
-            .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
-        Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
+    let pursued = fastest_of_pair(finder, (from, to), zero_at_ends, &expected)?;
+    let (peak, peak_growth_per_s, frequency) = match pursued {
+        Some(found) => found,
+        None => fastest_of_words(finder, (from, to), zero_at_ends, &expected)?,
     };
-    let (peak, _) = refine::maximise((from, to), zero_at_ends, |speed| Ok(pair(speed)?.0.powi(2)))?;
-    let (mut peak_growth_per_s, frequency) = pair(peak)?;
-    if let Some(sharp) = finder.pair(peak, frequency)? {
-        peak_growth_per_s = (-sharp.discriminant(peak)).max(0.0).sqrt();
-    }
     Ok(Instability {
         kind: InstabilityKind::Flutter,
         from,
@@ -125,6 +118,65 @@ fn band(
     })
 }
 
+/// Speed, growth rate and frequency of the fastest growth within a band: of its pair, pursued
+/// from the middle. `None` where the pair is lost.
+fn fastest_of_pair(
+    finder: &Finder<'_>,
+    (from, to): (f64, f64),
+    zero_at_ends: [bool; 2],
+    expected: &dyn Fn(f64) -> f64,
+) -> Result<Option<(f64, f64, f64)>, SpectrumError> {
+    let middle = 0.5 * (from + to);
+    let Some(begun) = Pursuit::begin(finder, middle, expected(middle))? else {
+        return Ok(None);
+    };
+    let mut known = vec![begun];
+    let mut lost = false;
+    let (peak, square) = maximise((from, to), zero_at_ends, |speed| {
+        let Some(pair) = nearest(&known, speed).and_then(|pair| pair.to(speed)) else {
+            lost = true;
+            return Ok(0.0);
+        };
+        let square = -pair.discriminant();
+        known.push(pair);
+        Ok(square)
+    })?;
+    let Some(pair) = nearest(&known, peak).filter(|_| !lost && square > 0.0) else {
+        return Ok(None);
+    };
+    let seen = finder.station(peak)?.merged().any(|t| pair.is_token(t));
+    Ok(seen.then(|| (peak, square.sqrt(), pair.mean_frequency())))
+}
+
+fn nearest<'a, 'b>(known: &'a [Pursuit<'b>], speed: f64) -> Option<&'a Pursuit<'b>> {
+    let distance = |pair: &Pursuit<'_>| (pair.speed_rad_per_s - speed).abs();
+    known
+        .iter()
+        .min_by(|x, y| distance(x).total_cmp(&distance(y)))
+}
+
+/// The same read off the words of speeds.
+fn fastest_of_words(
+    finder: &Finder<'_>,
+    range: (f64, f64),
+    zero_at_ends: [bool; 2],
+    expected: &dyn Fn(f64) -> f64,
+) -> Result<(f64, f64, f64), SpectrumError> {
+    let merged = |speed: f64| -> Result<(f64, f64), SpectrumError> {
+        let near = |f: f64| (f - expected(speed)).abs();
+        let station = finder.station(speed)?;
+        let nearest = station
+            .merged()
+            .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
+        Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
+    };
+    let (peak, _) = maximise(range, zero_at_ends, |speed| Ok(merged(speed)?.0.powi(2)))?;
+    let (growth_per_s, frequency) = merged(peak)?;
+    let sharp = Pursuit::begin(finder, peak, frequency)?;
+    let sharp = sharp.map(|pair| (-pair.discriminant()).max(0.0).sqrt());
+    Ok((peak, sharp.unwrap_or(growth_per_s), frequency))
+}
+
 /// Names of the + and the − mode next to a frequency just below an onset.
 pub(super) fn meeting_modes(
     model: &SpectralModel,
@@ -132,7 +184,7 @@ pub(super) fn meeting_modes(
     frequency: f64,
 ) -> Result<Vec<String>, SpectrumError> {
     let before = onset * (1.0 - 1e-5);
-    let mut modes = model.modes(before)?;
+    let mut modes = model.drawn_modes(before)?;
     modes.retain(|m| m.krein_sign() != 0);
     let distance = |m: &Mode| (m.frequency_rad_per_s() - frequency).abs();
     modes.sort_by(|x, y| distance(x).total_cmp(&distance(y)));

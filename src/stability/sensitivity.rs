@@ -9,7 +9,7 @@ use faer::{Col, c64};
 use super::analysis::Analysis;
 use super::bands::{Instability, InstabilityKind};
 use crate::plate::Plate;
-use crate::scene::{Scene, SceneError, SceneFile};
+use crate::scene::{MembraneFile, Scene, SceneError, SceneFile};
 use crate::spectrum::{Mode, Part, SpectrumError, derivative};
 use crate::system::GyroscopicSystem;
 
@@ -147,8 +147,52 @@ fn parameters(scene: &Scene) -> Vec<Parameter> {
             move |f: &mut SceneFile, share| f.guides[index].stiffness_n_per_m *= percent(share);
         add("stiffness_n_per_m", "1 %", Box::new(stiffness));
     }
+    parameters.extend(of_membrane(&scene.file));
     parameters
 }
+
+/// The numbers of heat and roll tension.
+fn of_membrane(file: &SceneFile) -> Vec<Parameter> {
+    let mut parameters = Vec::new();
+    let mut add = |path: String, words, number: Box<Number>, change: fn(&mut f64, f64)| {
+        parameters.push(Parameter {
+            path: format!("membrane.{path}"),
+            words,
+            shift: Box::new(move |file, share| {
+                let found = file.membrane.as_mut().and_then(|m| number(m));
+                found.into_iter().for_each(|n| change(n, share));
+            }),
+        });
+    };
+    let percent = |number: &mut f64, share: f64| *number *= 1.0 + 0.01 * share;
+    let membrane = file.membrane.as_ref();
+    if let Some(temperature) = membrane.and_then(|m| m.temperature.as_ref()) {
+        let expansion: Box<Number> =
+            Box::new(|m| Some(&mut m.temperature.as_mut()?.expansion_per_k));
+        add(
+            "temperature.expansion_per_k".into(),
+            "1 %",
+            expansion,
+            percent,
+        );
+        if temperature.rim_rise_k.is_some() {
+            let rise: Box<Number> = Box::new(|m| m.temperature.as_mut()?.rim_rise_k.as_mut());
+            let kelvin = |number: &mut f64, share: f64| *number += share;
+            add("temperature.rim_rise_k".into(), "1 K", rise, kelvin);
+        }
+    }
+    for index in 0..membrane.map_or(0, |m| m.roll_tension.len()) {
+        let path = |name: &str| format!("roll_tension[{index}].{name}");
+        let radius: Box<Number> = Box::new(move |m| Some(&mut m.roll_tension[index].radius_m));
+        add(path("radius_m"), "1 %", radius, percent);
+        let strain: Box<Number> = Box::new(move |m| Some(&mut m.roll_tension[index].eigenstrain));
+        add(path("eigenstrain"), "1 %", strain, percent);
+    }
+    parameters
+}
+
+/// Finds a number of the membrane stress.
+type Number = dyn Fn(&mut MembraneFile) -> Option<&mut f64>;
 
 /// Change of the matrices of every part for the whole change of a parameter.
 fn changed_parts(

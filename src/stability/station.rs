@@ -171,10 +171,110 @@ pub fn change(before: &[Sign], after: &[Sign]) -> Change {
     }
 }
 
+/// Where, as a share of the way from `a` to `b`, the widest gap lies between two speeds at
+/// which a − and a + wave seem to cross. `None` where fewer than two seem to. The k-th wave
+/// of a sign at `a` is taken for the k-th at `b`, and to go the cubic way that frequencies
+/// and slopes at both ends give it.
+pub fn between_crossings(a: &Station, b: &Station) -> Option<f64> {
+    let width = b.speed_rad_per_s - a.speed_rad_per_s;
+    let waves = |sign: Sign| {
+        let of = |station: &Station| -> Vec<Token> {
+            let has = |t: &&Token| t.sign == sign || t.sign == Sign::Merged;
+            station.tokens.iter().filter(has).copied().collect()
+        };
+        of(a).into_iter().zip(of(b)).collect::<Vec<_>>()
+    };
+    let (plus, minus) = (waves(Sign::Plus), waves(Sign::Minus));
+    let pairs = plus.iter().flat_map(|p| minus.iter().map(move |m| (p, m)));
+    let mut crossings: Vec<f64> = pairs
+        .filter_map(|(p, m)| {
+            let gap = |x: &Token, y: &Token| (y.frequency - x.frequency, y.slope - x.slope);
+            let (left, right) = (gap(&p.0, &m.0), gap(&p.1, &m.1));
+            let cubic = |t: f64| hermite(t, left.0, left.1 * width, right.0, right.1 * width);
+            (left.0 * right.0 < 0.0).then(|| sign_change(left.0, cubic))
+        })
+        .collect();
+    crossings.sort_by(f64::total_cmp);
+    let gaps = crossings.windows(2);
+    let widest = gaps.max_by(|x, y| (x[1] - x[0]).total_cmp(&(y[1] - y[0])))?;
+    Some(0.5 * (widest[0] + widest[1]))
+}
+
+/// Speed and frequency at which the two waves at a place of the doubled list cross, which
+/// stand there in one order at `a` and in the other at `b`.
+pub fn crossing(a: &Station, b: &Station, place: usize) -> Option<(f64, f64)> {
+    let width = b.speed_rad_per_s - a.speed_rad_per_s;
+    let (left, right) = (a.doubled(), b.doubled());
+    let (left, right) = (left.get(place..place + 2)?, right.get(place..place + 2)?);
+    let way = |x: &Token, y: &Token, t: f64| {
+        hermite(
+            t,
+            x.frequency,
+            x.slope * width,
+            y.frequency,
+            y.slope * width,
+        )
+    };
+    let gap = |t: f64| way(&left[0], &right[1], t) - way(&left[1], &right[0], t);
+    let share = sign_change(gap(0.0), gap);
+    let frequency = way(&left[0], &right[1], share);
+    Some((a.speed_rad_per_s + share * width, frequency))
+}
+
+/// Zero in [0, 1] of a function that begins with `first` and ends with the other sign; to
+/// no more digits than a guess has.
+fn sign_change(first: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..24 {
+        let middle = 0.5 * (low + high);
+        if f(middle) * first > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Cubic Hermite polynomial on [0, 1].
+pub fn hermite(t: f64, f0: f64, d0: f64, f1: f64, d1: f64) -> f64 {
+    let u = 1.0 - t;
+    u * u * ((1.0 + 2.0 * t) * f0 + t * d0) + t * t * ((1.0 + 2.0 * u) * f1 - u * d1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::Sign::{Merged, Minus, Plus, Real};
     use super::*;
+
+    #[test]
+    fn the_hermite_cubic_meets_its_ends() {
+        assert_eq!(hermite(0.0, 2.0, 1.0, 5.0, 1.0), 2.0);
+        assert_eq!(hermite(1.0, 2.0, 1.0, 5.0, 1.0), 5.0);
+        assert_eq!(hermite(0.5, 0.0, 1.0, 1.0, 1.0), 0.5);
+    }
+
+    /// A rising − wave passes + waves of constant 1, 2 and 4: at 1, 2 and 4 fifths.
+    #[test]
+    fn the_widest_gap_between_crossings_is_found() {
+        let token = |sign, frequency, slope| Token {
+            sign,
+            frequency,
+            slope,
+            growth: 0.0,
+        };
+        let station = |speed_rad_per_s, wave| Station {
+            speed_rad_per_s,
+            tokens: [1.0, 2.0, 4.0]
+                .map(|f| token(Plus, f, 0.0))
+                .into_iter()
+                .chain([token(Minus, wave, 0.5)])
+                .collect(),
+        };
+        let share = between_crossings(&station(10.0, 0.0), &station(20.0, 5.0)).unwrap();
+        assert!((share - 0.6).abs() < 1e-6, "{share}");
+        assert!(between_crossings(&station(10.0, 0.0), &station(12.0, 1.5)).is_none());
+    }
 
     #[test]
     fn words_tell_what_happened() {

@@ -1,0 +1,223 @@
+//! `sawflutter place`.
+
+use std::fmt::Write;
+
+use anyhow::{Context, bail};
+use clap::{Args, ValueEnum};
+use indicatif::ProgressBar;
+use sawflutter::figure;
+use sawflutter::place::{Demands, Goal, Options, Placement};
+use sawflutter::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
+use sawflutter::scene::{Scene, rad_per_s};
+
+use super::common::{Common, progress_bar, show};
+use super::free::{freed, number};
+use super::summary::wrapped;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter place my-saw.json            radius, angle and stiffness of guides[0]
+  sawflutter place my-saw.json --free guides[0].radius_m=0.2..0.3 \\
+    --free guides[0].angle_deg=-90..-20 --min-critical-rpm 1500
+  sawflutter place --goal window          widest stable window around operating_rpm
+The best saw is placed-scene.json; hold it against `check` and `cut`.
+
+Exit code: 0 done, 1 no saw between the bounds keeps the limit, 2 the input was
+refused or the run failed.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// A number to move, by its path in the scene, and its bounds; more than once for more.
+    /// Without any: radius, angle and stiffness of the first guide
+    #[arg(long, value_name = "PATH[=FROM..TO]")]
+    free: Vec<String>,
+    /// What is to be made large
+    #[arg(long, value_name = "NAME", default_value = "flutter")]
+    goal: GoalName,
+    /// Least lowest critical speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    min_critical_rpm: Option<f64>,
+    /// Saws spread over the bounds at first
+    #[arg(long, value_name = "COUNT", default_value_t = 64)]
+    samples: usize,
+    /// Saws that the refinement of each of the best places may take
+    #[arg(long, value_name = "COUNT", default_value_t = 60)]
+    refine: u64,
+    /// Points of the map along each axis; 0 for none
+    #[arg(long, value_name = "COUNT", default_value_t = 17)]
+    map: usize,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum GoalName {
+    /// The flutter speed
+    Flutter,
+    /// The stable window around the operating speed
+    Window,
+}
+
+const MAX_SAMPLES: usize = 100_000;
+const MAX_MAP: usize = 400;
+
+/// Looks for the best place, writes the files and prints the summary; whether the limit is kept.
+pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
+    let scene = arguments.common.scene()?;
+    let demands = demands(arguments, &scene)?;
+    if !(1..=MAX_SAMPLES).contains(&arguments.samples) {
+        bail!(
+            "--samples is {}, but must be from 1 to {MAX_SAMPLES}; a hundred is usual",
+            arguments.samples
+        );
+    }
+    if arguments.map == 1 || arguments.map > MAX_MAP {
+        bail!(
+            "--map is {}, but must be 0 or from 2 to {MAX_MAP}; 17 is usual",
+            arguments.map
+        );
+    }
+    let options = Options {
+        samples: arguments.samples,
+        refine: arguments.refine.max(1),
+        map: arguments.map,
+        ..Options::default()
+    };
+    let usual: Vec<String> = match scene.file.guides.first() {
+        Some(_) => ["radius_m", "angle_deg", "stiffness_n_per_m"]
+            .map(|name| format!("guides[0].{name}"))
+            .to_vec(),
+        None if arguments.free.is_empty() => {
+            bail!("guides is missing, but there must be one to be placed; write one into the scene")
+        }
+        None => Vec::new(),
+    };
+    let freed = freed(&scene, &arguments.free, &usual)?;
+    let folder = arguments.common.folder()?;
+    let bar = progress_bar("{msg}");
+    let found = Placement::new(&scene, &freed, &demands, &options, &|what, done, of| {
+        told(&bar, what, done, of);
+    })?;
+    bar.finish_and_clear();
+    let report = PlaceReport::new(&demands, &found);
+    let json = serde_json::to_string_pretty(&report)?;
+    let mut files = Vec::new();
+    if let Some(png) = figure::place_png(&report)? {
+        files.push(("place.png", png));
+    }
+    if let Some(svg) = figure::place_svg(&report)? {
+        files.push(("place.svg", svg.into_bytes()));
+    }
+    let stale: &[&str] = match files.is_empty() {
+        true => &["place.png", "place.svg"],
+        false => &[],
+    };
+    let placed = serde_json::to_string_pretty(&report.scene)?;
+    files.push(("placed-scene.json", placed.into_bytes()));
+    files.push(("place.json", json.clone().into_bytes()));
+    arguments
+        .common
+        .print(&folder, &files, stale, &json, || summary(&report))?;
+    Ok(report.kept)
+}
+
+fn told(bar: &ProgressBar, what: &'static str, done: usize, of: usize) {
+    bar.set_message(what);
+    show(bar, done, of);
+}
+
+fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
+    let goal = match arguments.goal {
+        GoalName::Flutter => Goal::FlutterSpeed,
+        GoalName::Window => Goal::StableWindow {
+            around_rad_per_s: scene.operating_rad_per_s.context(
+                "operating_rpm is missing, but must say how fast the saw is run; write it into the scene",
+            )?,
+        },
+    };
+    let limit = arguments.min_critical_rpm;
+    let limit = limit.map(|rpm| number("--min-critical-rpm", rpm, (0.0, 1e9)));
+    Ok(Demands {
+        goal,
+        min_critical_rad_per_s: limit.transpose()?.map(rad_per_s),
+    })
+}
+
+fn summary(report: &PlaceReport) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = table(&mut text, report);
+    text
+}
+
+fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
+    writeln!(text, "{}", wrapped(&report.scene.name))?;
+    let goal = match report.goal {
+        GoalEntry::FlutterSpeed => "flutter speed",
+        GoalEntry::StableWindow => "stable window",
+    };
+    writeln!(text, "\n{:<36} {:>12} {:>12}", "", "before", "best")?;
+    let number = |rpm: Option<f64>| rpm.map_or("none".to_owned(), |rpm| format!("{rpm:.0}"));
+    let mut line = |name: &str, of: fn(&OutcomeEntry) -> Option<f64>| {
+        let (before, best) = (number(of(&report.before)), number(of(&report.best)));
+        writeln!(text, "{name:<36} {before:>12} {best:>12}")
+    };
+    line("flutter speed [rpm]", |o| o.flutter_rpm)?;
+    line("lowest critical speed [rpm]", |o| o.critical_rpm)?;
+    if report.goal == GoalEntry::StableWindow {
+        line("stable from [rpm]", |o| o.window_rpm.map(|w| w[0]))?;
+        line("stable to [rpm]", |o| o.window_rpm.map(|w| w[1]))?;
+    }
+    for p in &report.parameters {
+        let bound = if p.at_bound { "  at its bound" } else { "" };
+        let (before, best) = (short(p.start), short(p.value));
+        writeln!(text, "{:<36} {before:>12} {best:>12}{bound}", p.path)?;
+    }
+    writeln!(text, "\nA little off, the {goal} becomes [rpm]")?;
+    for p in &report.parameters {
+        let PlacedEntry {
+            less_rpm, more_rpm, ..
+        } = p;
+        let side = |rpm: &Option<f64>| rpm.map_or("past the bound".into(), |r| format!("{r:.0}"));
+        writeln!(
+            text,
+            "  {:<34} -{:<9} {:>10}   +{:<9} {:>10}",
+            p.path,
+            short(p.offset),
+            side(less_rpm),
+            short(p.offset),
+            side(more_rpm)
+        )?;
+    }
+    let verdict = if report.fragile { "FRAGILE" } else { "robust" };
+    let share = 100.0 * report.worst_neighbour_share;
+    writeln!(
+        text,
+        "The worst of these saws and their corners has {share:.0} % of it: {verdict}"
+    )?;
+    for band in &report.almost {
+        let line = format!(
+            "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
+            band.from_rpm, band.peak_growth_per_s, report.flutter_threshold_per_s
+        );
+        writeln!(text, "{}", wrapped(&line))?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
+    }
+    writeln!(
+        text,
+        "{} saws analysed, {:.0} to {:.0} rpm",
+        report.saws, report.from_rpm, report.to_rpm
+    )
+}
+
+/// A number in nine columns.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        return format!("{value:.2e}");
+    }
+    let decimals = (3.0 - size.max(1e-3).log10().floor()).clamp(0.0, 4.0) as usize;
+    format!("{value:.decimals$}")
+}

@@ -1,0 +1,273 @@
+//! Measured points over the fitted curves, and what is left between them.
+
+use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::campbell::draw_measured_mark;
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::clip;
+use super::style::{
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, Colour, DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE,
+    QUIET, STANDING, Weight, text_width,
+};
+use super::{FigureError, heading, render};
+use crate::report::{FitReport, ResidualEntry};
+
+const WIDTH: u32 = 1200;
+const HEIGHT: u32 = 820;
+const UPPER: Frame = Frame {
+    left: 92.0,
+    top: 92.0,
+    right: 1172.0,
+    bottom: 560.0,
+};
+const LOWER: Frame = Frame {
+    top: 584.0,
+    bottom: 722.0,
+    ..UPPER
+};
+const BEFORE: Colour = STANDING;
+const FITTED: Colour = FORWARD;
+/// Colour of each place from the lowest frequency on, for the residuals; then it repeats.
+const PLACES: [Colour; 4] = [
+    FORWARD,
+    plotters::style::RGBColor(192, 69, 45),
+    plotters::style::RGBColor(104, 71, 153),
+    plotters::style::RGBColor(163, 98, 0),
+];
+
+/// The fit as PNG, 1200 × 820 pixels.
+pub fn fit_png(report: &FitReport) -> Result<Vec<u8>, FigureError> {
+    render::png(&sheet(report))
+}
+
+/// The fit as SVG.
+pub fn fit_svg(report: &FitReport) -> Result<String, FigureError> {
+    render::svg(&sheet(report))
+}
+
+pub(super) fn sheet(report: &FitReport) -> Sheet {
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    heading::draw(&mut sheet, &report.scene.name, &facts(report));
+    let last = report.curves.rpm.last().copied().unwrap_or(1.0);
+    // Room for the points at rest.
+    let speed = Axis::new(
+        [-0.025 * last, last],
+        [UPPER.left, UPPER.right],
+        Spread::Linear,
+    );
+    let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
+    let shown: Vec<&ResidualEntry> = shown.collect();
+    let fitted = || shown.iter().filter(|r| r.fitted);
+    let highest = fitted().fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
+    let frequency = Axis::new(
+        [0.0, 1.12 * highest],
+        [UPPER.bottom, UPPER.top],
+        Spread::Linear,
+    );
+    let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
+    let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
+    let residual = Axis::new(
+        [-1.15 * largest, 1.15 * largest],
+        [LOWER.bottom, LOWER.top],
+        Spread::Linear,
+    );
+    draw_vertical(
+        &mut sheet,
+        &frequency,
+        &UPPER,
+        "frequency in space\u{2003}[Hz]",
+    );
+    draw_vertical(
+        &mut sheet,
+        &residual,
+        &LOWER,
+        "model − measured\u{2003}[Hz]",
+    );
+    let zero = [
+        [LOWER.left, residual.at(0.0)],
+        [LOWER.right, residual.at(0.0)],
+    ];
+    sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
+    draw_horizontal(&mut sheet, &speed, UPPER.bottom, false);
+    draw_horizontal(&mut sheet, &speed, LOWER.bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let middle = (LOWER.left + LOWER.right) / 2.0;
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([middle, LOWER.bottom + 42.0], letters, name);
+    let before = Stroke {
+        dash: Some(DASH),
+        ..Stroke::solid(BEFORE, HAIRLINE)
+    };
+    draw_curves(
+        &mut sheet,
+        report,
+        &report.curves.before_hz,
+        (&speed, &frequency),
+        before,
+    );
+    let after = Stroke::solid(FITTED, CURVE);
+    draw_curves(
+        &mut sheet,
+        report,
+        &report.curves.fitted_hz,
+        (&speed, &frequency),
+        after,
+    );
+    for r in &shown {
+        draw_pair(&mut sheet, r, &speed, &frequency, &residual);
+    }
+    draw_key(&mut sheet, report, shown.iter().any(|r| !r.fitted));
+    sheet
+}
+
+fn facts(report: &FitReport) -> String {
+    let found = report.parameters.iter().map(|p| {
+        let name = p.path.rsplit('.').next().unwrap_or(&p.path);
+        format!("{name} {}", four_digits(p.value))
+    });
+    let rms = format!(
+        "{:.3} Hz rms over {} frequencies",
+        report.rms_hz, report.measured_frequencies
+    );
+    std::iter::once(rms)
+        .chain(found)
+        .collect::<Vec<_>>()
+        .join(BETWEEN_FACTS)
+}
+
+/// A number of any size to four digits.
+pub(super) fn four_digits(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
+        return format!("{value:.3e}").replace('-', "\u{2212}");
+    }
+    let decimals = 3 - value.abs().max(1e-3).log10().floor() as i32;
+    let text = format!("{value:.*}", decimals.clamp(0, 6) as usize);
+    text.replace('-', "\u{2212}")
+}
+
+fn draw_curves(
+    sheet: &mut Sheet,
+    report: &FitReport,
+    rows: &[Vec<f64>],
+    (speed, frequency): (&Axis, &Axis),
+    stroke: Stroke,
+) {
+    let depth = rows.iter().map(Vec::len).max().unwrap_or(0);
+    for place in 0..depth {
+        let points = report.curves.rpm.iter().zip(rows);
+        let places: Vec<[f64; 2]> = points
+            .filter_map(|(rpm, row)| Some([speed.at(*rpm), frequency.at(*row.get(place)?)]))
+            .collect();
+        for part in clip(&places, &UPPER) {
+            sheet.line(part, stroke);
+        }
+    }
+}
+
+/// A measured point, the way to its computed one, and the same as a residual.
+fn draw_pair(
+    sheet: &mut Sheet,
+    r: &ResidualEntry,
+    speed: &Axis,
+    frequency: &Axis,
+    residual: &Axis,
+) {
+    let x = speed.at(r.rpm);
+    if !frequency.shows(r.measured_hz) {
+        return;
+    }
+    let at = [x, frequency.at(r.measured_hz)];
+    if r.fitted && frequency.shows(r.fitted_hz) {
+        let way = [at, [x, frequency.at(r.fitted_hz)]];
+        sheet.line(way, Stroke::solid(ALARM, HAIRLINE));
+        // Side by side, so that none hides another.
+        let aside = 7.0 * ((r.place - 1) % PLACES.len()) as f64 - 10.5;
+        let colour = PLACES[(r.place - 1) % PLACES.len()];
+        let x = (x + aside).clamp(LOWER.left, LOWER.right);
+        let (zero, top) = (residual.at(0.0), residual.at(r.fitted_hz - r.measured_hz));
+        sheet.line([[x, zero], [x, top]], Stroke::solid(colour, CURVE));
+        sheet.disc([x, top], 3.0, colour);
+    }
+    if r.fitted {
+        draw_measured_mark(sheet, at);
+    } else {
+        sheet.disc(at, 2.0, QUIET);
+    }
+}
+
+fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
+    let y = f64::from(HEIGHT) - 22.0;
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let mut x = UPPER.left;
+    let word = |sheet: &mut Sheet, x: &mut f64, text: &str| {
+        sheet.text([*x, y], letters, text);
+        *x += text_width(text, LABEL_SIZE, Weight::Regular) + 22.0;
+    };
+    draw_measured_mark(sheet, [x + 4.0, y - 4.0]);
+    x += 14.0;
+    let source = super::style::shorten(&report.source, LABEL_SIZE, Weight::Regular, 260.0);
+    word(sheet, &mut x, &source);
+    if some_left_out {
+        sheet.disc([x + 3.0, y - 4.0], 2.0, QUIET);
+        x += 12.0;
+        word(sheet, &mut x, "not fitted");
+    }
+    for (stroke, text) in [
+        (Stroke::solid(FITTED, CURVE), "fitted"),
+        (
+            Stroke {
+                dash: Some(DASH),
+                ..Stroke::solid(BEFORE, HAIRLINE)
+            },
+            "before",
+        ),
+    ] {
+        sheet.line([[x, y - 4.0], [x + 22.0, y - 4.0]], stroke);
+        x += 30.0;
+        word(sheet, &mut x, text);
+    }
+    let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
+    for (place, colour) in PLACES.iter().enumerate().take(deepest) {
+        sheet.disc([x + 3.0, y - 4.0], 3.0, *colour);
+        x += 12.0;
+        let name = ["lowest", "second", "third", "fourth, …"][place];
+        word(sheet, &mut x, name);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::assert_tidy;
+    use crate::fit::{Fit, Measurement, Options};
+    use crate::plate::Resolution;
+    use crate::scene::{Freed, Scene};
+
+    #[test]
+    fn nothing_is_cut_off_or_hidden() {
+        let scene = Scene::paper();
+        let table = Measurement::of_scene(scene.file.measured.as_ref().unwrap());
+        let freed = Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap();
+        let options = Options {
+            starts: 1,
+            resolution: Some(Resolution {
+                max_diameters: 4,
+                radial_functions: 3,
+            }),
+            ..Options::default()
+        };
+        for to_rpm in [0.0, 500.0] {
+            let fitted = table.up_to(to_rpm);
+            let fit = Fit::new(&scene, &fitted, &[freed.clone()], &options, &|_, _| ()).unwrap();
+            let report = FitReport::new(&scene, &table, to_rpm, 0.95, &fit).unwrap();
+            assert_tidy(&sheet(&report));
+        }
+    }
+
+    #[test]
+    fn numbers_of_any_size_take_four_digits() {
+        assert_eq!(four_digits(0.194024), "0.1940");
+        assert_eq!(four_digits(-55.0), "\u{2212}55.00");
+        assert_eq!(four_digits(2.0e7), "2.000e7");
+        assert_eq!(four_digits(0.0), "0.000000");
+    }
+}

@@ -1,0 +1,310 @@
+//! The membrane stress over the radius, and what its heat does to the critical speeds.
+
+use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, round_up, tick_label};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::clip::clip;
+use super::declutter::{Wish, push_apart};
+use super::style::{
+    ALARM, AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK,
+    LABEL_SIZE, PAPER, QUIET,
+};
+use super::{FigureError, heading, render};
+use crate::report::{HeatEntry, MembraneEntry, Report};
+
+const HEIGHT: u32 = 560;
+/// With the panel of the critical speeds, and without.
+const WIDTHS: [u32; 2] = [1200, 640];
+const STRESS: Frame = Frame {
+    left: 92.0,
+    top: 100.0,
+    right: 510.0,
+    bottom: 470.0,
+};
+const SPEEDS: Frame = Frame {
+    left: 690.0,
+    top: 100.0,
+    right: 1070.0,
+    bottom: 470.0,
+};
+/// Height of a line of labels.
+const LINE: f64 = 16.0;
+
+/// The membrane stress as PNG; `None` for a scene without.
+pub fn membrane_png(report: &Report) -> Result<Option<Vec<u8>>, FigureError> {
+    sheet(report).as_ref().map(render::png).transpose()
+}
+
+/// The membrane stress as SVG; `None` for a scene without.
+pub fn membrane_svg(report: &Report) -> Result<Option<String>, FigureError> {
+    sheet(report).as_ref().map(render::svg).transpose()
+}
+
+fn sheet(report: &Report) -> Option<Sheet> {
+    let membrane = report.membrane.as_ref()?;
+    let heat = membrane.heat.as_ref();
+    let heat = heat.filter(|heat| !heat.critical_speeds.is_empty());
+    let mut sheet = Sheet::new(WIDTHS[usize::from(heat.is_none())], HEIGHT);
+    let title = match heat {
+        Some(_) => "Membrane stress, and what heat does to the critical speeds",
+        None => "Membrane stress",
+    };
+    heading::draw(&mut sheet, title, &report.scene.name);
+    draw_stress(&mut sheet, membrane);
+    if let Some(heat) = heat {
+        draw_speeds(&mut sheet, heat, report.operating.as_ref().map(|o| o.rpm));
+    }
+    Some(sheet)
+}
+
+fn axis_name(sheet: &mut Sheet, panel: &Frame, text: &str) {
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let centre = (panel.left + panel.right) / 2.0;
+    sheet.text([centre, panel.bottom + 42.0], letters, text);
+}
+
+fn draw_curve(sheet: &mut Sheet, panel: &Frame, places: &[[f64; 2]], stroke: Stroke) {
+    for part in clip(places, panel) {
+        sheet.line(part, stroke);
+    }
+}
+
+fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
+    let mm: Vec<f64> = membrane.radius_m.iter().map(|r| 1e3 * r).collect();
+    let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or(0.0));
+    let radius = Axis::new(ends, [STRESS.left, STRESS.right], Spread::Linear);
+    let all = || membrane.radial_pa.iter().chain(&membrane.hoop_pa);
+    let low = all().fold(0.0_f64, |low, s| low.min(1e-6 * s));
+    let high = all().fold(0.0_f64, |high, s| high.max(1e-6 * s));
+    let step = round_up(((high - low) / 8.0).max(1e-3));
+    let values = [(low / step).floor() * step, (high / step).ceil() * step];
+    let stress = Axis::new(values, [STRESS.bottom, STRESS.top], Spread::Linear);
+    draw_vertical(
+        sheet,
+        &stress,
+        &STRESS,
+        "stress, tension upwards\u{2003}[MPa]",
+    );
+    draw_horizontal(sheet, &radius, STRESS.bottom, true);
+    axis_name(sheet, &STRESS, "radius\u{2003}[mm]");
+    let zero = stress.at(0.0);
+    let line = [[STRESS.left, zero], [STRESS.right, zero]];
+    sheet.line(line, Stroke::solid(INK, HAIRLINE));
+    let curves: [(&[f64], Colour, &str); 2] = [
+        (&membrane.hoop_pa, FORWARD, "hoop"),
+        (&membrane.radial_pa, BACKWARD, "radial"),
+    ];
+    let wishes = curves.map(|(values, ..)| {
+        let end = values.last().copied().unwrap_or(0.0);
+        Wish {
+            centre: stress.at(1e-6 * end),
+            length: LINE,
+        }
+    });
+    let labels = push_apart(&wishes, STRESS.top, STRESS.bottom);
+    for ((values, colour, name), label) in curves.into_iter().zip(labels) {
+        let places = mm.iter().zip(values);
+        let places: Vec<_> = places
+            .map(|(r, s)| [radius.at(*r), stress.at(1e-6 * s)])
+            .collect();
+        draw_curve(sheet, &STRESS, &places, Stroke::solid(colour, CURVE));
+        if let Some(y) = label {
+            let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
+            sheet.text([STRESS.right + 8.0, y + 0.36 * LABEL_SIZE], letters, name);
+        }
+    }
+}
+
+fn draw_speeds(sheet: &mut Sheet, heat: &HeatEntry, operating_rpm: Option<f64>) {
+    let curves = || heat.critical_speeds.iter();
+    let rises = || curves().flat_map(|curve| &curve.rise_k);
+    let low = rises().fold(0.0_f64, |low, k| low.min(*k));
+    let high = rises().fold(0.0_f64, |high, k| high.max(*k));
+    let rise = Axis::new([low, high], [SPEEDS.left, SPEEDS.right], Spread::Linear);
+    let top = curves().flat_map(|curve| &curve.rpm);
+    let top = top.fold(operating_rpm.unwrap_or(0.0), |top, rpm| top.max(*rpm));
+    let places = [SPEEDS.bottom, SPEEDS.top];
+    let speed = Axis::new([0.0, 1.08 * top], places, Spread::Linear);
+    draw_vertical(sheet, &speed, &SPEEDS, "");
+    let upright = Lettering {
+        upright: true,
+        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
+    };
+    let middle = (SPEEDS.top + SPEEDS.bottom) / 2.0;
+    let name = "critical speeds\u{2003}[rpm]";
+    sheet.text([SPEEDS.left - 62.0, middle], upright, name);
+    draw_horizontal(sheet, &rise, SPEEDS.bottom, true);
+    axis_name(sheet, &SPEEDS, "peak of the temperature profile\u{2003}[K]");
+    draw_curves(sheet, heat, (&rise, &speed));
+    draw_limits(sheet, heat, (&rise, &speed), operating_rpm);
+}
+
+fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis)) {
+    let wishes: Vec<Wish> = heat
+        .critical_speeds
+        .iter()
+        .map(|curve| Wish {
+            centre: speed.at(curve.rpm.last().copied().unwrap_or(0.0)),
+            length: LINE,
+        })
+        .collect();
+    let labels = push_apart(&wishes, SPEEDS.top, SPEEDS.bottom);
+    // A profile with its peak below zero runs to the left.
+    let leftwards = heat
+        .critical_speeds
+        .iter()
+        .any(|curve| curve.rise_k.last().is_some_and(|k| *k < 0.0));
+    for (curve, label) in heat.critical_speeds.iter().zip(labels) {
+        let places = curve.rise_k.iter().zip(&curve.rpm);
+        let places: Vec<_> = places
+            .map(|(k, rpm)| [rise.at(*k), speed.at(*rpm)])
+            .collect();
+        draw_curve(sheet, &SPEEDS, &places, Stroke::solid(FORWARD, CURVE));
+        let end = match leftwards {
+            true => places.first(),
+            false => places.last(),
+        };
+        if let (Some(y), Some(end)) = (label, end) {
+            let circles = match curve.nodal_circles {
+                0 => String::new(),
+                circles => format!(", {circles} circles"),
+            };
+            let text = format!("{} diameters{circles}", curve.nodal_diameters);
+            let at = [SPEEDS.right + 14.0, y];
+            sheet.line([*end, at], Stroke::solid(QUIET, 0.6 * HAIRLINE));
+            let letters = Lettering::regular(LABEL_SIZE, FORWARD, Anchor::Start);
+            sheet.text([at[0] + 4.0, y + 0.36 * LABEL_SIZE], letters, &text);
+        }
+    }
+}
+
+fn draw_limits(
+    sheet: &mut Sheet,
+    heat: &HeatEntry,
+    (rise, speed): (&Axis, &Axis),
+    operating_rpm: Option<f64>,
+) {
+    let kelvin = |k: f64| {
+        let sign = if k > 0.0 { "+" } else { "" };
+        format!("{sign}{} K", tick_label((10.0 * k).round() / 10.0))
+    };
+    let dashed = |colour, dash| Stroke {
+        dash: Some(dash),
+        ..Stroke::solid(colour, HAIRLINE)
+    };
+    if heat.rise_k != 0.0 && rise.shows(heat.rise_k) {
+        let x = rise.at(heat.rise_k);
+        let line = [[x, SPEEDS.top], [x, SPEEDS.bottom]];
+        sheet.line(line, dashed(QUIET, FINE_DASH));
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
+        let text = format!("the scene, {}", kelvin(heat.rise_k));
+        sheet.text([x, SPEEDS.top - 7.0], letters, &text);
+    }
+    if let Some(rpm) = operating_rpm {
+        let y = speed.at(rpm);
+        let line = [[SPEEDS.left, y], [SPEEDS.right, y]];
+        sheet.line(line, dashed(INK, DASH));
+        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
+        let text = format!("operating speed, {rpm:.0} rpm");
+        let place = [SPEEDS.left + 8.0, y + LINE];
+        sheet.fill(text_frame(place, &letters, &text), PAPER);
+        sheet.text(place, letters, &text);
+    }
+    let mut limit = |k: f64, rpm: f64, colour: Colour, text: String| {
+        if rise.shows(k) {
+            let at = [rise.at(k), speed.at(rpm)];
+            sheet.disc(at, 4.5, colour);
+            let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
+            // Below the line of the operating speed and its own label.
+            let below = if rpm > 0.0 { 2.1 * LINE } else { -9.0 };
+            let place = [at[0] - 9.0, at[1] + below];
+            // The line of the scene may pass behind it.
+            sheet.fill(text_frame(place, &letters, &text), PAPER);
+            sheet.text(place, letters, &text);
+        }
+    };
+    if let (Some(found), Some(rpm)) = (&heat.operating_limit, operating_rpm) {
+        let text = format!("critical from {} on", kelvin(found.rise_k));
+        limit(found.rise_k, rpm, FLUTTER, text);
+    }
+    if let Some(found) = &heat.buckling {
+        let text = format!("buckles at rest from {} on", kelvin(found.rise_k));
+        limit(found.rise_k, 0.0, ALARM, text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::sample::empty_report;
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::report::{HeatCurveEntry, HeatLimitEntry, OperatingEntry};
+
+    /// A blade whose critical speeds fall straight to 40 K, and which buckles at 52 K.
+    fn report(rise_k: f64) -> Report {
+        let radius_m: Vec<f64> = (0..=30).map(|k| 0.08 + 0.01 * f64::from(k)).collect();
+        let peaks: Vec<f64> = (0..=20).map(|k| 2.6 * f64::from(k) - 1e-3).collect();
+        let curve = |diameters: usize| HeatCurveEntry {
+            nodal_diameters: diameters,
+            nodal_circles: 0,
+            rise_k: peaks.clone(),
+            rpm: peaks
+                .iter()
+                .map(|k| 4000.0 * (1.0 - k / 52.0).sqrt() + 80.0 * diameters as f64)
+                .collect(),
+        };
+        let limit = |rise_k| {
+            Some(HeatLimitEntry {
+                rise_k,
+                nodal_diameters: 3,
+                nodal_circles: 0,
+            })
+        };
+        let mut report = empty_report("A hot saw");
+        report.operating = Some(OperatingEntry {
+            rpm: 3000.0,
+            of_lowest_critical: Some(0.7),
+            limit: 0.85,
+            within_limit: Some(true),
+            inside_instability: None,
+        });
+        report.membrane = Some(MembraneEntry {
+            radial_pa: radius_m.iter().map(|r| -3e8 * (0.38 - r).abs()).collect(),
+            hoop_pa: radius_m.iter().map(|r| 3e8 * (0.2 - r)).collect(),
+            heat: Some(HeatEntry {
+                rise_k,
+                profile_k: radius_m.clone(),
+                operating_limit: limit(25.0),
+                past_critical_when_cold: false,
+                buckling: limit(51.9),
+                flat_from: None,
+                buckles_first: false,
+                critical_speeds: (2..7).map(curve).collect(),
+            }),
+            radius_m,
+        });
+        report
+    }
+
+    #[test]
+    fn no_label_lies_on_another() {
+        for rise_k in [0.0, 10.0, 24.0, 51.0] {
+            let drawn = sheet(&report(rise_k)).unwrap();
+            assert_tidy(&drawn);
+            let written = texts(&drawn);
+            let has = |text: &str| written.iter().any(|(_, own)| *own == text);
+            assert!(has("critical from +25 K on") && has("buckles at rest from +51.9 K on"));
+            assert_eq!(has(&format!("the scene, +{rise_k} K")), rise_k > 0.0);
+        }
+    }
+
+    #[test]
+    fn without_temperature_there_is_the_stress_alone_and_without_stress_nothing() {
+        let mut rolled = report(0.0);
+        rolled.membrane.as_mut().unwrap().heat = None;
+        let drawn = sheet(&rolled).unwrap();
+        assert_tidy(&drawn);
+        assert_eq!(drawn.size().0, WIDTHS[1]);
+        rolled.membrane = None;
+        assert!(sheet(&rolled).is_none());
+    }
+}

@@ -1,0 +1,330 @@
+//! The goal over two numbers of a guide, the best saw marked.
+
+use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::fit::four_digits;
+use super::heat::{draw_grid, draw_scale, ramp};
+use super::style::{
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, INK, LABEL_SIZE, PAPER, QUIET, STRONG_CURVE, Weight,
+    text_width,
+};
+use super::{FigureError, heading, render};
+use crate::report::{GoalEntry, MapEntry, PlaceReport};
+
+const WIDTH: u32 = 1100;
+const HEIGHT: u32 = 760;
+const PANEL: Frame = Frame {
+    left: 104.0,
+    top: 96.0,
+    right: 950.0,
+    bottom: 650.0,
+};
+const SCALE: [f64; 2] = [984.0, 1004.0];
+/// From low to high: lightness rises evenly, so that grey prints read too.
+const LOW_TO_HIGH: [Colour; 5] = [
+    plotters::style::RGBColor(52, 24, 66),
+    plotters::style::RGBColor(58, 82, 139),
+    plotters::style::RGBColor(33, 145, 140),
+    plotters::style::RGBColor(122, 209, 81),
+    plotters::style::RGBColor(240, 236, 120),
+];
+/// Saws that break the limit, and places without a saw.
+const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
+
+/// The map as PNG, 1100 × 760 pixels; `None` where none was drawn.
+pub fn place_png(report: &PlaceReport) -> Result<Option<Vec<u8>>, FigureError> {
+    sheet(report).as_ref().map(render::png).transpose()
+}
+
+/// The map as SVG.
+pub fn place_svg(report: &PlaceReport) -> Result<Option<String>, FigureError> {
+    sheet(report).as_ref().map(render::svg).transpose()
+}
+
+/// An axis of a number that may be spread by decades.
+struct Along {
+    axis: Axis,
+    values: Vec<f64>,
+    logarithmic: bool,
+}
+
+impl Along {
+    fn new(values: &[f64], places: [f64; 2]) -> Self {
+        let ends = [
+            values.first().copied().unwrap_or(0.0),
+            values.last().copied().unwrap_or(1.0),
+        ];
+        let logarithmic = ends[0] > 0.0 && ends[1] >= 10.0 * ends[0];
+        let of = |value: f64| if logarithmic { value.log10() } else { value };
+        Along {
+            axis: Axis::new(ends.map(of), places, Spread::Linear),
+            values: values.iter().map(|v| of(*v)).collect(),
+            logarithmic,
+        }
+    }
+
+    fn at(&self, value: f64) -> f64 {
+        let value = if self.logarithmic {
+            value.log10()
+        } else {
+            value
+        };
+        self.axis.at(value)
+    }
+
+    fn name(&self, path: &str) -> String {
+        let (before, unit) = UNITS
+            .iter()
+            .find_map(|(suffix, unit)| Some((path.strip_suffix(suffix)?, *unit)))
+            .unwrap_or((path, ""));
+        let name = before.replace('_', " ");
+        match (self.logarithmic, unit) {
+            (true, unit) => format!("log₁₀ {name}\u{2003}[{unit}]"),
+            (false, "") => name,
+            (false, unit) => format!("{name}\u{2003}[{unit}]"),
+        }
+    }
+}
+
+const UNITS: [(&str, &str); 8] = [
+    ("_n_s_per_m", "N·s/m"),
+    ("_n_per_m", "N/m"),
+    ("_kg_per_m3", "kg/m³"),
+    ("_deg", "°"),
+    ("_pa", "Pa"),
+    ("_rpm", "rpm"),
+    ("_s", "s"),
+    ("_m", "m"),
+];
+
+pub(super) fn sheet(report: &PlaceReport) -> Option<Sheet> {
+    let map = report.map.as_ref()?;
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    let title = match report.goal {
+        GoalEntry::FlutterSpeed => "Flutter speed over the place of the guide",
+        GoalEntry::StableWindow => "Stable window around the operating speed",
+    };
+    heading::draw(&mut sheet, title, &facts(report));
+    let x = Along::new(&map.x, [PANEL.left, PANEL.right]);
+    let y = Along::new(&map.y, [PANEL.bottom, PANEL.top]);
+    let [low, high] = range(map);
+    let shade = |rpm: f64| ramp(&LOW_TO_HIGH, (rpm - low) / (high - low));
+    if let Some(path) = &map.y_path {
+        draw_vertical(&mut sheet, &y.axis, &PANEL, &y.name(path));
+    }
+    draw_grid(
+        &mut sheet,
+        (&x.axis, &x.values),
+        (&y.axis, &y.values),
+        |column, row| match map.goal_rpm[row][column] {
+            Some(rpm) if map.kept[row][column] => shade(rpm),
+            _ => BROKEN,
+        },
+    );
+    draw_horizontal(&mut sheet, &x.axis, PANEL.bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let middle = (PANEL.left + PANEL.right) / 2.0;
+    sheet.text([middle, PANEL.bottom + 42.0], letters, &x.name(&map.x_path));
+    draw_marks(&mut sheet, report, map, &x, &y);
+    let scale = Frame {
+        left: SCALE[0],
+        top: PANEL.top + 20.0,
+        right: SCALE[1],
+        bottom: PANEL.bottom,
+    };
+    let axis = Axis::new([low, high], [scale.bottom, scale.top], Spread::Linear);
+    let label = |rpm: f64| Some(tick_label(rpm));
+    draw_scale(&mut sheet, &scale, &axis, "rpm", (shade, label));
+    draw_key(&mut sheet, report, map);
+    Some(sheet)
+}
+
+/// Least and largest of what is shaded.
+fn range(map: &MapEntry) -> [f64; 2] {
+    let rows = map.goal_rpm.iter().zip(&map.kept);
+    let cells = rows.flat_map(|(goal, kept)| goal.iter().zip(kept));
+    let shown = cells.filter_map(|(goal, kept)| goal.filter(|_| *kept));
+    let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], rpm| {
+        [low.min(rpm), high.max(rpm)]
+    });
+    match low < high {
+        true => [low, high],
+        false if low.is_finite() => [0.99 * low, 1.01 * low + 1.0],
+        false => [0.0, 1.0],
+    }
+}
+
+fn facts(report: &PlaceReport) -> String {
+    let goal = match report.goal {
+        GoalEntry::FlutterSpeed => "flutter",
+        GoalEntry::StableWindow => "window of",
+    };
+    let beyond = match (report.goal, report.best.flutter_rpm) {
+        (GoalEntry::FlutterSpeed, None) => "beyond ",
+        _ => "",
+    };
+    let best = format!(
+        "best: {goal} {beyond}{:.0} rpm (before {:.0} rpm)",
+        report.best.goal_rpm, report.before.goal_rpm
+    );
+    let values = report.parameters.iter().map(|p| {
+        let name = p.path.rsplit('.').next().unwrap_or(&p.path);
+        format!("{name} {}", four_digits(p.value))
+    });
+    let worst = format!(
+        "{}a little off: {:.0} %",
+        if report.fragile { "fragile, " } else { "" },
+        100.0 * report.worst_neighbour_share
+    );
+    std::iter::once(best)
+        .chain(values)
+        .chain([worst])
+        .collect::<Vec<_>>()
+        .join(BETWEEN_FACTS)
+}
+
+fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along, y: &Along) {
+    let number = |path: &str, best: bool| {
+        let p = report.parameters.iter().find(|p| p.path == path)?;
+        Some(if best { p.value } else { p.start })
+    };
+    let place = |best: bool| {
+        let across = x.at(number(&map.x_path, best)?);
+        let up = match &map.y_path {
+            Some(path) => y.at(number(path, best)?),
+            None => (PANEL.top + PANEL.bottom) / 2.0,
+        };
+        Some([across, up])
+    };
+    if let Some(at) = place(false) {
+        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0), PAPER);
+    }
+    if let Some(at) = place(true) {
+        draw_best(sheet, at);
+    }
+}
+
+/// A cross in a ring, red on white.
+fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
+    sheet.disc([x, y], 11.0, PAPER);
+    sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0), PAPER);
+    let arm = 6.0;
+    for line in [[[x - arm, y], [x + arm, y]], [[x, y - arm], [x, y + arm]]] {
+        sheet.line(line, Stroke::solid(ALARM, STRONG_CURVE / 1.7));
+    }
+}
+
+fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
+    let y = f64::from(HEIGHT) - 26.0;
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let mut x = PANEL.left;
+    let word = |sheet: &mut Sheet, x: &mut f64, text: &str| {
+        sheet.text([*x, y], letters, text);
+        *x += text_width(text, LABEL_SIZE, Weight::Regular) + 26.0;
+    };
+    draw_best(sheet, [x + 11.0, y - 4.0]);
+    x += 30.0;
+    word(sheet, &mut x, "best");
+    sheet.ring([x + 5.0, y - 4.0], 5.0, Stroke::solid(INK, 2.0), PAPER);
+    x += 18.0;
+    word(sheet, &mut x, "the scene");
+    if map.kept.iter().flatten().any(|kept| !kept) {
+        let frame = Frame {
+            left: x,
+            top: y - 12.0,
+            right: x + 22.0,
+            bottom: y + 2.0,
+        };
+        sheet.fill(frame, BROKEN);
+        x += 30.0;
+        let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
+            format!("lowest critical speed below {rpm:.0} rpm")
+        });
+        word(sheet, &mut x, &limit);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::report::OutcomeEntry;
+    use crate::report::PlacedEntry;
+    use crate::scene::Scene;
+
+    fn report(y_path: Option<&str>) -> PlaceReport {
+        let outcome = OutcomeEntry {
+            goal_rpm: 2300.0,
+            flutter_rpm: Some(2300.0),
+            critical_rpm: Some(1600.0),
+            window_rpm: None,
+            kept: true,
+        };
+        let placed = |path: &str, value: f64, bound_to: f64| PlacedEntry {
+            path: path.into(),
+            start: 0.9 * value,
+            value,
+            bound_from: 0.5 * value,
+            bound_to,
+            at_bound: false,
+            offset: 0.002,
+            less_rpm: Some(2250.0),
+            more_rpm: None,
+        };
+        let (x, y) = (vec![0.2, 0.25, 0.3], vec![1e6, 1e7, 1e8]);
+        let rows = if y_path.is_some() { 3 } else { 1 };
+        PlaceReport {
+            sawflutter: "0".into(),
+            scene: Scene::paper().file,
+            goal: GoalEntry::FlutterSpeed,
+            min_critical_rpm: Some(1500.0),
+            kept: true,
+            from_rpm: 0.0,
+            to_rpm: 3000.0,
+            flutter_threshold_per_s: 0.25,
+            parameters: vec![
+                placed("guides[0].radius_m", 0.25, 0.3),
+                placed("guides[0].stiffness_n_per_m", 2e7, 1e8),
+            ],
+            without_effect: Vec::new(),
+            before: outcome,
+            best: outcome,
+            bands: Vec::new(),
+            fragile: true,
+            worst_neighbour: None,
+            worst_neighbour_share: 0.91,
+            almost: Vec::new(),
+            map: Some(MapEntry {
+                x_path: "guides[0].radius_m".into(),
+                x,
+                y_path: y_path.map(str::to_owned),
+                y: if y_path.is_some() { y } else { vec![0.0] },
+                goal_rpm: vec![vec![Some(2000.0), Some(2300.0), None]; rows],
+                kept: vec![vec![true, true, false]; rows],
+            }),
+            saws: 100,
+            max_diameters: 8,
+            radial_functions: 5,
+            warnings: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn nothing_is_cut_off_or_hidden() {
+        for y_path in [None, Some("guides[0].stiffness_n_per_m")] {
+            let sheet = sheet(&report(y_path)).unwrap();
+            assert_tidy(&sheet);
+            let all: Vec<&str> = texts(&sheet).iter().map(|(_, text)| *text).collect();
+            assert!(
+                all.iter().any(|text| text.contains("below 1500 rpm")),
+                "{all:?}"
+            );
+            assert!(all.iter().any(|text| text.contains("[m]")), "{all:?}");
+        }
+        let without = PlaceReport {
+            map: None,
+            ..report(None)
+        };
+        assert!(super::sheet(&without).is_none());
+    }
+}

@@ -1,0 +1,223 @@
+//! Measured frequencies, and which computed ones they are held against.
+
+use crate::scene::{Measured, MeasuredRow, rad_per_s};
+
+use super::FitError;
+
+/// Frequencies measured over speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// Who measured them, or the name of the file.
+    pub source: String,
+    /// One row a speed.
+    pub rows: Vec<Row>,
+}
+
+/// Frequencies at one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// (k, frequency in Hz): to be held against the k-th lowest computed frequency, k from 0.
+    pub pairs: Vec<(usize, f64)>,
+}
+
+/// Rows and frequencies beyond these are no table that a person measured.
+const MAX_ROWS: usize = 1000;
+const MAX_COLUMNS: usize = 24;
+/// As far as scenes go, in rpm and in Hz.
+const MAX_RPM: f64 = 1e9;
+const MAX_HZ: f64 = 1e9;
+
+impl Row {
+    /// Pairs the columns that hold a number with the computed frequencies of their places:
+    /// the numbers of a row are held in ascending order, whatever order they stand in, for a
+    /// reader of a spectrum cannot tell waves that have crossed. A blank third column says that
+    /// the third lowest frequency was not seen.
+    pub fn new(rpm: f64, columns: &[Option<f64>]) -> Self {
+        let places = columns.iter().enumerate().filter(|(_, hz)| hz.is_some());
+        let mut numbers: Vec<f64> = columns.iter().copied().flatten().collect();
+        numbers.sort_by(f64::total_cmp);
+        Row {
+            rpm,
+            pairs: places.map(|(place, _)| place).zip(numbers).collect(),
+        }
+    }
+
+    /// Ω.
+    pub fn speed_rad_per_s(&self) -> f64 {
+        rad_per_s(self.rpm)
+    }
+
+    /// How many of the lowest computed frequencies it takes.
+    pub fn depth(&self) -> usize {
+        self.pairs.last().map_or(0, |(place, _)| place + 1)
+    }
+}
+
+impl Measurement {
+    /// The `measured` block of a scene.
+    pub fn of_scene(measured: &Measured) -> Self {
+        let row = |row: &MeasuredRow| {
+            let columns: Vec<_> = row.frequencies_hz.iter().copied().map(Some).collect();
+            Row::new(row.rpm, &columns)
+        };
+        Measurement {
+            source: measured.source.clone(),
+            rows: measured.rows.iter().map(row).collect(),
+        }
+    }
+
+    /// Reads a table: a speed in rpm, then frequencies in Hz or blanks. A first line of names
+    /// and lines that begin with # are passed over.
+    ///
+    /// # Errors
+    /// [`FitError::Table`] with the line, the column and what is wrong with it.
+    pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let mut rows: Vec<Row> = Vec::new();
+        for (index, record) in reader.records().enumerate() {
+            let record = record.map_err(|error| FitError::Table {
+                line: error.position().map_or(0, csv::Position::line),
+                problem: format!("it cannot be read ({error}); give rpm and frequencies in Hz, separated by commas"),
+            })?;
+            let first = record.get(0).unwrap_or_default();
+            if index == 0 && first.parse::<f64>().is_err() {
+                continue;
+            }
+            rows.push(row(&record)?);
+            if rows.len() > MAX_ROWS {
+                return Err(wrong(
+                    &record,
+                    format!(
+                        "it is row {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
+                        rows.len()
+                    ),
+                ));
+            }
+        }
+        Ok(Measurement {
+            source: source.to_owned(),
+            rows,
+        })
+    }
+
+    /// The same up to a speed.
+    pub fn up_to(&self, rpm: f64) -> Self {
+        let within = self.rows.iter().filter(|row| row.rpm <= rpm);
+        Measurement {
+            source: self.source.clone(),
+            rows: within.cloned().collect(),
+        }
+    }
+
+    /// Number of frequencies.
+    pub fn count(&self) -> usize {
+        self.rows.iter().map(|row| row.pairs.len()).sum()
+    }
+
+    /// Largest speed.
+    pub fn top_rpm(&self) -> f64 {
+        self.rows.iter().fold(0.0, |top, row| row.rpm.max(top))
+    }
+
+    /// How many of the lowest frequencies any row takes.
+    pub fn depth(&self) -> usize {
+        self.rows.iter().map(Row::depth).max().unwrap_or(0)
+    }
+
+    /// As the block of a scene. A row in which a frequency was missed below one that was seen
+    /// cannot be written there without shifting its pairs, and is left out.
+    pub fn as_scene_block(&self) -> Option<Measured> {
+        let whole = |row: &&Row| !row.pairs.is_empty() && row.depth() == row.pairs.len();
+        let rows: Vec<MeasuredRow> = self
+            .rows
+            .iter()
+            .filter(whole)
+            .map(|row| MeasuredRow {
+                rpm: row.rpm,
+                frequencies_hz: row.pairs.iter().map(|(_, hz)| *hz).collect(),
+            })
+            .collect();
+        (!rows.is_empty()).then(|| Measured {
+            source: self.source.clone(),
+            rows,
+        })
+    }
+}
+
+fn wrong(record: &csv::StringRecord, problem: String) -> FitError {
+    FitError::Table {
+        line: record.position().map_or(0, csv::Position::line),
+        problem,
+    }
+}
+
+fn row(record: &csv::StringRecord) -> Result<Row, FitError> {
+    let number = |column: usize, most: f64, unit: &str| -> Result<f64, FitError> {
+        let text = record.get(column).unwrap_or_default();
+        match text.parse::<f64>() {
+            Ok(value) if (0.0..=most).contains(&value) => Ok(value),
+            _ => Err(wrong(
+                record,
+                format!(
+                    "column {} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}",
+                    column + 1
+                ),
+            )),
+        }
+    };
+    if record.len() > MAX_COLUMNS + 1 {
+        let problem = format!(
+            "it has {} frequencies, but at most {MAX_COLUMNS} are allowed; leave out the highest",
+            record.len() - 1
+        );
+        return Err(wrong(record, problem));
+    }
+    let rpm = number(0, MAX_RPM, "revolutions per minute")?;
+    let columns = (1..record.len())
+        .map(|column| match record.get(column) {
+            None | Some("") => Ok(None),
+            Some(_) => number(column, MAX_HZ, "Hz, or leave it blank").map(Some),
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(Row::new(rpm, &columns))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_a_row_are_paired_in_ascending_order_with_the_places_that_hold_one() {
+        let text = "rpm,f1,f2,f3,f4\n# seen twice\n0,9,10.5,,43\n2000, 4, 0, 9\n";
+        let table = Measurement::from_csv("here", text).unwrap();
+        assert_eq!(table.rows[0].pairs, [(0, 9.0), (1, 10.5), (3, 43.0)]);
+        assert_eq!(table.rows[1].pairs, [(0, 0.0), (1, 4.0), (2, 9.0)]);
+        assert_eq!(
+            (table.count(), table.depth(), table.top_rpm()),
+            (6, 4, 2000.0)
+        );
+        // The first row has a gap, which a scene cannot say.
+        assert_eq!(table.as_scene_block().unwrap().rows.len(), 1);
+        assert_eq!(table.up_to(1999.0).rows.len(), 1);
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_with_its_place() {
+        for (text, expected) in [
+            ("rpm,f\n0,9\n10,x\n", "line 3"),
+            ("0,9\n-5,9\n", "column 1 is \"-5\""),
+            ("0,NaN\n", "column 2 is \"NaN\""),
+            ("0,inf\n", "column 2 is \"inf\""),
+        ] {
+            let error = Measurement::from_csv("t", text).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

@@ -1,0 +1,407 @@
+//! Calibration: numbers of a scene from frequencies measured over speed.
+//!
+//! Least squares within bounds by the trust-region reflective method, from several starts; the
+//! starts are spread over the bounds on a coarse basis, and the best is refined on the basis
+//! that the scene's tolerance asks for. Frequencies are |Im λ|/2π in space, zero for a wave
+//! that diverges; the numbers of a row in ascending order are held against the lowest computed
+//! ones, as in the calibration of the paper's saw on its Table 5.
+//!
+//! ```
+//! use sawflutter::fit::{Fit, Measurement, Options};
+//! use sawflutter::plate::Resolution;
+//! use sawflutter::scene::{Freed, Scene};
+//!
+//! let scene = Scene::paper();
+//! let measured = scene.file.measured.as_ref().expect("the paper's Table 5");
+//! let measurement = Measurement::of_scene(measured).up_to(1250.0);
+//! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.1, 0.355)?;
+//! let small = Resolution { max_diameters: 4, radial_functions: 3 };
+//! let options = Options { resolution: Some(small), ..Options::default() };
+//! let fit = Fit::new(&scene, &measurement, &[radius], &options, &|_, _| ())?;
+//! assert!(fit.rms_hz < 1.2 && (fit.parameters[0].value - 0.2).abs() < 0.02);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod measurement;
+mod model;
+mod solve;
+
+use rayon::prelude::*;
+
+use crate::campbell::Progress;
+use crate::plate::{Plate, Resolution};
+use crate::scene::{
+    Freed, Scene, SceneError, SceneFile, SpeedRange, common_turn, rad_per_s, scene_at, spread,
+};
+use crate::spectrum::{LowestModes, SpectrumError};
+use crate::stability::ChosenBasis;
+
+pub use measurement::{Measurement, Row};
+use model::Model;
+use solve::{Found, at_bound, minimum, statistics};
+
+/// Why nothing could be fitted.
+#[derive(Debug, thiserror::Error)]
+pub enum FitError {
+    /// A line of the table is none.
+    #[error("line {line} of the measured frequencies: {problem}")]
+    Table {
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong and what to do.
+        problem: String,
+    },
+    /// More unknowns than the data can determine.
+    #[error(
+        "{measured} measured frequencies do not determine {free} numbers; measure more, or free fewer numbers"
+    )]
+    TooFew {
+        /// Measured frequencies.
+        measured: usize,
+        /// Numbers that are free and move them.
+        free: usize,
+    },
+    /// Nothing to fit with.
+    #[error(
+        "no number is free that moves a measured frequency; free another one, like guides[0].radius_m"
+    )]
+    NothingFree,
+    /// Every start was refused.
+    #[error("none of {starts} starts between the bounds is a saw; narrow the bounds")]
+    NoStart {
+        /// How many were tried.
+        starts: usize,
+    },
+    /// A scene was refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
+
+/// How to fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Probability with which the intervals cover the truth.
+    pub confidence: f64,
+    /// Starts: the scene's own numbers, and others spread between the bounds.
+    pub starts: usize,
+    /// Which others.
+    pub seed: u64,
+    /// A basis instead of the one that the scene's tolerance asks for.
+    pub resolution: Option<Resolution>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            confidence: 0.95,
+            starts: 12,
+            seed: 0,
+            resolution: None,
+        }
+    }
+}
+
+/// A number and what was found for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedParameter {
+    /// Which, and between which bounds.
+    pub freed: Freed,
+    /// What the scene had.
+    pub start: f64,
+    /// What fits best.
+    pub value: f64,
+    /// Where the truth is with the confidence asked for; `None` at a bound, and where the data
+    /// do not tell this number from others.
+    pub interval: Option<(f64, f64)>,
+    /// Whether it rests on a bound.
+    pub at_bound: bool,
+}
+
+/// A start and where it led.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// Values it began with.
+    pub from: Vec<f64>,
+    /// Values it reached, and the root mean square of what was left; `None` for a start that
+    /// is no saw.
+    pub to: Option<(Vec<f64>, f64)>,
+}
+
+/// A calibrated saw.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// The saw.
+    pub scene: Scene,
+    /// Numbers found.
+    pub parameters: Vec<FittedParameter>,
+    /// Freed numbers that move no measured frequency, or none that the others do not move
+    /// as well: of angles that may all turn, one. They stay as they were.
+    pub without_effect: Vec<Freed>,
+    /// Correlation of the parameters.
+    pub correlation: Vec<Vec<f64>>,
+    /// Measured numbers less free ones.
+    pub degrees_of_freedom: usize,
+    /// Root mean square of computed minus measured frequencies.
+    pub rms_hz: f64,
+    /// The same before.
+    pub rms_before_hz: f64,
+    /// The basis.
+    pub resolution: Resolution,
+    /// Estimated relative error of its critical speeds; `None` where it was given.
+    pub estimated_relative_error: Option<f64>,
+    /// Every start, on a coarser basis.
+    pub starts: Vec<Start>,
+}
+
+/// Starts are told from each other, and parameters from idle ones, as well on this.
+const COARSE_TOLERANCE: f64 = 1e-2;
+/// Frequencies that move by less than this between the bounds do not move, in Hz.
+const IDLE_HZ: f64 = 1e-5;
+/// As many of the best starts, if they led to different places, are refined.
+const REFINED: usize = 3;
+
+impl Fit {
+    /// Fits the freed numbers of a scene.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn new(
+        scene: &Scene,
+        measurement: &Measurement,
+        freed: &[Freed],
+        options: &Options,
+        progress: Progress<'_>,
+    ) -> Result<Self, FitError> {
+        let coarse = match options.resolution {
+            Some(resolution) => resolution,
+            None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
+        };
+        let (freed, without_effect) = effective(scene, measurement, freed, coarse)?;
+        if freed.is_empty() {
+            return Err(FitError::NothingFree);
+        }
+        let (measured, free) = (measurement.count(), freed.len());
+        if measured <= free {
+            return Err(FitError::TooFew { measured, free });
+        }
+        let model = |resolution| Model {
+            scene: &scene.file,
+            freed: &freed,
+            measurement,
+            resolution,
+        };
+        let (starts, candidates) = search(&model(coarse), options, progress)?;
+        let Some(best) = candidates.first() else {
+            let starts = starts.len();
+            return Err(FitError::NoStart { starts });
+        };
+        let (resolution, estimated_relative_error) = match options.resolution {
+            Some(resolution) => (resolution, None),
+            None => {
+                let near = scene_at(&scene.file, &freed, &best.shares)?;
+                let (resolution, error) = basis(&near, measurement, scene.tolerance())?;
+                (resolution, Some(error))
+            }
+        };
+        let fine = model(resolution);
+        let refined: Vec<Option<Found>> = candidates
+            .par_iter()
+            .map(|found| minimum(&fine, &found.shares))
+            .collect::<Result<_, _>>()?;
+        let best = lowest(refined.into_iter().flatten()).unwrap_or_else(|| best.clone());
+        let spread = statistics(&fine, &best.shares, options.confidence)?;
+        let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+        let before = fine.residuals_hz(&own)?;
+        let parameters = freed.iter().enumerate().map(|(k, freed)| {
+            let share = best.shares[k];
+            let half = spread.half_widths[k];
+            FittedParameter {
+                freed: freed.clone(),
+                start: freed.value(own[k]),
+                value: freed.value(share),
+                interval: half.map(|h| (freed.value(share - h), freed.value(share + h))),
+                at_bound: at_bound(share),
+            }
+        });
+        Ok(Fit {
+            scene: calibrated(scene, measurement, &freed, &best)?,
+            parameters: parameters.collect(),
+            without_effect,
+            correlation: spread.correlation,
+            degrees_of_freedom: spread.degrees_of_freedom,
+            rms_hz: best.rms_hz,
+            rms_before_hz: rms(&before),
+            resolution,
+            estimated_relative_error,
+            starts,
+        })
+    }
+
+    /// The `count` lowest frequencies of a saw at speeds in rpm, in Hz, on the fit's basis.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn frequencies_hz(
+        &self,
+        scene: &Scene,
+        rpm: &[f64],
+        count: usize,
+    ) -> Result<Vec<Vec<f64>>, SpectrumError> {
+        let lowest = LowestModes::new(&Plate::new(scene, self.resolution));
+        rpm.par_iter()
+            .map(|rpm| Model::frequencies_hz(&lowest, rad_per_s(*rpm), count))
+            .collect()
+    }
+}
+
+fn rms(residuals: &[f64]) -> f64 {
+    (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
+}
+
+/// The basis for a tolerance up to the measured speeds, and its estimated error.
+fn basis(
+    scene: &Scene,
+    measurement: &Measurement,
+    tolerance: f64,
+) -> Result<(Resolution, f64), SpectrumError> {
+    let sweep = SpeedRange {
+        from_rad_per_s: 0.0,
+        to_rad_per_s: rad_per_s(measurement.top_rpm()),
+    };
+    let scene = Scene {
+        sweep: Some(sweep),
+        ..scene.clone()
+    };
+    let chosen = ChosenBasis::new(&scene, tolerance)?;
+    Ok((chosen.plate.resolution, chosen.estimated_relative_error))
+}
+
+/// Sorts the freed numbers into those that move a measured frequency and those that do not:
+/// the angle of a single pad, say, which turns the saw as a whole. Looked at from several
+/// places, for a number may rest at one.
+fn effective(
+    scene: &Scene,
+    measurement: &Measurement,
+    freed: &[Freed],
+    resolution: Resolution,
+) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
+    let model = Model {
+        scene: &scene.file,
+        freed,
+        measurement,
+        resolution,
+    };
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+    let held = common_turn(scene, freed);
+    let moves = |k: usize| -> Result<bool, SpectrumError> {
+        if held == Some(k) {
+            return Ok(false);
+        }
+        for base in [own.clone(), spread(freed.len(), 0, 0)] {
+            let mut reference: Option<Vec<f64>> = None;
+            for share in [0.1, 0.37, 0.83] {
+                let mut shares = base.clone();
+                shares[k] = share;
+                let residuals = model.residuals_hz(&shares)?;
+                if residuals.iter().any(|r| r.is_nan()) {
+                    continue;
+                }
+                let first = reference.get_or_insert_with(|| residuals.clone());
+                let moved = first
+                    .iter()
+                    .zip(&residuals)
+                    .any(|(x, y)| (x - y).abs() > IDLE_HZ);
+                if moved {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    };
+    let moving: Vec<bool> = (0..freed.len())
+        .into_par_iter()
+        .map(moves)
+        .collect::<Result<_, _>>()?;
+    let with = |wanted: bool| {
+        let pairs = freed
+            .iter()
+            .zip(&moving)
+            .filter(move |(_, m)| **m == wanted);
+        pairs.map(|(f, _)| f.clone()).collect()
+    };
+    Ok((with(true), with(false)))
+}
+
+/// Follows every start, and gives the best few that led to different places, best first.
+fn search(
+    model: &Model<'_>,
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<(Vec<Start>, Vec<Found>), SpectrumError> {
+    let freed = model.freed;
+    let count = options.starts.max(1);
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
+    let others = (0..count - 1).map(|index| spread(freed.len(), options.seed, index));
+    let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let found: Vec<Option<Found>> = from
+        .par_iter()
+        .map(|start| {
+            let found = minimum(model, start);
+            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            progress(so_far, count);
+            found
+        })
+        .collect::<Result<_, _>>()?;
+    let values = |shares: &[f64]| -> Vec<f64> {
+        let pairs = freed.iter().zip(shares);
+        pairs.map(|(freed, share)| freed.value(*share)).collect()
+    };
+    let starts = from.iter().zip(&found).map(|(from, found)| Start {
+        from: values(from),
+        to: found.as_ref().map(|f| (values(&f.shares), f.rms_hz)),
+    });
+    let starts = starts.collect();
+    let mut reached: Vec<Found> = found.into_iter().flatten().collect();
+    reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
+    let mut distinct: Vec<Found> = Vec::new();
+    for found in reached {
+        let apart = |other: &Found| {
+            let pairs = found.shares.iter().zip(&other.shares);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-2
+        };
+        if distinct.len() < REFINED && distinct.iter().all(apart) {
+            distinct.push(found);
+        }
+    }
+    Ok((starts, distinct))
+}
+
+fn lowest(found: impl Iterator<Item = Found>) -> Option<Found> {
+    found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz))
+}
+
+/// The scene with what was found and a note of where it comes from.
+fn calibrated(
+    scene: &Scene,
+    measurement: &Measurement,
+    freed: &[Freed],
+    best: &Found,
+) -> Result<Scene, SceneError> {
+    let mut file: SceneFile = scene_at(&scene.file, freed, &best.shares)?.file;
+    let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
+    file.notes.push(format!(
+        "{}: fitted to {} measured frequencies ({}), {:.4} Hz rms",
+        names.join(", "),
+        measurement.count(),
+        measurement.source,
+        best.rms_hz
+    ));
+    if file.measured.is_none() {
+        file.measured = measurement.as_scene_block();
+    }
+    Scene::try_from(file)
+}

@@ -1,0 +1,212 @@
+//! Computed frequencies of the measured speeds, and how they move with the freed numbers.
+
+use basin::DenseMatrix;
+use std::f64::consts::TAU;
+
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Freed, SceneError, SceneFile, scene_at};
+use crate::spectrum::{LowestModes, Mode, Part, SpectrumError, derivative};
+use crate::system::GyroscopicSystem;
+
+use super::Measurement;
+
+/// A saw of which some numbers are free, on one basis.
+pub struct Model<'a> {
+    pub scene: &'a SceneFile,
+    pub freed: &'a [Freed],
+    pub measurement: &'a Measurement,
+    pub resolution: Resolution,
+}
+
+/// Shares of the distance between the bounds: truncation is of the fourth power, and rounding
+/// of the matrices 1e-16/1e-3.
+const STEP: f64 = 1e-3;
+
+impl Model<'_> {
+    fn plate(&self, shares: &[f64]) -> Result<Plate, SceneError> {
+        let scene = scene_at(self.scene, self.freed, shares)?;
+        Ok(Plate::new(&scene, self.resolution))
+    }
+
+    /// Computed minus measured frequency of every pair, in Hz. Not a number where the scene
+    /// refuses these values together, which the solver takes for a step too far.
+    pub fn residuals_hz(&self, shares: &[f64]) -> Result<Vec<f64>, SpectrumError> {
+        match self.plate(shares) {
+            Ok(plate) => self.residuals_of(&LowestModes::new(&plate), |_, _| ()),
+            Err(_) => Ok(vec![f64::NAN; self.measurement.count()]),
+        }
+    }
+
+    /// The same with its derivative by every share, exact in the eigenvalues; the matrices are
+    /// differentiated by differences of the assembly, as in
+    /// [`sensitivities`](crate::stability::sensitivities).
+    pub fn residuals_and_slopes(
+        &self,
+        shares: &[f64],
+    ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
+        let (rows, columns) = (self.measurement.count(), self.freed.len());
+        let refused =
+            |value| DenseMatrix::from_row_slice(rows, columns, &vec![value; rows * columns]);
+        let changes: Result<Vec<_>, SceneError> = (0..columns)
+            .map(|k| self.changed_parts(shares, k))
+            .collect();
+        let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
+            return Ok((vec![f64::NAN; rows], refused(f64::NAN)));
+        };
+        let lowest = LowestModes::new(&plate);
+        let mut slopes = Vec::with_capacity(rows * columns);
+        let residuals =
+            self.residuals_of(&lowest, |speed, mode| {
+                slopes.extend(changes.iter().map(|parts| {
+                    mode.map_or(0.0, |mode| slope_hz(&lowest.parts, parts, speed, mode))
+                }));
+            })?;
+        Ok((
+            residuals,
+            DenseMatrix::from_row_slice(rows, columns, &slopes),
+        ))
+    }
+
+    /// Frequencies of a saw at a speed, in Hz.
+    pub fn frequencies_hz(
+        lowest: &LowestModes,
+        speed_rad_per_s: f64,
+        count: usize,
+    ) -> Result<Vec<f64>, SpectrumError> {
+        let modes = lowest.at(speed_rad_per_s, count)?;
+        Ok(modes.iter().map(frequency_hz).collect())
+    }
+
+    /// Residuals; tells of every pair its speed and its mode. A basis too small to have the
+    /// mode has it at zero.
+    fn residuals_of(
+        &self,
+        lowest: &LowestModes,
+        mut tell: impl FnMut(f64, Option<&Mode>),
+    ) -> Result<Vec<f64>, SpectrumError> {
+        let mut residuals = Vec::new();
+        for row in &self.measurement.rows {
+            let speed = row.speed_rad_per_s();
+            let modes = lowest.at(speed, row.depth())?;
+            for (place, measured_hz) in &row.pairs {
+                let mode = modes.get(*place);
+                residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
+                tell(speed, mode);
+            }
+        }
+        Ok(residuals)
+    }
+
+    /// d/d(share k) of the matrices of every part.
+    fn changed_parts(&self, shares: &[f64], k: usize) -> Result<Vec<GyroscopicSystem>, SceneError> {
+        let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
+        for (place, weight) in stencil(shares[k]) {
+            let mut shares = shares.to_vec();
+            shares[k] += place * STEP;
+            let parts = Part::of(&self.plate(&shares)?);
+            moved.resize_with(parts.len(), Vec::new);
+            for (terms, part) in moved.iter_mut().zip(parts) {
+                terms.push((weight / STEP, part.full));
+            }
+        }
+        let combined = moved
+            .iter()
+            .map(|terms| GyroscopicSystem::combination(terms));
+        Ok(combined.flatten().collect())
+    }
+}
+
+/// Central differences of fourth order; of third order, and one-sided, at a bound, past which
+/// a value may be refused.
+fn stencil(share: f64) -> [(f64, f64); 4] {
+    let twelfth = 1.0 / 12.0;
+    let central = [
+        (-2.0, twelfth),
+        (-1.0, -8.0 * twelfth),
+        (1.0, 8.0 * twelfth),
+        (2.0, -twelfth),
+    ];
+    let forward = [
+        (0.0, -11.0 / 6.0),
+        (1.0, 3.0),
+        (2.0, -1.5),
+        (3.0, 1.0 / 3.0),
+    ];
+    if share < 2.0 * STEP {
+        forward
+    } else if share > 1.0 - 2.0 * STEP {
+        forward.map(|(place, weight)| (-place, -weight))
+    } else {
+        central
+    }
+}
+
+fn frequency_hz(mode: &Mode) -> f64 {
+    mode.frequency_rad_per_s() / TAU
+}
+
+/// d|Im λ|/2π of a mode for a change of the matrices.
+fn slope_hz(
+    parts: &[Part],
+    changes: &[GyroscopicSystem],
+    speed_rad_per_s: f64,
+    mode: &Mode,
+) -> f64 {
+    let (system, change) = (&parts[mode.part].full, &changes[mode.part]);
+    let moved = derivative::with_change(
+        system,
+        speed_rad_per_s,
+        mode.lambda,
+        &mode.coordinates,
+        change,
+    );
+    let slope = moved.im / TAU;
+    // Where two modes merge the slope is infinite; there is none to follow.
+    if slope.is_finite() { slope } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn slopes_are_those_of_differences() {
+        let scene = Scene::paper().file;
+        let measurement = Measurement::of_scene(scene.measured.as_ref().unwrap()).up_to(1250.0);
+        let freed = [
+            ("guides[0].radius_m", 0.15, 0.3),
+            ("guides[0].stiffness_n_per_m", 1e6, 1e8),
+            ("blade.material.density_kg_per_m3", 7000.0, 8500.0),
+        ]
+        .map(|(path, from, to)| Freed::new(&scene, path, from, to).unwrap());
+        let model = Model {
+            scene: &scene,
+            freed: &freed,
+            measurement: &measurement,
+            resolution: Resolution {
+                max_diameters: 6,
+                radial_functions: 4,
+            },
+        };
+        // Inside, and so near to a bound that the differences are one-sided.
+        for shares in [[0.3, 0.6, 0.5], [0.9995, 0.5, 0.0005]] {
+            let (residuals, slopes) = model.residuals_and_slopes(&shares).unwrap();
+            assert_eq!(residuals, model.residuals_hz(&shares).unwrap());
+            for k in 0..3 {
+                let moved = |by: f64| {
+                    let mut shares = shares;
+                    shares[k] += by;
+                    model.residuals_hz(&shares).unwrap()
+                };
+                let (less, more) = (moved(-1e-4), moved(1e-4));
+                let largest = (0..24).fold(0.0, |m: f64, i| m.max(slopes.get(i, k).abs()));
+                for i in 0..24 {
+                    let difference = (more[i] - less[i]) / 2e-4;
+                    let off = (slopes.get(i, k) - difference).abs();
+                    assert!(off < 1e-4 * largest, "{i} {k}: {difference}, off by {off}");
+                }
+            }
+        }
+    }
+}

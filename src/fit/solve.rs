@@ -1,0 +1,177 @@
+//! The least-squares problem as `basin` wants it, and its statistics.
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
+    Residual, TrustRegionReflective,
+};
+use nalgebra::DMatrix;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use crate::spectrum::SpectrumError;
+
+use super::model::Model;
+
+/// Where a start has led to.
+#[derive(Debug, Clone)]
+pub struct Found {
+    pub shares: Vec<f64>,
+    pub rms_hz: f64,
+}
+
+struct Problem<'a> {
+    model: &'a Model<'a>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Constraints for Problem<'_> {
+    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+    }
+}
+
+impl Residual for Problem<'_> {
+    type Param = Vec<f64>;
+    type Output = Vec<f64>;
+    type Error = SpectrumError;
+
+    fn residual(&self, shares: &Vec<f64>) -> Result<Vec<f64>, SpectrumError> {
+        self.model.residuals_hz(shares)
+    }
+}
+
+impl Jacobian for Problem<'_> {
+    type Jacobian = DenseMatrix<f64>;
+
+    fn jacobian(&self, shares: &Vec<f64>) -> Result<DenseMatrix<f64>, SpectrumError> {
+        Ok(self.residual_and_jacobian(shares)?.1)
+    }
+
+    fn residual_and_jacobian(
+        &self,
+        shares: &Vec<f64>,
+    ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
+        self.model.residuals_and_slopes(shares)
+    }
+}
+
+/// A step of less than this share of the bounds' distance is no news, nor is a sum of squares
+/// that falls by less than this share of itself.
+const STEP_TOLERANCE: f64 = 1e-8;
+const COST_TOLERANCE: f64 = 1e-12;
+const MAX_STEPS: u64 = 100;
+
+/// The minimum that a start leads to (trust-region reflective, as in SciPy). `None` where the
+/// start itself is refused.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn minimum(model: &Model<'_>, start: &[f64]) -> Result<Option<Found>, SpectrumError> {
+    let count = start.len();
+    let problem = Problem {
+        model,
+        lower: vec![0.0; count],
+        upper: vec![1.0; count],
+    };
+    let at_start = model.residuals_hz(start)?;
+    if at_start.iter().any(|r| r.is_nan()) {
+        return Ok(None);
+    }
+    let solver = TrustRegionReflective::new()
+        .with_relative_cost_change_tolerance(COST_TOLERANCE)
+        .with_relative_step_tolerance(STEP_TOLERANCE);
+    let run = Executor::from_start(problem, solver, start.to_vec())
+        .max_iter(MAX_STEPS)
+        .run();
+    let result = match run {
+        Ok(result) => result,
+        Err(basin::ConstraintSolveError::Evaluation(error)) => return Err(error),
+        Err(_) => return Ok(None),
+    };
+    let rms_hz = (2.0 * result.cost() / at_start.len() as f64).sqrt();
+    Ok(rms_hz.is_finite().then(|| Found {
+        shares: result.param().clone(),
+        rms_hz,
+    }))
+}
+
+/// What the Jacobian at the minimum says of how well the numbers are known.
+#[derive(Debug)]
+pub struct Spread {
+    /// Half width of the interval of each share; `None` where the data do not tell it from the
+    /// others, and at a bound.
+    pub half_widths: Vec<Option<f64>>,
+    /// Correlation of each pair; zero where there is no interval.
+    pub correlation: Vec<Vec<f64>>,
+    /// Measured numbers less free ones.
+    pub degrees_of_freedom: usize,
+}
+
+/// Nearer to a bound than this a share rests on it: the solver stays strictly inside.
+const AT_BOUND: f64 = 1e-4;
+/// Columns of the Jacobian of unit length that are dependent to this leave a combination of
+/// numbers open.
+const DEPENDENT: f64 = 1e-6;
+
+/// Whether a share rests on a bound.
+pub fn at_bound(share: f64) -> bool {
+    !(AT_BOUND..=1.0 - AT_BOUND).contains(&share)
+}
+
+/// Linear theory at the minimum: s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and Student's distribution
+/// of m − p degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares at a
+/// bound count as known.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn statistics(
+    model: &Model<'_>,
+    shares: &[f64],
+    confidence: f64,
+) -> Result<Spread, SpectrumError> {
+    let (residuals, slopes) = model.residuals_and_slopes(shares)?;
+    let free: Vec<usize> = (0..shares.len())
+        .filter(|&k| !at_bound(shares[k]))
+        .collect();
+    let degrees_of_freedom = residuals.len().saturating_sub(free.len());
+    let mut spread = Spread {
+        half_widths: vec![None; shares.len()],
+        correlation: vec![vec![0.0; shares.len()]; shares.len()],
+        degrees_of_freedom,
+    };
+    let jacobian = DMatrix::from_fn(residuals.len(), free.len(), |i, k| slopes.get(i, free[k]));
+    let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
+    let student = StudentsT::new(0.0, 1.0, degrees_of_freedom as f64);
+    let (Ok(student), true) = (student, lengths.iter().all(|length| *length > 0.0)) else {
+        return Ok(spread);
+    };
+    let unit = DMatrix::from_fn(residuals.len(), free.len(), |i, k| {
+        jacobian[(i, k)] / lengths[k]
+    });
+    let svd = unit.svd(false, true);
+    let Some(turned) = svd.v_t else {
+        return Ok(spread);
+    };
+    let variance = residuals.iter().map(|r| r * r).sum::<f64>() / degrees_of_freedom as f64;
+    let quantile = student.inverse_cdf(0.5 + 0.5 * confidence);
+    let open = |i: usize| svd.singular_values[i] < DEPENDENT;
+    let loose: Vec<bool> = (0..free.len())
+        .map(|k| (0..free.len()).any(|i| open(i) && turned[(i, k)].abs() > DEPENDENT.sqrt()))
+        .collect();
+    let inverse = |k: usize, l: usize| -> f64 {
+        let known = (0..free.len()).filter(|&i| !open(i));
+        let terms = known.map(|i| turned[(i, k)] * turned[(i, l)] / svd.singular_values[i].powi(2));
+        terms.sum::<f64>()
+    };
+    for k in (0..free.len()).filter(|&k| !loose[k]) {
+        let deviation = (variance * inverse(k, k)).sqrt() / lengths[k];
+        spread.half_widths[free[k]] = Some(quantile * deviation);
+        for l in (0..free.len()).filter(|&l| !loose[l]) {
+            let together = inverse(k, l) / (inverse(k, k) * inverse(l, l)).sqrt();
+            spread.correlation[free[k]][free[l]] = together;
+        }
+    }
+    Ok(spread)
+}

@@ -1,0 +1,113 @@
+//! The goal over two of the freed numbers.
+
+use crate::campbell::even_speeds;
+
+use super::Progress;
+use super::outcome::{Outcome, REFUSED};
+use super::search::{Search, Tried};
+
+/// The goal over two freed numbers, the others as they were best when it was drawn. On the
+/// coarse basis of the search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// JSON path of the number along the first axis.
+    pub x_path: String,
+    /// Its values, of even shares.
+    pub x: Vec<f64>,
+    /// JSON path of the number along the second axis; `None` where only one is free.
+    pub y_path: Option<String>,
+    /// Its values.
+    pub y: Vec<f64>,
+    /// What each saw is worth, one row for each value of y; `None` where there is no saw.
+    pub outcomes: Vec<Vec<Option<Outcome>>>,
+    shares: [Vec<f64>; 2],
+    axes: (usize, Option<usize>),
+}
+
+/// The numbers to draw a map over: radius and angle of a pad if both are free, then others.
+fn axes(paths: &[&str]) -> (usize, Option<usize>) {
+    let rank = |path: &str| {
+        let name = path.rsplit('.').next().unwrap_or_default();
+        ["radius_m", "angle_deg", "stiffness_n_per_m"]
+            .iter()
+            .position(|known| *known == name)
+            .unwrap_or(3)
+    };
+    let mut order: Vec<usize> = (0..paths.len()).collect();
+    order.sort_by_key(|&i| (rank(paths[i]), i));
+    (order[0], next(paths, &order))
+}
+
+/// The second axis is of the same pad as the first where it can be.
+fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
+    let pad = |i: usize| paths[i].split('.').next();
+    let (first, rest) = order.split_first()?;
+    let same = rest.iter().find(|&&i| pad(i) == pad(*first));
+    same.or(rest.first()).copied()
+}
+
+impl Map {
+    pub(super) fn new(
+        search: &Search<'_>,
+        at: &[f64],
+        points: usize,
+        progress: Progress<'_>,
+    ) -> Self {
+        let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
+        let (x, y) = axes(&paths);
+        let even = even_speeds((0.0, 1.0), points);
+        let y_shares = match y {
+            Some(_) => even.clone(),
+            None => vec![0.5],
+        };
+        let outcomes = search.grid(at, (x, &even), (y, &y_shares), &|done, of| {
+            progress("map", done, of);
+        });
+        let values = |k: usize, shares: &[f64]| -> Vec<f64> {
+            shares.iter().map(|s| search.freed[k].value(*s)).collect()
+        };
+        Map {
+            x_path: paths[x].to_owned(),
+            x: values(x, &even),
+            y_path: y.map(|y| paths[y].to_owned()),
+            y: y.map_or(vec![0.0], |y| values(y, &y_shares)),
+            outcomes,
+            shares: [even, y_shares],
+            axes: (x, y),
+        }
+    }
+
+    /// The best saw of the map; `at` has the shares of the other numbers.
+    pub(super) fn cheapest(&self, at: &[f64]) -> Option<Tried> {
+        let cost = |o: &Option<Outcome>| o.as_ref().map_or(REFUSED, Outcome::cost);
+        let cells = self.outcomes.iter().enumerate().flat_map(|(row, of_row)| {
+            let cells = of_row.iter().enumerate();
+            cells.map(move |(column, outcome)| (cost(outcome), row, column))
+        });
+        let (cost, row, column) = cells.min_by(|x, y| x.0.total_cmp(&y.0))?;
+        let mut shares = at.to_vec();
+        shares[self.axes.0] = self.shares[0][column];
+        if let Some(y) = self.axes.1 {
+            shares[y] = self.shares[1][row];
+        }
+        Some(Tried { shares, cost })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radius_and_angle_of_one_pad_come_first() {
+        let paths = [
+            "guides[0].stiffness_n_per_m",
+            "guides[0].radius_m",
+            "guides[1].angle_deg",
+            "guides[0].angle_deg",
+        ];
+        assert_eq!(axes(&paths), (1, Some(3)));
+        assert_eq!(axes(&paths[..3]), (1, Some(0)));
+        assert_eq!(axes(&["blade.thickness_m"]), (0, None));
+    }
+}

@@ -1,0 +1,368 @@
+//! Where to put the guides: pad radius, angle and stiffness within bounds for the highest
+//! flutter speed, or the widest stable window around the operating speed, under a limit on the
+//! lowest critical speed.
+//!
+//! The flutter speed jumps where a band passes the threshold, so the best place may stand at the
+//! edge of a cliff: what happens next door is part of the answer. Bands are searched without
+//! the forces of a cut. One angle of guides that may all turn is held, since nothing else
+//! stands in space: a single pad may be anywhere around the blade.
+//!
+//! ```
+//! use sawflutter::place::{Demands, Options, Placement};
+//! use sawflutter::plate::Resolution;
+//! use sawflutter::scene::{Freed, Scene};
+//!
+//! let scene = Scene::paper();
+//! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.18, 0.28)?;
+//! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
+//! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0 };
+//! let found = Placement::new(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
+//! assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod map;
+mod neighbours;
+mod outcome;
+mod search;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::plate::Resolution;
+use crate::scene::{Freed, Scene, SceneError, common_turn, scene_at, spread};
+use crate::spectrum::SpectrumError;
+use crate::stability::ChosenBasis;
+
+pub use map::Map;
+pub use neighbours::{Neighbour, Neighbours};
+pub use outcome::Outcome;
+use outcome::{Question, REFUSED};
+use search::{Search, Tried};
+
+/// Why no place could be looked for.
+#[derive(Debug, thiserror::Error)]
+pub enum PlaceError {
+    /// Nothing to move.
+    #[error(
+        "no number is free that moves a critical speed or a band; free another one, like guides[0].radius_m"
+    )]
+    NothingFree,
+    /// The scene itself, or every saw tried, cannot be analysed.
+    #[error("none of the {tried} saws tried can be analysed; narrow the bounds")]
+    NoSaw {
+        /// How many.
+        tried: usize,
+    },
+    /// A scene was refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
+
+/// What is to be made large.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// Onset of the first flutter band that reaches the scene's threshold.
+    FlutterSpeed,
+    /// Distance from the end of the last band below a speed to the onset of the first above it.
+    StableWindow {
+        /// The speed.
+        around_rad_per_s: f64,
+    },
+}
+
+/// What is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demands {
+    /// What is to be made large.
+    pub goal: Goal,
+    /// Least lowest critical speed.
+    pub min_critical_rad_per_s: Option<f64>,
+}
+
+impl Default for Demands {
+    fn default() -> Self {
+        Demands {
+            goal: Goal::FlutterSpeed,
+            min_critical_rad_per_s: None,
+        }
+    }
+}
+
+/// How hard to look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Saws spread over the bounds at first.
+    pub samples: usize,
+    /// How many of the best of them, if apart, are refined.
+    pub places: usize,
+    /// Saws that each refinement may take.
+    pub refine: u64,
+    /// Points of the map along each axis; 0 for none.
+    pub map: usize,
+    /// A basis instead of the one that the scene's tolerance asks for.
+    pub resolution: Option<Resolution>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            samples: 64,
+            places: 3,
+            refine: 60,
+            map: 17,
+            resolution: None,
+        }
+    }
+}
+
+/// A number and what was found for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedParameter {
+    /// Which, and between which bounds.
+    pub freed: Freed,
+    /// What the scene had.
+    pub start: f64,
+    /// What is best.
+    pub value: f64,
+    /// Whether it rests on a bound.
+    pub at_bound: bool,
+}
+
+/// The best saw found.
+#[derive(Debug, Clone)]
+pub struct Placement {
+    /// The saw.
+    pub scene: Scene,
+    /// Numbers found.
+    pub parameters: Vec<PlacedParameter>,
+    /// Freed numbers that move nothing, or nothing that the others do not move as well.
+    pub without_effect: Vec<Freed>,
+    /// The scene as it was.
+    pub before: Outcome,
+    /// The best saw.
+    pub best: Outcome,
+    /// Saws a little off the best one.
+    pub neighbours: Neighbours,
+    /// The goal over two of the numbers.
+    pub map: Option<Map>,
+    /// Sweep, the same for every saw.
+    pub range: (f64, f64),
+    /// The basis of the best saw.
+    pub resolution: Resolution,
+    /// Saws analysed.
+    pub evaluations: usize,
+}
+
+/// Told what is being done, how many of it are done, and of how many.
+pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
+
+/// The search may be this far off; what it finds is refined on the basis asked for. Basis
+/// errors move all saws of a search alike, so that better ones stay the better.
+const COARSE_TOLERANCE: f64 = 5e-2;
+/// How far apart places to refine are at least, as a share of the bounds.
+const APART: f64 = 0.08;
+/// First and last steps of the refinement as shares of the bounds.
+const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
+const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
+/// A map that still finds better saws is not drawn again for ever.
+const MAP_ROUNDS: usize = 3;
+/// Nearer to a bound than this a share rests on it.
+const AT_BOUND: f64 = 1e-3;
+/// Speeds that move by less than this share of themselves do not move.
+const IDLE: f64 = 1e-7;
+
+impl Placement {
+    /// Looks for the best saw.
+    ///
+    /// # Errors
+    /// [`PlaceError`].
+    pub fn new(
+        scene: &Scene,
+        freed: &[Freed],
+        demands: &Demands,
+        options: &Options,
+        progress: Progress<'_>,
+    ) -> Result<Self, PlaceError> {
+        let chosen = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
+        let evaluations = AtomicUsize::new(0);
+        let mut question = Question {
+            goal: demands.goal,
+            min_critical_rad_per_s: demands.min_critical_rad_per_s,
+            range: chosen.range,
+            resolution: options.resolution.unwrap_or(chosen.plate.resolution),
+        };
+        let (freed, without_effect) = effective(scene, freed, &question, &evaluations);
+        if freed.is_empty() {
+            return Err(PlaceError::NothingFree);
+        }
+        let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+        let coarse = Search {
+            scene: &scene.file,
+            freed: &freed,
+            question: &question,
+            evaluations: &evaluations,
+        };
+        let (candidate, map) = look_everywhere(&coarse, &own, options, progress)?;
+        if options.resolution.is_none() {
+            let near = scene_at(&scene.file, &freed, &candidate.shares)?;
+            let sweep = Some(crate::scene::SpeedRange {
+                from_rad_per_s: question.range.0,
+                to_rad_per_s: question.range.1,
+            });
+            let near = Scene { sweep, ..near };
+            question.resolution = ChosenBasis::new(&near, scene.tolerance())?.plate.resolution;
+        }
+        let fine = Search {
+            scene: &scene.file,
+            freed: &freed,
+            question: &question,
+            evaluations: &evaluations,
+        };
+        let best = settle(&fine, &candidate, options.refine, progress);
+        let (Some(found), Some(before)) = (fine.outcome(&best.shares), fine.outcome(&own)) else {
+            let tried = evaluations.into_inner();
+            return Err(PlaceError::NoSaw { tried });
+        };
+        let neighbours = Neighbours::new(&fine, &best.shares, &found, progress);
+        let parameters = freed.iter().enumerate().map(|(k, freed)| PlacedParameter {
+            freed: freed.clone(),
+            start: freed.value(own[k]),
+            value: freed.value(best.shares[k]),
+            at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&best.shares[k]),
+        });
+        Ok(Placement {
+            scene: placed(scene, &freed, &best)?,
+            parameters: parameters.collect(),
+            without_effect,
+            before,
+            best: found,
+            neighbours,
+            map,
+            range: question.range,
+            resolution: question.resolution,
+            evaluations: evaluations.load(Ordering::Relaxed),
+        })
+    }
+}
+
+/// Samples, refines the best of them, and draws the map through the best; a map that shows a
+/// better saw is where the search goes on.
+fn look_everywhere(
+    search: &Search<'_>,
+    own: &[f64],
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<(Tried, Option<Map>), PlaceError> {
+    let samples = options.samples.max(1);
+    let tried = search.sample(own, samples, &|done, of| progress("samples", done, of));
+    let starts = Search::apart(&tried, options.places.max(1), APART);
+    let refined: Vec<Tried> = starts
+        .par_iter()
+        .map(|start| search.refine(start, COARSE_STEPS, options.refine))
+        .collect();
+    let mut best = cheapest(refined).ok_or(PlaceError::NoSaw { tried: samples })?;
+    if best.cost >= REFUSED {
+        return Err(PlaceError::NoSaw { tried: samples });
+    }
+    if options.map < 2 {
+        return Ok((best, None));
+    }
+    let mut map = None;
+    for _ in 0..MAP_ROUNDS {
+        let drawn = Map::new(search, &best.shares, options.map, progress);
+        let on_map = drawn.cheapest(&best.shares);
+        map = Some(drawn);
+        match on_map {
+            Some(better) if better.cost < best.cost => {
+                best = search.refine(&better, COARSE_STEPS, options.refine);
+            }
+            _ => break,
+        }
+    }
+    Ok((best, map))
+}
+
+/// Refines on the basis asked for, until direct search finds nothing better.
+fn settle(search: &Search<'_>, candidate: &Tried, budget: u64, progress: Progress<'_>) -> Tried {
+    progress("refinement", 0, 1);
+    let cost = search
+        .outcome(&candidate.shares)
+        .map_or(REFUSED, |o| o.cost());
+    let start = Tried {
+        cost,
+        ..candidate.clone()
+    };
+    let settled = search.refine(&start, FINE_STEPS, budget);
+    progress("refinement", 1, 1);
+    settled
+}
+
+fn cheapest(tried: Vec<Tried>) -> Option<Tried> {
+    tried.into_iter().min_by(|x, y| x.cost.total_cmp(&y.cost))
+}
+
+/// Sorts the freed numbers into those that move a critical speed or a band, and the others.
+fn effective(
+    scene: &Scene,
+    freed: &[Freed],
+    question: &Question,
+    evaluations: &AtomicUsize,
+) -> (Vec<Freed>, Vec<Freed>) {
+    let search = Search {
+        scene: &scene.file,
+        freed,
+        question,
+        evaluations,
+    };
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+    let held = common_turn(scene, freed);
+    let speeds = |shares: &[f64]| -> Option<[f64; 3]> {
+        let outcome = search.outcome(shares)?;
+        let critical = outcome.critical_rad_per_s.unwrap_or(0.0);
+        let first = outcome.bands.first().map_or(0.0, |band| band.from);
+        Some([outcome.value_rad_per_s, critical, first])
+    };
+    let moves = |k: &usize| -> bool {
+        if held == Some(*k) {
+            return false;
+        }
+        [own.clone(), spread(freed.len(), 0, 0)].iter().any(|base| {
+            let found = [0.23, 0.71].iter().filter_map(|share| {
+                let mut shares = base.clone();
+                shares[*k] = *share;
+                speeds(&shares)
+            });
+            let found: Vec<[f64; 3]> = found.collect();
+            let differ = |x: f64, y: f64| (x - y).abs() > IDLE * x.abs().max(y.abs());
+            found
+                .iter()
+                .any(|other| (0..3).any(|i| differ(found[0][i], other[i])))
+        })
+    };
+    let moving: Vec<bool> = (0..freed.len())
+        .into_par_iter()
+        .map(|k| moves(&k))
+        .collect();
+    let with = |wanted: bool| {
+        let pairs = freed
+            .iter()
+            .zip(&moving)
+            .filter(move |(_, m)| **m == wanted);
+        pairs.map(|(f, _)| f.clone()).collect()
+    };
+    (with(true), with(false))
+}
+
+/// The scene with what was found and a note of where it comes from.
+fn placed(scene: &Scene, freed: &[Freed], best: &Tried) -> Result<Scene, SceneError> {
+    let mut file = scene_at(&scene.file, freed, &best.shares)?.file;
+    let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
+    file.notes
+        .push(format!("{}: placed by optimization", names.join(", ")));
+    Scene::try_from(file)
+}

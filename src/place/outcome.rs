@@ -1,0 +1,128 @@
+//! What a saw is worth that is tried.
+
+use crate::campbell::even_speeds;
+use crate::plate::{Plate, Resolution};
+use crate::scene::Scene;
+use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
+use crate::stability::{Instability, InstabilityKind, chart, undamped_bands};
+
+use super::Goal;
+
+/// What was found out about a saw.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// What is to be made large, in rad/s.
+    pub value_rad_per_s: f64,
+    /// Onset of the first flutter band that reaches the threshold; `None` within the sweep.
+    pub flutter_rad_per_s: Option<f64>,
+    /// Lowest critical speed, if the blade has one.
+    pub critical_rad_per_s: Option<f64>,
+    /// Stable speeds around the operating speed, if that is what is asked for; nothing where
+    /// the operating speed is in a band.
+    pub window: Option<(f64, f64)>,
+    /// By how much the lowest critical speed misses its limit, in rad/s.
+    pub short_rad_per_s: f64,
+    /// Every band of the sweep.
+    pub bands: Vec<Instability>,
+}
+
+/// What is asked of every saw that is tried.
+#[derive(Debug, Clone)]
+pub struct Question {
+    pub goal: Goal,
+    pub min_critical_rad_per_s: Option<f64>,
+    /// Sweep, the same for all.
+    pub range: (f64, f64),
+    pub resolution: Resolution,
+}
+
+/// Even speeds from which bands are searched; the same bands come out of any number.
+const SEARCH_SPEEDS: usize = 25;
+/// A saw worse than any that can be analysed.
+pub const REFUSED: f64 = 1e12;
+
+impl Question {
+    /// Analyses a saw as far as the question asks.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn ask(&self, scene: &Scene) -> Result<Outcome, SpectrumError> {
+        let plate = Plate::new(scene, self.resolution);
+        let critical = SpectralModel::critical_speeds(&plate)?;
+        let lowest = critical.first().map(|c| c.speed_rad_per_s);
+        let short = match (self.min_critical_rad_per_s, lowest) {
+            (Some(asked), Some(found)) => (asked - found).max(0.0),
+            // Without a critical speed every limit is kept.
+            _ => 0.0,
+        };
+        let model = SpectralModel::with_critical(plate, critical, self.range, Strategy::Reduced)?;
+        let bands = if model.is_conservative() {
+            undamped_bands(&model, self.range, SEARCH_SPEEDS)?.0
+        } else {
+            let speeds = even_speeds(self.range, SEARCH_SPEEDS).len();
+            chart(&model, self.range, speeds, &|_, _| ())?.instabilities
+        };
+        let threshold = scene.flutter_threshold_per_s;
+        let flutter = bands
+            .iter()
+            .find(|b| b.kind == InstabilityKind::Flutter && b.peak_growth_per_s >= threshold)
+            .map(|b| b.from);
+        let window = match self.goal {
+            Goal::FlutterSpeed => None,
+            Goal::StableWindow { around_rad_per_s } => {
+                self.window(&bands, threshold, around_rad_per_s)
+            }
+        };
+        let value = match self.goal {
+            Goal::FlutterSpeed => flutter.unwrap_or(self.range.1),
+            Goal::StableWindow { .. } => window.map_or(0.0, |(from, to)| to - from),
+        };
+        Ok(Outcome {
+            value_rad_per_s: value,
+            flutter_rad_per_s: flutter,
+            critical_rad_per_s: lowest,
+            window,
+            short_rad_per_s: short,
+            bands,
+        })
+    }
+
+    /// Between the last band that ends below a speed and the first that begins above it.
+    fn window(
+        &self,
+        bands: &[Instability],
+        threshold_per_s: f64,
+        around: f64,
+    ) -> Option<(f64, f64)> {
+        let counts = |b: &&Instability| {
+            b.kind == InstabilityKind::Divergence || b.peak_growth_per_s >= threshold_per_s
+        };
+        let (mut from, mut to) = self.range;
+        for band in bands.iter().filter(counts) {
+            if band.to < around {
+                from = from.max(band.to);
+            } else if band.from > around {
+                to = to.min(band.from);
+            } else {
+                return None;
+            }
+        }
+        Some((from, to))
+    }
+}
+
+impl Outcome {
+    /// What a minimizer makes small: first the limit is kept, then the value grows.
+    pub fn cost(&self) -> f64 {
+        if self.short_rad_per_s > 0.0 {
+            0.5 * REFUSED + self.short_rad_per_s
+        } else {
+            -self.value_rad_per_s
+        }
+    }
+
+    /// Whether the limit is kept.
+    pub fn is_kept(&self) -> bool {
+        self.short_rad_per_s == 0.0
+    }
+}

@@ -1,0 +1,146 @@
+//! Axisymmetric eigenstrains: what the metal would do if nothing around it held it.
+
+use crate::scene::{Blade, Profile, RollBand, Temperature, TemperatureShape};
+
+/// In-plane eigenstrain ε(r), the same in all directions of the plane, with its moment
+/// ∫ ε r dr in closed form, so that the stress is exact to rounding.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Eigenstrain {
+    /// ε_b ((r − r₀)/(b − r₀))^p beyond r₀, zero within.
+    Power {
+        /// ε_b, at the rim.
+        at_rim: f64,
+        /// r₀.
+        from_radius_m: f64,
+        /// b.
+        to_radius_m: f64,
+        /// p.
+        exponent: f64,
+    },
+    /// Straight between rows.
+    Table {
+        /// Scales the profile.
+        factor: f64,
+        /// Over the radius.
+        profile: Profile,
+    },
+    /// Constant within a band.
+    Band(RollBand),
+}
+
+/// Panels towards the foot of a rise of broken power shrink by this factor, so many times:
+/// what is left of a foot of r^½ is then below 1e-11 of its integral.
+const SHRINK: f64 = 0.15;
+const SHRUNK_PANELS: i32 = 9;
+
+impl Eigenstrain {
+    /// α T(r) of a temperature of the given peak.
+    pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
+        let peak = temperature.expansion_per_k * peak_rise_k;
+        match &temperature.shape {
+            TemperatureShape::Rim {
+                from_radius_m,
+                exponent,
+            } => Eigenstrain::Power {
+                at_rim: peak,
+                from_radius_m: *from_radius_m,
+                to_radius_m: blade.outer_radius_m,
+                exponent: *exponent,
+            },
+            TemperatureShape::Table(profile) => Eigenstrain::Table {
+                factor: peak,
+                profile: profile.clone(),
+            },
+        }
+    }
+
+    /// ε(r).
+    pub fn at(&self, r: f64) -> f64 {
+        match self {
+            Eigenstrain::Power {
+                at_rim,
+                from_radius_m,
+                to_radius_m,
+                exponent,
+            } => {
+                let share = (r - from_radius_m) / (to_radius_m - from_radius_m);
+                match share < 0.0 {
+                    true => 0.0,
+                    false => at_rim * share.powf(*exponent),
+                }
+            }
+            Eigenstrain::Table { factor, profile } => factor * profile.at(r),
+            Eigenstrain::Band(band) => {
+                let inside = (band.from_radius_m..=band.to_radius_m).contains(&r);
+                if inside { band.eigenstrain } else { 0.0 }
+            }
+        }
+    }
+
+    /// ∫ ε ρ dρ from `from` to `to`, in m².
+    pub fn moment_m2(&self, from: f64, to: f64) -> f64 {
+        match self {
+            Eigenstrain::Power {
+                at_rim,
+                from_radius_m,
+                to_radius_m,
+                exponent: p,
+            } => {
+                let width = to_radius_m - from_radius_m;
+                // With ρ = r₀ + s (b − r₀): ∫ s^p (r₀ + s width) width ds.
+                let primitive = |r: f64| {
+                    let s = ((r - from_radius_m) / width).max(0.0);
+                    width * s.powf(p + 1.0) * (from_radius_m / (p + 1.0) + width * s / (p + 2.0))
+                };
+                at_rim * (primitive(to) - primitive(from))
+            }
+            Eigenstrain::Table { factor, profile } => factor * profile.moment(from, to),
+            Eigenstrain::Band(band) => {
+                let low = band.from_radius_m.clamp(from, to);
+                let high = band.to_radius_m.clamp(from, to);
+                0.5 * band.eigenstrain * (high - low) * (high + low)
+            }
+        }
+    }
+
+    /// Whether it is zero everywhere.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Eigenstrain::Power { at_rim, .. } => *at_rim == 0.0,
+            Eigenstrain::Table { factor, .. } => *factor == 0.0,
+            Eigenstrain::Band(band) => band.eigenstrain == 0.0,
+        }
+    }
+
+    /// Radii at which it or one of its derivatives jumps, or near which it is not smooth.
+    pub fn knots_m(&self) -> Vec<f64> {
+        match self {
+            Eigenstrain::Power {
+                from_radius_m,
+                to_radius_m,
+                exponent,
+                ..
+            } => {
+                let width = to_radius_m - from_radius_m;
+                let panels = if exponent.fract() == 0.0 {
+                    0
+                } else {
+                    SHRUNK_PANELS
+                };
+                let shrunk = (1..=panels).map(|k| from_radius_m + width * SHRINK.powi(k));
+                std::iter::once(*from_radius_m).chain(shrunk).collect()
+            }
+            Eigenstrain::Table { profile, .. } => profile.knots_m().to_vec(),
+            Eigenstrain::Band(band) => vec![band.from_radius_m, band.to_radius_m],
+        }
+    }
+
+    /// Degree of the polynomial that it is between knots, as far as it is one.
+    pub fn degree(&self) -> usize {
+        match self {
+            Eigenstrain::Power { exponent, .. } => exponent.ceil() as usize,
+            Eigenstrain::Table { .. } => 1,
+            Eigenstrain::Band(_) => 0,
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Membrane stress of heat, roll tension and manufacture, and the stiffness it gives.
+//!
+//! Plane stress with an eigenstrain ε(r), the same all around and in all directions of the
+//! plane, on a < r < b: with I(r) = ∫_a^r ε ρ dρ
+//!
+//! σ_rr = A − B/r² − E I/r², σ_θθ = A + B/r² + E I/r² − E ε,
+//!
+//! which meets equilibrium, d(r σ_rr)/dr = σ_θθ, and compatibility. The rim is free; the bore is
+//! what it is to the centrifugal stress: free, or u(a) = 0 at a collar that holds it. With the
+//! latter a temperature counts from that of the collar. The two conditions of a collar bracket
+//! what the blade within it does: it is neither rigid nor absent.
+//!
+//! A measured residual stress is taken as it is, with the radial stress that keeps it in
+//! equilibrium, see [`ResidualStress`].
+//!
+//! Reference: Timoshenko & Goodier, *Theory of Elasticity*, 3rd ed., section 150.
+
+mod eigenstrain;
+
+pub use eigenstrain::Eigenstrain;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::quadrature;
+use super::radial::RadialBasis;
+use crate::scene::{Blade, Bore, InPlane, Membrane, ResidualStress, Temperature};
+
+/// Where a membrane stress comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MembraneSource {
+    /// Temperature.
+    Heat,
+    /// Rolled bands.
+    RollTension,
+    /// A measured table.
+    Residual,
+}
+
+/// Radial and hoop stress at one radius.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlaneStress {
+    /// σ_rr, in Pa.
+    pub radial_pa: f64,
+    /// σ_θθ, in Pa.
+    pub hoop_pa: f64,
+}
+
+/// Membrane stress of a blade, the same all around; the sum of its parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MembraneStress {
+    blade: Blade,
+    parts: Vec<(MembraneSource, Part)>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Part {
+    Eigen(EigenStress),
+    Residual(ResidualStress),
+}
+
+/// Stress of one eigenstrain.
+#[derive(Debug, Clone, PartialEq)]
+struct EigenStress {
+    eigenstrain: Eigenstrain,
+    /// A.
+    uniform_pa: f64,
+    /// B.
+    inverse_n: f64,
+}
+
+impl EigenStress {
+    fn new(blade: &Blade, eigenstrain: Eigenstrain) -> Self {
+        let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let (aa, bb) = (a * a, b * b);
+        let nu = blade.material.poisson_ratio;
+        let whole = blade.material.youngs_modulus_pa * eigenstrain.moment_m2(a, b);
+        let inverse_n = match blade.bore {
+            Bore::Free | Bore::Clamped(InPlane::Free) => whole * aa / (bb - aa),
+            // E u/r = (1−ν) A + (1+ν)(B + E I)/r² vanishes at a.
+            Bore::Clamped(InPlane::Fixed) => {
+                -(1.0 - nu) * whole / bb / ((1.0 - nu) / bb + (1.0 + nu) / aa)
+            }
+        };
+        EigenStress {
+            eigenstrain,
+            // σ_rr(b) = 0.
+            uniform_pa: (inverse_n + whole) / bb,
+            inverse_n,
+        }
+    }
+
+    fn at(&self, blade: &Blade, r: f64) -> PlaneStress {
+        let modulus = blade.material.youngs_modulus_pa;
+        let moment = self.eigenstrain.moment_m2(blade.inner_radius_m, r);
+        let inverse = (self.inverse_n + modulus * moment) / (r * r);
+        PlaneStress {
+            radial_pa: self.uniform_pa - inverse,
+            hoop_pa: self.uniform_pa + inverse - modulus * self.eigenstrain.at(r),
+        }
+    }
+}
+
+impl MembraneStress {
+    /// Every stress that a scene names and that is not zero; `None` without any.
+    pub fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
+        let heat = membrane.temperature.as_ref().map(|temperature| {
+            let strain = Eigenstrain::of_heat(blade, temperature, temperature.peak_rise_k);
+            (MembraneSource::Heat, strain)
+        });
+        let rolled = membrane
+            .roll_tension
+            .iter()
+            .map(|band| (MembraneSource::RollTension, Eigenstrain::Band(*band)));
+        let eigen = heat
+            .into_iter()
+            .chain(rolled)
+            .filter(|(_, strain)| !strain.is_zero())
+            .map(|(source, strain)| (source, Part::Eigen(EigenStress::new(blade, strain))));
+        let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let residual = membrane
+            .residual_stress
+            .iter()
+            .filter(|residual| residual.hoop_pa.peak(a, b) != 0.0)
+            .map(|residual| (MembraneSource::Residual, Part::Residual(residual.clone())));
+        let parts: Vec<_> = eigen.chain(residual).collect();
+        (!parts.is_empty()).then_some(MembraneStress {
+            blade: *blade,
+            parts,
+        })
+    }
+
+    /// The stress of a temperature of the given peak alone.
+    pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
+        let strain = Eigenstrain::of_heat(blade, temperature, peak_rise_k);
+        let part = Part::Eigen(EigenStress::new(blade, strain));
+        MembraneStress {
+            blade: *blade,
+            parts: vec![(MembraneSource::Heat, part)],
+        }
+    }
+
+    /// Whether something of this kind is in it.
+    pub fn has(&self, source: MembraneSource) -> bool {
+        self.parts.iter().any(|(own, _)| *own == source)
+    }
+
+    /// The stress at a radius.
+    pub fn at(&self, radius_m: f64) -> PlaneStress {
+        let mut sum = PlaneStress::default();
+        for (_, part) in &self.parts {
+            let stress = match part {
+                Part::Eigen(eigen) => eigen.at(&self.blade, radius_m),
+                Part::Residual(residual) => PlaneStress {
+                    radial_pa: residual.radial_pa(&self.blade, radius_m),
+                    hoop_pa: residual.hoop_pa.at(radius_m),
+                },
+            };
+            sum.radial_pa += stress.radial_pa;
+            sum.hoop_pa += stress.hoop_pa;
+        }
+        sum
+    }
+
+    /// The edges and, ascending between them, the radii at which the stress is not smooth.
+    pub fn knots_m(&self) -> Vec<f64> {
+        let (a, b) = (self.blade.inner_radius_m, self.blade.outer_radius_m);
+        let of_part = |(_, part): &(MembraneSource, Part)| match part {
+            Part::Eigen(eigen) => eigen.eigenstrain.knots_m(),
+            Part::Residual(residual) => residual.hoop_pa.knots_m().to_vec(),
+        };
+        let mut knots: Vec<f64> = self.parts.iter().flat_map(of_part).collect();
+        knots.retain(|r| a < *r && *r < b);
+        knots.extend([a, b]);
+        knots.sort_by(f64::total_cmp);
+        // Of two that rounding parts the panel between would be empty.
+        knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
+        knots
+    }
+
+    /// Gauss points a panel that integrate products of two of J functions with it.
+    fn points(&self, functions: usize) -> usize {
+        let degree = |(_, part): &(MembraneSource, Part)| match part {
+            Part::Eigen(eigen) => eigen.eigenstrain.degree(),
+            Part::Residual(_) => 1,
+        };
+        let degree = self.parts.iter().map(degree).max().unwrap_or(0);
+        functions + degree / 2 + 12
+    }
+}
+
+/// Share of the outer radius below which two knots are one.
+const MERGED: f64 = 1e-12;
+
+/// Geometric stiffness K_m of n = 0 … n_max in the mass-normalised basis, in 1/s²:
+/// (1/ρ) ∫ [σ_rr R′R′ + n² σ_θθ RR/r²] r dr. Panels end where the stress is not smooth.
+pub fn membrane_stiffness(
+    basis: &RadialBasis,
+    stress: &MembraneStress,
+    max_diameters: usize,
+) -> Vec<DMatrix<f64>> {
+    stiffness_with(basis, stress, max_diameters, stress.points(basis.count()))
+}
+
+fn stiffness_with(
+    basis: &RadialBasis,
+    stress: &MembraneStress,
+    max_diameters: usize,
+    points: usize,
+) -> Vec<DMatrix<f64>> {
+    let size = basis.count();
+    let density = stress.blade.material.density_kg_per_m3;
+    let mut radial = DMatrix::zeros(size, size);
+    let mut hoop = DMatrix::zeros(size, size);
+    for panel in stress.knots_m().windows(2) {
+        for (r, w) in quadrature::graded(panel[0], panel[1], points).iter() {
+            // Those of n = 0 serve all n but 1, for which they are turned.
+            let functions = basis.evaluate(0, r);
+            let value = DVector::from_vec(functions.value);
+            let slope = DVector::from_vec(functions.slope);
+            let at = stress.at(r);
+            radial.ger(w * r * at.radial_pa / density, &slope, &slope, 1.0);
+            hoop.ger(w / r * at.hoop_pa / density, &value, &value, 1.0);
+        }
+    }
+    (0..=max_diameters)
+        .map(|n| {
+            let n2 = (n * n) as f64;
+            let mut block = basis.turned(n, n, &radial + &hoop * n2);
+            if basis.has_rigid_motions() && n <= 1 {
+                // A stress in equilibrium between free edges does no work on heave and tilt:
+                // ∫ d(r σ_rr R)/dr dr is zero. Rounding must not hold or tip them.
+                block.row_mut(0).fill(0.0);
+                block.column_mut(0).fill(0.0);
+            }
+            block
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

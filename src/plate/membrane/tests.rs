@@ -1,0 +1,337 @@
+//! Stresses against closed forms of other authors and against equilibrium and compatibility.
+
+use super::*;
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Mount, Profile, RollBand, Scene};
+
+const BORES: [Bore; 3] = [
+    Bore::Free,
+    Bore::Clamped(InPlane::Free),
+    Bore::Clamped(InPlane::Fixed),
+];
+
+fn paper_with(membrane: &str, bore: Bore) -> (Blade, Membrane) {
+    let mut file = Scene::paper().file;
+    file.membrane = Some(serde_json::from_str(membrane).unwrap());
+    if let Bore::Clamped(in_plane) = bore {
+        let diameter_m = file.blade.inner_diameter_m;
+        file.mount = Mount::Collar {
+            diameter_m,
+            in_plane,
+        };
+    }
+    let scene = Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"));
+    (scene.blade, scene.membrane.unwrap())
+}
+
+fn stress_of(membrane: &str, bore: Bore) -> MembraneStress {
+    let (blade, named) = paper_with(membrane, bore);
+    MembraneStress::new(&blade, &named).unwrap()
+}
+
+const LINEAR: &str = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 10}}"#;
+const ROOT: &str = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 10,
+    "from_radius_m": 0.15, "exponent": 0.5}}"#;
+const STEEP: &str = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": -20,
+    "from_radius_m": 0.05, "exponent": 7}}"#;
+const TABLE: &str = r#"{"temperature": {"expansion_per_k": 1.2e-5, "table": [
+    {"radius_m": 0.08, "rise_k": 30}, {"radius_m": 0.2, "rise_k": 4},
+    {"radius_m": 0.21, "rise_k": -3}, {"radius_m": 0.34, "rise_k": 20}]}}"#;
+const ROLLED: &str = r#"{"roll_tension": [
+    {"radius_m": 0.22, "width_m": 0.02, "eigenstrain": 3e-4},
+    {"radius_m": 0.27, "width_m": 0.05, "eigenstrain": 1e-4}]}"#;
+const MEASURED: &str = r#"{"residual_stress": [
+    {"radius_m": 0.1, "hoop_pa": -30e6}, {"radius_m": 0.2, "hoop_pa": -42e6},
+    {"radius_m": 0.3, "hoop_pa": 35e6}, {"radius_m": 0.355, "hoop_pa": 100e6}]}"#;
+const PROFILES: [&str; 6] = [LINEAR, ROOT, STEEP, TABLE, ROLLED, MEASURED];
+
+/// d(r σ_rr)/dr = σ_θθ, in its integral form between any two radii, across every kink, jump
+/// and band; and the edges are as free as the bore says.
+#[test]
+fn every_profile_is_in_equilibrium() {
+    for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
+        let stress = stress_of(profile, bore);
+        let knots = stress.knots_m();
+        let scale = stress.at(knots[knots.len() - 1]).hoop_pa.abs();
+        assert!(scale > 1e5, "{profile}");
+        for panel in knots.windows(2) {
+            let (low, high) = (panel[0], panel[1]);
+            let rule = quadrature::graded(low, high, 40);
+            let hoop: f64 = rule.iter().map(|(r, w)| w * stress.at(r).hoop_pa).sum();
+            let traction = |r: f64| r * stress.at(r).radial_pa;
+            let residual = traction(high) - traction(low) - hoop;
+            // The root's foot is integrated to 1e-11 only.
+            let error = residual.abs() / (scale * high);
+            assert!(error < 1e-10, "{profile} {bore:?}: {error:e}");
+        }
+        let (a, b) = (knots[0], knots[knots.len() - 1]);
+        assert!(stress.at(b).radial_pa.abs() < 1e-12 * scale);
+        let measured = profile == MEASURED;
+        match bore {
+            Bore::Free => assert!(stress.at(a).radial_pa.abs() < 1e-12 * scale),
+            Bore::Clamped(InPlane::Free) if !measured => {
+                assert!(stress.at(a).radial_pa.abs() < 1e-12 * scale);
+            }
+            _ => assert!(stress.at(a).radial_pa.abs() > 1e-4 * scale),
+        }
+    }
+}
+
+/// The strains belong to a displacement: u/r = ε_θ has the derivative (ε_r − ε_θ)/r; and a collar
+/// that holds the blade has u(a) = 0.
+#[test]
+fn strains_are_compatible() {
+    for (profile, bore) in [LINEAR, STEEP, TABLE, ROLLED]
+        .iter()
+        .flat_map(|p| BORES.map(|bore| (*p, bore)))
+    {
+        let (blade, named) = paper_with(profile, bore);
+        let stress = MembraneStress::new(&blade, &named).unwrap();
+        let (e, nu) = (
+            blade.material.youngs_modulus_pa,
+            blade.material.poisson_ratio,
+        );
+        let eigen = |r: f64| -> f64 {
+            let heat = named.temperature.as_ref();
+            let heat = heat.map_or(0.0, |t| t.expansion_per_k * t.rise_k(&blade, r));
+            let inside = |band: &&RollBand| (band.from_radius_m..=band.to_radius_m).contains(&r);
+            let rolled = named.roll_tension.iter().filter(inside);
+            heat + rolled.map(|band| band.eigenstrain).sum::<f64>()
+        };
+        let strains = |r: f64| {
+            let PlaneStress { radial_pa, hoop_pa } = stress.at(r);
+            let free = eigen(r);
+            [
+                (radial_pa - nu * hoop_pa) / e + free,
+                (hoop_pa - nu * radial_pa) / e + free,
+            ]
+        };
+        for r in [0.13, 0.18, 0.222, 0.26, 0.31, 0.35] {
+            let step = 1e-6;
+            let slope = (strains(r + step)[1] - strains(r - step)[1]) / (2.0 * step);
+            let [radial, hoop] = strains(r);
+            let residual = slope - (radial - hoop) / r;
+            assert!(
+                residual.abs() < 1e-7 * 1e-4 / r,
+                "{profile} {r}: {residual:e}"
+            );
+        }
+        if bore == Bore::Clamped(InPlane::Fixed) {
+            assert!(strains(blade.inner_radius_m)[1].abs() < 1e-17);
+        }
+    }
+}
+
+/// Timoshenko & Goodier, section 150, with ∫ T r dr of T = ΔT ((r − a)/(b − a))² multiplied out.
+#[test]
+fn a_square_rise_has_the_stress_of_the_textbook() {
+    let text = r#"{"temperature": {"expansion_per_k": 1.1e-5, "rim_rise_k": 40, "exponent": 2}}"#;
+    let stress = stress_of(text, Bore::Free);
+    let blade = stress.blade;
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let load = 1.1e-5 * 40.0 * blade.material.youngs_modulus_pa;
+    let primitive = |r: f64| r.powi(4) / 4.0 - 2.0 * a * r.powi(3) / 3.0 + a * a * r * r / 2.0;
+    let moment = |r: f64| (primitive(r) - primitive(a)) / (b - a).powi(2);
+    for r in [a, 0.15, 0.2, 0.31, b] {
+        let rise = ((r - a) / (b - a)).powi(2);
+        let ring = b * b - a * a;
+        let radial = load / (r * r) * ((r * r - a * a) / ring * moment(b) - moment(r));
+        let hoop = load / (r * r) * ((r * r + a * a) / ring * moment(b) + moment(r) - rise * r * r);
+        let found = stress.at(r);
+        assert!((found.radial_pa - radial).abs() < 1e-12 * load);
+        assert!((found.hoop_pa - hoop).abs() < 1e-12 * load);
+    }
+}
+
+/// The steady flow of heat from rim to bore, T = ΔT ln(r/a)/ln(b/a), has a stress of its own in
+/// the same section; a table of it comes to that with the square of its spacing.
+#[test]
+fn a_table_of_the_conducted_heat_converges_to_the_textbook() {
+    let blade = stress_of(LINEAR, Bore::Free).blade;
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let logarithm = (b / a).ln();
+    let load = 1.2e-5 * 25.0 * blade.material.youngs_modulus_pa;
+    // Theirs, section 150 equation (g), with the inside hotter: here ΔT is −25 K and a uniform
+    // rise of 25 K adds nothing.
+    let textbook = |r: f64| {
+        let ring = a * a / (b * b - a * a);
+        let inner = -load / (2.0 * logarithm);
+        [
+            inner * (-(b / r).ln() - ring * (1.0 - b * b / (r * r)) * logarithm),
+            inner * (1.0 - (b / r).ln() - ring * (1.0 + b * b / (r * r)) * logarithm),
+        ]
+    };
+    let error = |rows: usize| {
+        let table: Vec<String> = (0..=rows)
+            .map(|k| {
+                let r = a + (b - a) * k as f64 / rows as f64;
+                let rise = 25.0 * (r / a).ln() / logarithm;
+                format!(r#"{{"radius_m": {r}, "rise_k": {rise}}}"#)
+            })
+            .collect();
+        let text = format!(
+            r#"{{"temperature": {{"expansion_per_k": 1.2e-5, "table": [{}]}}}}"#,
+            table.join(", ")
+        );
+        let stress = stress_of(&text, Bore::Free);
+        let worst = (0..=50).map(|k| {
+            let r = a + (b - a) * f64::from(k) / 50.0;
+            let [radial, hoop] = textbook(r);
+            let found = stress.at(r);
+            (found.radial_pa - radial)
+                .abs()
+                .max((found.hoop_pa - hoop).abs())
+                / load
+        });
+        worst.fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (error(50), error(100));
+    assert!(fine < 1e-4, "{fine:e}");
+    let order = (coarse / fine).log2();
+    assert!((order - 2.0).abs() < 0.1, "second order, not {order}");
+}
+
+#[test]
+fn an_even_temperature_stresses_no_blade_with_free_edges() {
+    let even = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 80, "exponent": 0,
+        "from_radius_m": 0}}"#;
+    for bore in BORES {
+        let stress = stress_of(even, bore);
+        let load = 80.0 * 1.2e-5 * stress.blade.material.youngs_modulus_pa;
+        let [a, b] = [stress.blade.inner_radius_m, stress.blade.outer_radius_m];
+        for r in [a, 0.2, b] {
+            let size = stress.at(r).radial_pa.hypot(stress.at(r).hoop_pa);
+            match bore {
+                Bore::Clamped(InPlane::Fixed) => assert!(size > 0.01 * load),
+                _ => assert!(size < 1e-14 * load, "{size:e} of {load:e}"),
+            }
+        }
+    }
+}
+
+/// Seen from outside, a rolled band is pressed and the rim is stretched; σ_rr is continuous and
+/// σ_θθ jumps by E times the eigenstrain.
+#[test]
+fn a_rolled_band_is_pressed_and_stretches_the_rim() {
+    let text = r#"{"roll_tension": [{"radius_m": 0.26, "width_m": 0.02, "eigenstrain": 5e-4}]}"#;
+    let stress = stress_of(text, Bore::Free);
+    let modulus = stress.blade.material.youngs_modulus_pa;
+    let (outside, inside) = (stress.at(0.27 + 1e-12), stress.at(0.27 - 1e-12));
+    assert!((outside.radial_pa - inside.radial_pa).abs() < 1e-6 * inside.radial_pa.abs());
+    let jump = outside.hoop_pa - inside.hoop_pa;
+    assert!((jump / (5e-4 * modulus) - 1.0).abs() < 1e-6);
+    assert!(stress.at(0.26).hoop_pa < 0.0 && stress.at(0.26).radial_pa < 0.0);
+    assert!(stress.at(0.355).hoop_pa > 0.0);
+}
+
+/// A staircase of bands is the table it steps along, with the square of the step.
+#[test]
+fn bands_side_by_side_become_a_temperature() {
+    let (blade, named) = paper_with(LINEAR, Bore::Clamped(InPlane::Fixed));
+    let smooth = MembraneStress::new(&blade, &named).unwrap();
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let temperature = named.temperature.clone().unwrap();
+    let distance = |count: usize| {
+        let step = (b - a) / count as f64;
+        let band = |k: usize| {
+            let from_radius_m = a + step * k as f64;
+            let middle = from_radius_m + 0.5 * step;
+            RollBand {
+                from_radius_m,
+                to_radius_m: from_radius_m + step,
+                eigenstrain: temperature.expansion_per_k * temperature.rise_k(&blade, middle),
+            }
+        };
+        let stairs = Membrane {
+            temperature: None,
+            roll_tension: (0..count).map(band).collect(),
+            residual_stress: None,
+        };
+        let stairs = MembraneStress::new(&blade, &stairs).unwrap();
+        let basis = RadialBasis::new(&blade, 6);
+        let [one, other] = [&stairs, &smooth].map(|s| membrane_stiffness(&basis, s, 3));
+        (&one[3] - &other[3]).norm() / other[3].norm()
+    };
+    let order = (distance(20) / distance(40)).log2();
+    assert!((order - 2.0).abs() < 0.15, "{order}");
+}
+
+/// Twice the points change no integral of the largest basis: the panels end at every kink.
+#[test]
+fn the_quadrature_resolves_kinks_and_bands() {
+    for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
+        let stress = stress_of(profile, bore);
+        let basis = RadialBasis::new(&stress.blade, 12);
+        let points = stress.points(12);
+        let [usual, dense] =
+            [points, 2 * points].map(|points| stiffness_with(&basis, &stress, 6, points));
+        for (n, (usual, dense)) in usual.iter().zip(&dense).enumerate() {
+            let error = (usual - dense).norm() / dense.norm();
+            let tolerance = if profile == ROOT { 1e-9 } else { 1e-12 };
+            assert!(error <= tolerance, "{profile} {bore:?} n = {n}: {error:e}");
+        }
+        // Without panels the kinks alone would spoil it.
+        if profile == ROLLED {
+            let blind: f64 = basis
+                .rule()
+                .iter()
+                .map(|(r, w)| w * stress.at(r).hoop_pa)
+                .sum();
+            let exact = stress.blade.outer_radius_m
+                * stress.at(stress.blade.outer_radius_m).radial_pa
+                - stress.blade.inner_radius_m * stress.at(stress.blade.inner_radius_m).radial_pa;
+            assert!((blind - exact).abs() > 1e3, "{blind}");
+        }
+    }
+}
+
+/// Before exact zeros are written: by quadrature alone no stress between free edges works on
+/// heave and tilt.
+#[test]
+fn rigid_motions_cost_nothing() {
+    for profile in PROFILES {
+        let stress = stress_of(profile, Bore::Free);
+        let basis = RadialBasis::new(&stress.blade, 8);
+        let mut work = [0.0; 3];
+        let mut size = 0.0;
+        for panel in stress.knots_m().windows(2) {
+            for (r, w) in quadrature::graded(panel[0], panel[1], 40).iter() {
+                let f = basis.evaluate(1, r);
+                let at = stress.at(r);
+                for (j, work) in work.iter_mut().enumerate() {
+                    *work += w * r * at.radial_pa * f.slope[0] * f.slope[j]
+                        + w / r * at.hoop_pa * f.value[0] * f.value[j];
+                }
+                size += w / r * at.hoop_pa.abs() * f.value[0].powi(2);
+            }
+        }
+        let worst = work.iter().fold(0.0_f64, |top, x| top.max(x.abs()));
+        assert!(worst < 1e-9 * size, "{profile}: {worst:e} of {size:e}");
+    }
+}
+
+#[test]
+fn what_is_zero_is_not_assembled() {
+    let zero = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 0},
+        "roll_tension": [{"radius_m": 0.26, "width_m": 0.02, "eigenstrain": 0}],
+        "residual_stress": [{"radius_m": 0.2, "hoop_pa": 0}]}"#;
+    let (blade, named) = paper_with(zero, Bore::Free);
+    assert!(MembraneStress::new(&blade, &named).is_none());
+    let resolution = Resolution {
+        max_diameters: 3,
+        radial_functions: 3,
+    };
+    let plate = Plate::new(&Scene::paper(), resolution);
+    assert!(plate.membrane.is_none() && plate.harmonics.iter().all(|h| h.membrane.is_none()));
+}
+
+/// The profile type is what tables are made of.
+#[test]
+fn a_measured_table_keeps_its_hoop_stress_but_for_the_mean() {
+    let (blade, named) = paper_with(MEASURED, Bore::Free);
+    let residual = named.residual_stress.unwrap();
+    assert!(residual.imbalance.abs() < 0.05 && residual.imbalance != 0.0);
+    let Profile { .. } = residual.hoop_pa;
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    assert!(residual.hoop_pa.integral(a, b).abs() < 1e-9 * residual.hoop_pa.size(a, b));
+}

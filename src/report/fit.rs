@@ -1,0 +1,266 @@
+//! `fit.json`: a calibrated saw, how well its numbers are known, and what is left.
+
+use serde::{Deserialize, Serialize};
+
+use crate::campbell::even_speeds;
+use crate::fit::{Fit, FittedParameter, Measurement, Row, Start};
+use crate::scene::{Scene, SceneFile};
+use crate::spectrum::SpectrumError;
+
+/// `fit.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene with the numbers found.
+    pub scene: SceneFile,
+    /// Who measured the frequencies.
+    pub source: String,
+    /// Probability with which the intervals cover the truth.
+    pub confidence: f64,
+    /// Numbers found.
+    pub parameters: Vec<ParameterEntry>,
+    /// Freed numbers that move no measured frequency; they stay as they were.
+    pub without_effect: Vec<String>,
+    /// Correlation of the parameters, in their order.
+    pub correlation: Vec<Vec<f64>>,
+    /// Frequencies that were fitted.
+    pub measured_frequencies: usize,
+    /// Measured frequencies less free numbers.
+    pub degrees_of_freedom: usize,
+    /// Root mean square of computed minus measured frequencies.
+    pub rms_hz: f64,
+    /// The same before.
+    pub rms_before_hz: f64,
+    /// Measured and computed frequencies, pair by pair.
+    pub residuals: Vec<ResidualEntry>,
+    /// Lowest frequencies over speed, before and after.
+    pub curves: CurvesEntry,
+    /// Every start and where it led, on a coarser basis.
+    pub starts: Vec<StartEntry>,
+    /// Largest number of nodal diameters of the basis.
+    pub max_diameters: usize,
+    /// Radial functions of each.
+    pub radial_functions: usize,
+    /// Estimated relative error of the critical speeds on this basis.
+    pub estimated_relative_error: Option<f64>,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// A number found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterEntry {
+    /// JSON path in the scene.
+    pub path: String,
+    /// Value before.
+    pub start: f64,
+    /// Value that fits best.
+    pub value: f64,
+    /// Least value of the interval; none at a bound, and where the data do not tell this number
+    /// from others.
+    pub interval_from: Option<f64>,
+    /// Largest value of the interval.
+    pub interval_to: Option<f64>,
+    /// Least value allowed.
+    pub bound_from: f64,
+    /// Largest value allowed.
+    pub bound_to: f64,
+    /// Whether it rests on one of them.
+    pub at_bound: bool,
+}
+
+/// A measured frequency and the computed one that it is held against.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResidualEntry {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Place among the computed frequencies of this speed, from 1, ascending.
+    pub place: usize,
+    /// Measured.
+    pub measured_hz: f64,
+    /// Computed before.
+    pub before_hz: f64,
+    /// Computed after.
+    pub fitted_hz: f64,
+    /// False for a speed that was left out of the fit.
+    pub fitted: bool,
+}
+
+/// Lowest frequencies in ascending order, one row a speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurvesEntry {
+    /// Speeds.
+    pub rpm: Vec<f64>,
+    /// Before.
+    pub before_hz: Vec<Vec<f64>>,
+    /// After.
+    pub fitted_hz: Vec<Vec<f64>>,
+}
+
+/// A start and where it led.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StartEntry {
+    /// Values it began with.
+    pub from: Vec<f64>,
+    /// Values it reached; none for a start that is no saw.
+    pub to: Option<Vec<f64>>,
+    /// Root mean square there.
+    pub rms_hz: Option<f64>,
+}
+
+/// Speeds of the curves.
+const CURVE_SPEEDS: usize = 121;
+/// They reach a little past the last fitted speed.
+const BEYOND: f64 = 1.12;
+/// Numbers more alike than this are hardly told apart.
+const HIGH_CORRELATION: f64 = 0.95;
+
+impl FitReport {
+    /// Reports a fit of `before` to the rows of `measurement` up to a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(
+        before: &Scene,
+        measurement: &Measurement,
+        to_rpm: f64,
+        confidence: f64,
+        fit: &Fit,
+    ) -> Result<Self, SpectrumError> {
+        let fitted = measurement.up_to(to_rpm);
+        Ok(FitReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: fit.scene.file.clone(),
+            source: measurement.source.clone(),
+            confidence,
+            parameters: fit.parameters.iter().map(ParameterEntry::from).collect(),
+            without_effect: fit
+                .without_effect
+                .iter()
+                .map(|freed| freed.parameter.path().to_owned())
+                .collect(),
+            correlation: fit.correlation.clone(),
+            measured_frequencies: fitted.count(),
+            degrees_of_freedom: fit.degrees_of_freedom,
+            rms_hz: fit.rms_hz,
+            rms_before_hz: fit.rms_before_hz,
+            residuals: residuals(before, measurement, to_rpm, fit)?,
+            curves: curves(before, &fitted, fit)?,
+            starts: fit.starts.iter().map(StartEntry::from).collect(),
+            max_diameters: fit.resolution.max_diameters,
+            radial_functions: fit.resolution.radial_functions,
+            estimated_relative_error: fit.estimated_relative_error,
+            warnings: warnings(fit),
+        })
+    }
+}
+
+impl From<&FittedParameter> for ParameterEntry {
+    fn from(found: &FittedParameter) -> Self {
+        ParameterEntry {
+            path: found.freed.parameter.path().to_owned(),
+            start: found.start,
+            value: found.value,
+            interval_from: found.interval.map(|(from, _)| from),
+            interval_to: found.interval.map(|(_, to)| to),
+            bound_from: found.freed.from,
+            bound_to: found.freed.to,
+            at_bound: found.at_bound,
+        }
+    }
+}
+
+impl From<&Start> for StartEntry {
+    fn from(start: &Start) -> Self {
+        StartEntry {
+            from: start.from.clone(),
+            to: start.to.as_ref().map(|(values, _)| values.clone()),
+            rms_hz: start.to.as_ref().map(|(_, rms)| *rms),
+        }
+    }
+}
+
+fn residuals(
+    before: &Scene,
+    measurement: &Measurement,
+    to_rpm: f64,
+    fit: &Fit,
+) -> Result<Vec<ResidualEntry>, SpectrumError> {
+    let rpm: Vec<f64> = measurement.rows.iter().map(|row| row.rpm).collect();
+    let depth = measurement.depth();
+    let computed = |scene: &Scene| fit.frequencies_hz(scene, &rpm, depth);
+    let (before, after) = (computed(before)?, computed(&fit.scene)?);
+    let mut entries = Vec::new();
+    for (row, (before, after)) in measurement.rows.iter().zip(before.iter().zip(&after)) {
+        let Row { rpm, pairs } = row;
+        for (place, measured_hz) in pairs {
+            let at = |computed: &[f64]| computed.get(*place).copied().unwrap_or(0.0);
+            entries.push(ResidualEntry {
+                rpm: *rpm,
+                place: place + 1,
+                measured_hz: *measured_hz,
+                before_hz: at(before),
+                fitted_hz: at(after),
+                fitted: *rpm <= to_rpm,
+            });
+        }
+    }
+    Ok(entries)
+}
+
+fn curves(before: &Scene, fitted: &Measurement, fit: &Fit) -> Result<CurvesEntry, SpectrumError> {
+    // A fit at one speed is drawn a little way, for there has to be an axis.
+    let top = if fitted.top_rpm() > 0.0 {
+        BEYOND * fitted.top_rpm()
+    } else {
+        100.0
+    };
+    let rpm = even_speeds((0.0, top), CURVE_SPEEDS);
+    let depth = fitted.depth();
+    Ok(CurvesEntry {
+        before_hz: fit.frequencies_hz(before, &rpm, depth)?,
+        fitted_hz: fit.frequencies_hz(&fit.scene, &rpm, depth)?,
+        rpm,
+    })
+}
+
+fn warnings(fit: &Fit) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for freed in &fit.without_effect {
+        warnings.push(format!(
+            "{} moves no measured frequency and stays as it was",
+            freed.parameter.path()
+        ));
+    }
+    for found in &fit.parameters {
+        let path = found.freed.parameter.path();
+        if found.at_bound {
+            warnings.push(format!(
+                "{path} rests on a bound; widen it if a saw may have more"
+            ));
+        } else if found.interval.is_none() {
+            warnings.push(format!(
+                "the data do not tell {path} from the other numbers: other values fit as well"
+            ));
+        }
+    }
+    for (i, row) in fit.correlation.iter().enumerate() {
+        for (k, correlation) in row.iter().enumerate().take(i) {
+            if correlation.abs() > HIGH_CORRELATION {
+                let path = |i: usize| fit.parameters[i].freed.parameter.path();
+                warnings.push(format!(
+                    "{} and {} are hardly told apart (correlation {correlation:.2})",
+                    path(k),
+                    path(i)
+                ));
+            }
+        }
+    }
+    warnings
+}

@@ -1,0 +1,149 @@
+//! The membrane stress of a scene and what its heat does, in numbers for a reader.
+
+use serde::{Deserialize, Serialize};
+
+use crate::plate::MembraneStress;
+use crate::scene::{Scene, rpm};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, HeatLimit, HeatLimits};
+
+/// Stress of heat, roll tension and manufacture over the radius.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MembraneEntry {
+    /// Radii, ascending; twice where the hoop stress jumps.
+    pub radius_m: Vec<f64>,
+    /// σ_rr at these radii.
+    pub radial_pa: Vec<f64>,
+    /// σ_θθ at these radii.
+    pub hoop_pa: Vec<f64>,
+    /// How hot the blade may become, when the scene has a temperature.
+    pub heat: Option<HeatEntry>,
+}
+
+/// The temperature profile of the scene, scaled to other peaks.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatEntry {
+    /// Peak of the profile in the scene: the rise of largest size, at the rim for a shape.
+    pub rise_k: f64,
+    /// Rises at the radii of the stress.
+    pub profile_k: Vec<f64>,
+    /// Peak at which the lowest critical speed has fallen to the operating speed; null without
+    /// an operating speed, or where the blade buckles before.
+    pub operating_limit: Option<HeatLimitEntry>,
+    /// Whether the operating speed is past a critical speed of the cold blade already.
+    pub past_critical_when_cold: bool,
+    /// Peak at which the blade buckles at rest; null where no heat of this shape does it.
+    pub buckling: Option<HeatLimitEntry>,
+    /// Peak from which on the blade is flat, where roll tension buckles it when cold.
+    pub flat_from: Option<HeatLimitEntry>,
+    /// Whether it buckles at rest before its critical speed has fallen to the operating speed.
+    pub buckles_first: bool,
+    /// Lowest critical speeds over the peak, as far as the blade stays flat at rest.
+    pub critical_speeds: Vec<HeatCurveEntry>,
+}
+
+/// A temperature that the blade does not bear.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatLimitEntry {
+    /// Peak of the profile.
+    pub rise_k: f64,
+    /// Nodal diameters of the shape that gives way.
+    pub nodal_diameters: usize,
+    /// Its nodal circles.
+    pub nodal_circles: usize,
+}
+
+/// A critical speed over the peak of the temperature profile.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeatCurveEntry {
+    /// Nodal diameters, of a guided blade at the last peak.
+    pub nodal_diameters: usize,
+    /// Nodal circles.
+    pub nodal_circles: usize,
+    /// Peaks of the profile.
+    pub rise_k: Vec<f64>,
+    /// Critical speeds.
+    pub rpm: Vec<f64>,
+}
+
+/// Radii shown between two at which the stress is not smooth.
+const SHOWN: usize = 40;
+/// The two sides of a jump are shown this share of the radius away from it.
+const ASIDE: f64 = 1e-9;
+
+impl MembraneEntry {
+    /// `None` for a scene that names no membrane stress.
+    pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Result<Option<Self>, SpectrumError> {
+        let plate = &analysis.model.plate;
+        let heat = HeatLimits::new(scene, &analysis.model)?;
+        if plate.membrane.is_none() && heat.is_none() {
+            return Ok(None);
+        }
+        let stress = plate.membrane.as_ref();
+        let radius_m = shown_radii(
+            stress,
+            plate.blade.inner_radius_m,
+            plate.blade.outer_radius_m,
+        );
+        let at = |r: &f64| stress.map(|stress| stress.at(*r)).unwrap_or_default();
+        let temperature = scene.membrane.as_ref().and_then(|m| m.temperature.as_ref());
+        let heat = heat
+            .zip(temperature)
+            .map(|(limits, temperature)| HeatEntry {
+                rise_k: temperature.peak_rise_k,
+                profile_k: radius_m
+                    .iter()
+                    .map(|r| temperature.rise_k(&plate.blade, *r))
+                    .collect(),
+                operating_limit: limits.operating.map(HeatLimitEntry::from),
+                past_critical_when_cold: limits.past_critical,
+                buckling: limits.buckling.map(HeatLimitEntry::from),
+                flat_from: limits.flat_from.map(HeatLimitEntry::from),
+                buckles_first: limits.buckles_first,
+                critical_speeds: curves(&limits),
+            });
+        Ok(Some(MembraneEntry {
+            radial_pa: radius_m.iter().map(|r| at(r).radial_pa).collect(),
+            hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),
+            radius_m,
+            heat,
+        }))
+    }
+}
+
+impl From<HeatLimit> for HeatLimitEntry {
+    fn from(limit: HeatLimit) -> Self {
+        HeatLimitEntry {
+            rise_k: limit.rise_k,
+            nodal_diameters: limit.diameters,
+            nodal_circles: limit.circles,
+        }
+    }
+}
+
+fn curves(limits: &HeatLimits) -> Vec<HeatCurveEntry> {
+    let curves = limits.curves.iter();
+    curves
+        .map(|curve| HeatCurveEntry {
+            nodal_diameters: curve.diameters,
+            nodal_circles: curve.circles,
+            rise_k: curve.rise_k.clone(),
+            rpm: curve.speed_rad_per_s.iter().map(|s| rpm(*s)).collect(),
+        })
+        .collect()
+}
+
+fn shown_radii(stress: Option<&MembraneStress>, a: f64, b: f64) -> Vec<f64> {
+    let knots = stress.map_or(vec![a, b], MembraneStress::knots_m);
+    let mut radii = Vec::new();
+    for panel in knots.windows(2) {
+        let (low, high) = (panel[0] * (1.0 + ASIDE), panel[1] * (1.0 - ASIDE));
+        let share = |k: usize| k as f64 / (SHOWN - 1) as f64;
+        radii.extend((0..SHOWN).map(|k| low + (high - low) * share(k)));
+    }
+    radii
+}

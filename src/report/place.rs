@@ -1,0 +1,280 @@
+//! `place.json`: the best place for the guides, what is next door, and a map.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::InstabilityEntry;
+use crate::place::{Demands, Goal, Map, Neighbours, Outcome, Placement};
+use crate::scene::{Scene, SceneFile, rpm};
+use crate::stability::Instability;
+
+/// `place.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene with the numbers found.
+    pub scene: SceneFile,
+    /// What was made large.
+    pub goal: GoalEntry,
+    /// Least lowest critical speed that was asked for.
+    pub min_critical_rpm: Option<f64>,
+    /// Whether the best saw keeps it.
+    pub kept: bool,
+    /// First speed of the sweep, the same for every saw.
+    pub from_rpm: f64,
+    /// Last speed of the sweep: no flutter is seen beyond it.
+    pub to_rpm: f64,
+    /// Growth rate from which a band counts as flutter of the saw.
+    pub flutter_threshold_per_s: f64,
+    /// Numbers found.
+    pub parameters: Vec<PlacedEntry>,
+    /// Freed numbers that move nothing, or nothing that the others do not move as well.
+    pub without_effect: Vec<String>,
+    /// The scene as it was.
+    pub before: OutcomeEntry,
+    /// The best saw.
+    pub best: OutcomeEntry,
+    /// Bands of the best saw.
+    pub bands: Vec<InstabilityEntry>,
+    /// Whether a little more or less of a number costs much.
+    pub fragile: bool,
+    /// The worst of the saws a little off the best one.
+    pub worst_neighbour: Option<NeighbourEntry>,
+    /// Its worth over that of the best saw.
+    pub worst_neighbour_share: f64,
+    /// Bands that nearly reach the threshold and begin before the flutter speed.
+    pub almost: Vec<InstabilityEntry>,
+    /// The goal over two numbers, on the coarse basis of the search.
+    pub map: Option<MapEntry>,
+    /// Saws analysed.
+    pub saws: usize,
+    /// Largest number of nodal diameters of the best saw's basis.
+    pub max_diameters: usize,
+    /// Radial functions of each.
+    pub radial_functions: usize,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// What is made large.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GoalEntry {
+    /// The flutter speed.
+    FlutterSpeed,
+    /// The stable window around the operating speed.
+    StableWindow,
+}
+
+/// A number found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedEntry {
+    /// JSON path in the scene.
+    pub path: String,
+    /// Value before.
+    pub start: f64,
+    /// Best value.
+    pub value: f64,
+    /// Least value allowed.
+    pub bound_from: f64,
+    /// Largest value allowed.
+    pub bound_to: f64,
+    /// Whether it rests on one of them.
+    pub at_bound: bool,
+    /// How far it is moved for the next two.
+    pub offset: f64,
+    /// The goal with so much less of it; none past a bound.
+    pub less_rpm: Option<f64>,
+    /// The goal with so much more of it.
+    pub more_rpm: Option<f64>,
+}
+
+/// What a saw is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutcomeEntry {
+    /// What is made large: the flutter speed, the end of the sweep where there is none, or the
+    /// width of the window.
+    pub goal_rpm: f64,
+    /// Onset of the first flutter band that reaches the threshold; none within the sweep.
+    pub flutter_rpm: Option<f64>,
+    /// Lowest critical speed.
+    pub critical_rpm: Option<f64>,
+    /// Stable speeds around the operating speed, if they are the goal.
+    pub window_rpm: Option<[f64; 2]>,
+    /// Whether the limit on the critical speed is kept.
+    pub kept: bool,
+}
+
+/// A saw a little off the best one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NeighbourEntry {
+    /// Values of the numbers, in their order.
+    pub values: Vec<f64>,
+    /// What it is worth; none where there is no such saw.
+    pub outcome: Option<OutcomeEntry>,
+}
+
+/// The goal over two numbers, the others as they were best.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapEntry {
+    /// JSON path of the number along x.
+    pub x_path: String,
+    /// Its values.
+    pub x: Vec<f64>,
+    /// JSON path of the number along y; none where only one is free.
+    pub y_path: Option<String>,
+    /// Its values.
+    pub y: Vec<f64>,
+    /// The goal, one row for each value of y; none where there is no such saw.
+    pub goal_rpm: Vec<Vec<Option<f64>>>,
+    /// Whether the limit on the critical speed is kept.
+    pub kept: Vec<Vec<bool>>,
+}
+
+impl PlaceReport {
+    /// Reports a placement.
+    pub fn new(demands: &Demands, found: &Placement) -> Self {
+        let neighbours = &found.neighbours;
+        PlaceReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: found.scene.file.clone(),
+            goal: match demands.goal {
+                Goal::FlutterSpeed => GoalEntry::FlutterSpeed,
+                Goal::StableWindow { .. } => GoalEntry::StableWindow,
+            },
+            min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
+            kept: found.best.is_kept(),
+            from_rpm: rpm(found.range.0),
+            to_rpm: rpm(found.range.1),
+            flutter_threshold_per_s: found.scene.flutter_threshold_per_s,
+            parameters: parameters(found),
+            without_effect: found
+                .without_effect
+                .iter()
+                .map(|freed| freed.parameter.path().to_owned())
+                .collect(),
+            before: OutcomeEntry::from(&found.before),
+            best: OutcomeEntry::from(&found.best),
+            bands: found.best.bands.iter().map(band).collect(),
+            fragile: neighbours.are_fragile(),
+            worst_neighbour: neighbours.worst.as_ref().map(|worst| NeighbourEntry {
+                values: worst.values.clone(),
+                outcome: worst.outcome.as_ref().map(OutcomeEntry::from),
+            }),
+            worst_neighbour_share: neighbours.worst_share,
+            almost: neighbours.almost.iter().map(band).collect(),
+            map: found.map.as_ref().map(MapEntry::from),
+            saws: found.evaluations,
+            max_diameters: found.resolution.max_diameters,
+            radial_functions: found.resolution.radial_functions,
+            warnings: warnings(&found.scene, demands, found),
+        }
+    }
+}
+
+impl From<&Outcome> for OutcomeEntry {
+    fn from(outcome: &Outcome) -> Self {
+        OutcomeEntry {
+            goal_rpm: rpm(outcome.value_rad_per_s),
+            flutter_rpm: outcome.flutter_rad_per_s.map(rpm),
+            critical_rpm: outcome.critical_rad_per_s.map(rpm),
+            window_rpm: outcome.window.map(|(from, to)| [rpm(from), rpm(to)]),
+            kept: outcome.is_kept(),
+        }
+    }
+}
+
+impl From<&Map> for MapEntry {
+    fn from(map: &Map) -> Self {
+        let rows = map.outcomes.iter();
+        let goal = |o: &Option<Outcome>| o.as_ref().map(|o| rpm(o.value_rad_per_s));
+        let kept = |o: &Option<Outcome>| o.as_ref().is_some_and(Outcome::is_kept);
+        MapEntry {
+            x_path: map.x_path.clone(),
+            x: map.x.clone(),
+            y_path: map.y_path.clone(),
+            y: map.y.clone(),
+            goal_rpm: rows
+                .clone()
+                .map(|row| row.iter().map(goal).collect())
+                .collect(),
+            kept: rows.map(|row| row.iter().map(kept).collect()).collect(),
+        }
+    }
+}
+
+fn band(band: &Instability) -> InstabilityEntry {
+    InstabilityEntry {
+        kind: band.kind,
+        from_rpm: rpm(band.from),
+        to_rpm: rpm(band.to),
+        closed: band.closed,
+        peak_rpm: rpm(band.peak),
+        peak_growth_per_s: band.peak_growth_per_s,
+        frequency_hz: band.frequency / TAU,
+        modes: band.modes.clone(),
+    }
+}
+
+fn parameters(found: &Placement) -> Vec<PlacedEntry> {
+    let Neighbours { offsets, along, .. } = &found.neighbours;
+    let entries = found.parameters.iter().enumerate().map(|(k, p)| {
+        let goal = |side: usize| {
+            let neighbour = along[k][side].as_ref()?;
+            let outcome = neighbour.outcome.as_ref()?;
+            Some(rpm(outcome.value_rad_per_s))
+        };
+        PlacedEntry {
+            path: p.freed.parameter.path().to_owned(),
+            start: p.start,
+            value: p.value,
+            bound_from: p.freed.from,
+            bound_to: p.freed.to,
+            at_bound: p.at_bound,
+            offset: offsets[k],
+            less_rpm: goal(0),
+            more_rpm: goal(1),
+        }
+    });
+    entries.collect()
+}
+
+fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for freed in &found.without_effect {
+        let path = freed.parameter.path();
+        warnings.push(if path.ends_with("angle_deg") {
+            format!(
+                "{path} is held: without the forces of a cut, guides that turn together give the same saw, and a single one may stand anywhere"
+            )
+        } else {
+            format!("{path} moves no critical speed and no band, and stays as it was")
+        });
+    }
+    let beyond = match demands.goal {
+        Goal::FlutterSpeed => found.best.flutter_rad_per_s.is_none(),
+        Goal::StableWindow { .. } => found.best.window.is_some_and(|(_, to)| to >= found.range.1),
+    };
+    if beyond {
+        warnings.push(format!(
+            "the best saw is stable to the end of the sweep, {:.0} rpm; more cannot be told apart: end the sweep later",
+            rpm(found.range.1)
+        ));
+    }
+    if !found.best.is_kept() {
+        warnings.push("no saw between the bounds keeps the limit on the critical speed; this one comes nearest".into());
+    }
+    if scene.cut.is_some() {
+        warnings.push(
+            "the forces of the cut are left out; hold the result against `sawflutter cut`".into(),
+        );
+    }
+    warnings
+}

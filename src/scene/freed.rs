@@ -1,0 +1,217 @@
+//! A number of a scene that may move between two bounds.
+
+use super::{Parameter, Scene, SceneError, SceneFile};
+
+/// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] see it as a share
+/// between 0 and 1, of the distance between the bounds or of its logarithm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Freed {
+    /// Which number.
+    pub parameter: Parameter,
+    /// Least value.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+}
+
+/// Bounds with this ratio or more are decades to search, not a length.
+const DECADE: f64 = 10.0;
+
+impl Freed {
+    /// A number between two bounds, both of which the scene must allow.
+    ///
+    /// # Errors
+    /// [`SceneError`] where the scene has no such number, a bound is refused, or they are not
+    /// in ascending order.
+    pub fn new(scene: &SceneFile, path: &str, from: f64, to: f64) -> Result<Self, SceneError> {
+        let parameter = Parameter::new(path);
+        parameter.get(scene)?;
+        if !(from.is_finite() && to.is_finite() && from < to) {
+            return Err(SceneError::Value {
+                key: format!("the range of {path}"),
+                value: format!("{from}..{to}"),
+                allowed: "from a number to a larger one".into(),
+                remedy: "write it like 0.15..0.3",
+            });
+        }
+        for bound in [from, to] {
+            scene.with(&[(&parameter, bound)])?;
+        }
+        Ok(Freed {
+            parameter,
+            from,
+            to,
+        })
+    }
+
+    /// With the bounds that its name suggests: a pad anywhere on the blade, a stiffness or
+    /// damping within a factor of thirty, an angle within 60°, other numbers within 20 %.
+    ///
+    /// # Errors
+    /// As [`Freed::new`].
+    pub fn with_usual_bounds(scene: &Scene, path: &str) -> Result<Self, SceneError> {
+        let value = Parameter::new(path).get(&scene.file)?;
+        let (from, to) = match path.rsplit('.').next().unwrap_or_default() {
+            "radius_m" if path.starts_with("guides") => {
+                (scene.blade.inner_radius_m, scene.blade.outer_radius_m)
+            }
+            "stiffness_n_per_m" | "damping_n_s_per_m" => (value / 30.0, value * 30.0),
+            "angle_deg" => (value - 60.0, value + 60.0),
+            _ => (value - 0.2 * value.abs(), value + 0.2 * value.abs()),
+        };
+        Freed::new(&scene.file, path, from, to)
+    }
+
+    /// Whether the share is of the logarithm.
+    pub fn is_logarithmic(&self) -> bool {
+        self.from > 0.0 && self.to >= DECADE * self.from
+    }
+
+    /// The value at a share.
+    pub fn value(&self, share: f64) -> f64 {
+        if self.is_logarithmic() {
+            return self.from * (self.to / self.from).powf(share);
+        }
+        self.from + share * (self.to - self.from)
+    }
+
+    /// The share of a value.
+    pub fn share(&self, value: f64) -> f64 {
+        if self.is_logarithmic() {
+            let value = value.max(f64::MIN_POSITIVE);
+            return (value / self.from).ln() / (self.to / self.from).ln();
+        }
+        (value - self.from) / (self.to - self.from)
+    }
+
+    /// The share that the scene has, held within the bounds.
+    pub fn share_of(&self, scene: &SceneFile) -> f64 {
+        let value = self.parameter.get(scene).unwrap_or(self.from);
+        self.share(value).clamp(0.0, 1.0)
+    }
+}
+
+/// The scene with freed numbers at given shares.
+///
+/// # Errors
+/// [`SceneError`] where these values are refused together.
+pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Scene, SceneError> {
+    let numbers: Vec<(&Parameter, f64)> = freed
+        .iter()
+        .zip(shares)
+        .map(|(freed, share)| (&freed.parameter, freed.value(*share)))
+        .collect();
+    scene.with(&numbers)
+}
+
+/// The place of a freed angle to be held: nothing but the guides stands in space, so when all
+/// of them may turn, one of the angles is the saw looked at from another side.
+pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
+    let of_guide = |index: usize| format!("guides[{index}].angle_deg");
+    let place = |index: usize| {
+        let path = of_guide(index);
+        freed.iter().position(|f| f.parameter.path() == path)
+    };
+    let pads = scene.file.guides.iter().enumerate();
+    let acting = pads.filter(|(_, pad)| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0);
+    let angles: Option<Vec<usize>> = acting.map(|(index, _)| place(index)).collect();
+    angles.and_then(|angles| angles.first().copied())
+}
+
+/// Point `index` of a sequence that fills the unit cube evenly in any number of dimensions:
+/// multiples of the powers of 1/φ_d, φ_d the root of φ^(d+1) = φ + 1 (M. Roberts, *The
+/// unreasonable effectiveness of quasirandom sequences*, 2018). Another seed is another
+/// offset.
+pub fn spread(dimensions: usize, seed: u64, index: usize) -> Vec<f64> {
+    let mut phi = 2.0_f64;
+    for _ in 0..40 {
+        phi = (1.0 + phi).powf(1.0 / (dimensions as f64 + 1.0));
+    }
+    let offset = 0.5 + (seed % 1_000_003) as f64 * 0.754_877_666_246_692_7;
+    (1..=dimensions)
+        .map(|k| (offset + (index + 1) as f64 * phi.powi(-(k as i32))).fract())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_and_values_are_inverse() {
+        let scene = Scene::paper();
+        for (path, from, to, logarithmic) in [
+            ("guides[0].radius_m", 0.15, 0.3, false),
+            ("guides[0].stiffness_n_per_m", 1e5, 1e9, true),
+            ("guides[0].angle_deg", -90.0, 90.0, false),
+        ] {
+            let freed = Freed::new(&scene.file, path, from, to).unwrap();
+            assert_eq!(freed.is_logarithmic(), logarithmic);
+            for share in [0.0, 0.3, 1.0] {
+                assert!((freed.share(freed.value(share)) - share).abs() < 1e-12);
+            }
+        }
+        let stiffness = "guides[0].stiffness_n_per_m";
+        let freed = Freed::with_usual_bounds(&scene, stiffness).unwrap();
+        assert!((freed.share_of(&scene.file) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn bounds_that_no_saw_has_are_refused() {
+        let scene = Scene::paper().file;
+        for (path, from, to, expected) in [
+            ("guides[0].radius_m", 0.3, 0.2, "the range of"),
+            ("guides[0].radius_m", 0.2, 3.0, "guides[0].radius_m"),
+            (
+                "guides[0].stiffness_n_per_m",
+                -1.0,
+                3.0,
+                "stiffness_n_per_m",
+            ),
+            ("guides[7].radius_m", 0.2, 0.3, "guides[7]"),
+        ] {
+            let error = Freed::new(&scene, path, from, to).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn of_pads_that_all_may_turn_one_is_held() {
+        let turn = |scene: &Scene, guides: &[usize]| {
+            let freed: Vec<Freed> = guides
+                .iter()
+                .map(|i| {
+                    Freed::with_usual_bounds(scene, &format!("guides[{i}].angle_deg")).unwrap()
+                })
+                .collect();
+            common_turn(scene, &freed)
+        };
+        let one = Scene::paper();
+        let mut file = one.file.clone();
+        file.guides.push(file.guides[0]);
+        let two = Scene::try_from(file).unwrap();
+        assert_eq!(turn(&one, &[0]), Some(0));
+        assert_eq!(turn(&two, &[1]), None);
+        assert_eq!(turn(&two, &[1, 0]), Some(1));
+    }
+
+    /// No two of a hundred points are close, and every tenth of every axis is met.
+    #[test]
+    fn the_sequence_fills_the_cube() {
+        for seed in [0, 1, 12345] {
+            let points: Vec<Vec<f64>> = (0..100).map(|i| spread(2, seed, i)).collect();
+            for (i, p) in points.iter().enumerate() {
+                assert!(p.iter().all(|x| (0.0..1.0).contains(x)));
+                for q in &points[..i] {
+                    assert!((p[0] - q[0]).hypot(p[1] - q[1]) > 0.03);
+                }
+            }
+            for axis in 0..2 {
+                for tenth in 0..10 {
+                    let hit = |p: &Vec<f64>| (10.0 * p[axis]) as usize == tenth;
+                    assert!(points.iter().any(hit));
+                }
+            }
+        }
+    }
+}

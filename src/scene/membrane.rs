@@ -1,0 +1,383 @@
+//! Membrane stress that the blade has from its making and from its use: heat, roll tension,
+//! and residual stress as measured.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{MAX_GUIDES, positive, refuse, within};
+use super::profile::Profile;
+use super::residual::{ResidualStress, ResidualStressRow};
+use super::{Blade, SceneError};
+
+/// Stress in the plane of the blade, the same all around. What is not named is not there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MembraneFile {
+    /// Heat of the cut and of guides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<TemperatureFile>,
+    /// Bands that a roller has spread.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub roll_tension: Vec<RollBandFile>,
+    /// Residual stress as measured, at ascending radii: straight between the rows, constant
+    /// beyond them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub residual_stress: Vec<ResidualStressRow>,
+}
+
+/// Temperature over the radius, above that of the unstressed blade (which is that of a collar
+/// that holds it in its plane): either a rise at the rim with its shape, or a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TemperatureFile {
+    /// Coefficient of linear thermal expansion; steel: 1.2e-5.
+    pub expansion_per_k: f64,
+    /// Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p from r₀ on, zero within.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim_rise_k: Option<f64>,
+    /// r₀; by default the bore, or the edge of the collar.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from_radius_m: Option<f64>,
+    /// p; by default 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exponent: Option<f64>,
+    /// Rises at ascending radii, straight between the rows and constant beyond them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub table: Vec<TemperatureRow>,
+}
+
+/// Temperature at one radius.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TemperatureRow {
+    /// Distance from the axis.
+    pub radius_m: f64,
+    /// Temperature above that of the unstressed blade.
+    pub rise_k: f64,
+}
+
+/// A band that a roller has gone over. Squeezed in its thickness, it would spread in its
+/// plane; the metal around holds it, and is stretched along the rim.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RollBandFile {
+    /// Radius of its middle.
+    pub radius_m: f64,
+    /// Its width along the radius.
+    pub width_m: f64,
+    /// Strain by which it would spread in its plane if it were free, the same in all
+    /// directions; positive for rolling.
+    pub eigenstrain: f64,
+}
+
+/// Validated membrane stress.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Membrane {
+    /// Heat.
+    pub temperature: Option<Temperature>,
+    /// Rolled bands.
+    pub roll_tension: Vec<RollBand>,
+    /// Measured residual stress.
+    pub residual_stress: Option<ResidualStress>,
+}
+
+/// Validated temperature, T(r) = peak · shape(r).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Temperature {
+    /// Coefficient of linear thermal expansion α.
+    pub expansion_per_k: f64,
+    /// The rise of largest size on the blade; at the rim for a shape.
+    pub peak_rise_k: f64,
+    /// Share of the peak over the radius.
+    pub shape: TemperatureShape,
+}
+
+/// Temperature over its peak.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TemperatureShape {
+    /// ((r − r₀)/(b − r₀))^p beyond r₀.
+    Rim {
+        /// r₀.
+        from_radius_m: f64,
+        /// p.
+        exponent: f64,
+    },
+    /// As typed.
+    Table(Profile),
+}
+
+/// A validated band, from edge to edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollBand {
+    /// Inner edge.
+    pub from_radius_m: f64,
+    /// Outer edge.
+    pub to_radius_m: f64,
+    /// In-plane eigenstrain, the same in all directions.
+    pub eigenstrain: f64,
+}
+
+/// Hotter than any blade stays a blade.
+const RISE_K: (f64, f64) = (-2e3, 2e3);
+/// What no thermometer tells from nothing.
+const LEAST_RISE_K: f64 = 1e-9;
+/// Polymers expand by 2e-4.
+const EXPANSION_PER_K: (f64, f64) = (0.0, 1e-2);
+/// Rolling spreads by 1e-4 to 1e-3.
+const EIGENSTRAIN: (f64, f64) = (-0.05, 0.05);
+/// A steeper rise is a step, which a table draws as well.
+const EXPONENT: (f64, f64) = (0.0, 20.0);
+impl Membrane {
+    pub(super) fn new(typed: &MembraneFile, blade: &Blade) -> Result<Self, SceneError> {
+        let bands = typed.roll_tension.iter().enumerate();
+        few("membrane.roll_tension", typed.roll_tension.len())?;
+        Ok(Membrane {
+            temperature: typed
+                .temperature
+                .as_ref()
+                .map(|temperature| Temperature::new(temperature, blade))
+                .transpose()?,
+            roll_tension: bands
+                .map(|(index, band)| RollBand::new(index, band, blade))
+                .collect::<Result<_, _>>()?,
+            residual_stress: ResidualStress::new(&typed.residual_stress, blade)?,
+        })
+    }
+}
+
+impl Temperature {
+    fn new(typed: &TemperatureFile, blade: &Blade) -> Result<Self, SceneError> {
+        let key = |name: &str| format!("membrane.temperature.{name}");
+        let expansion_per_k = within(
+            &key("expansion_per_k"),
+            typed.expansion_per_k,
+            EXPANSION_PER_K,
+        )?;
+        let has_table = !typed.table.is_empty();
+        if typed.rim_rise_k.is_some() == has_table {
+            let given = if has_table { 2.0 } else { 0.0 };
+            let remedy = "give rim_rise_k (with from_radius_m and exponent) or a table";
+            let allowed = "exactly one way of saying it";
+            return Err(refuse("membrane.temperature", given, allowed, remedy));
+        }
+        let (peak_rise_k, shape) = match typed.rim_rise_k {
+            Some(rise) => (
+                within(&key("rim_rise_k"), rise, RISE_K)?,
+                rim_shape(typed, blade)?,
+            ),
+            None => table(typed, blade)?,
+        };
+        Ok(Temperature {
+            expansion_per_k,
+            peak_rise_k,
+            shape,
+        })
+    }
+
+    /// Rise at a radius of a blade, in K.
+    pub fn rise_k(&self, blade: &Blade, radius_m: f64) -> f64 {
+        match &self.shape {
+            TemperatureShape::Table(profile) => self.peak_rise_k * profile.at(radius_m),
+            TemperatureShape::Rim {
+                from_radius_m,
+                exponent,
+            } => {
+                let width = blade.outer_radius_m - from_radius_m;
+                let share = (radius_m - from_radius_m) / width;
+                match share < 0.0 {
+                    true => 0.0,
+                    false => self.peak_rise_k * share.powf(*exponent),
+                }
+            }
+        }
+    }
+}
+
+fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape, SceneError> {
+    let from_radius_m = typed.from_radius_m.unwrap_or(blade.inner_radius_m);
+    let outer = blade.outer_radius_m;
+    // Closer to the rim the rise is a jump at a point.
+    if !(0.0..=0.999 * outer).contains(&from_radius_m) {
+        let allowed = format!("from 0 to 0.999 of the radius of the rim ({outer})");
+        let remedy = "the rise begins there and ends at the rim";
+        let key = "membrane.temperature.from_radius_m";
+        return Err(refuse(key, from_radius_m, allowed, remedy));
+    }
+    let exponent = typed.exponent.unwrap_or(1.0);
+    Ok(TemperatureShape::Rim {
+        from_radius_m,
+        exponent: within("membrane.temperature.exponent", exponent, EXPONENT)?,
+    })
+}
+
+fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShape), SceneError> {
+    let key = "membrane.temperature.table";
+    for (name, given) in [
+        ("from_radius_m", typed.from_radius_m),
+        ("exponent", typed.exponent),
+    ] {
+        if let Some(value) = given {
+            let key = format!("membrane.temperature.{name}");
+            let remedy = "it shapes rim_rise_k; leave it out beside a table";
+            return Err(refuse(&key, value, "left out", remedy));
+        }
+    }
+    few(key, typed.table.len())?;
+    let radii: Vec<f64> = typed.table.iter().map(|row| row.radius_m).collect();
+    ascending(key, &radii, blade)?;
+    let mut rows = Vec::new();
+    for (index, row) in typed.table.iter().enumerate() {
+        let rise = within(&format!("{key}[{index}].rise_k"), row.rise_k, RISE_K)?;
+        rows.push((row.radius_m, rise));
+    }
+    let peak = Profile::new(&rows).map_or(0.0, |profile| {
+        profile.peak(blade.inner_radius_m, blade.outer_radius_m)
+    });
+    // Below it a division by the peak would overflow.
+    let peak = if peak.abs() < LEAST_RISE_K { 0.0 } else { peak };
+    let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
+    rows.iter_mut().for_each(|(_, rise)| *rise *= share);
+    let profile = Profile::new(&rows).expect("a table that is not empty has rows");
+    Ok((peak, TemperatureShape::Table(profile)))
+}
+
+impl RollBand {
+    fn new(index: usize, typed: &RollBandFile, blade: &Blade) -> Result<Self, SceneError> {
+        let key = |name: &str| format!("membrane.roll_tension[{index}].{name}");
+        let radius = positive(&key("radius_m"), typed.radius_m)?;
+        let width = positive(&key("width_m"), typed.width_m)?;
+        let (from_radius_m, to_radius_m) = (radius - 0.5 * width, radius + 0.5 * width);
+        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+        if from_radius_m < inner || to_radius_m > outer {
+            let allowed = format!("such that its band lies on the blade, from {inner} to {outer}");
+            let remedy = "roll the moving part of the blade; is width_m the whole width?";
+            return Err(refuse(&key("radius_m"), radius, allowed, remedy));
+        }
+        Ok(RollBand {
+            from_radius_m,
+            to_radius_m,
+            eigenstrain: within(&key("eigenstrain"), typed.eigenstrain, EIGENSTRAIN)?,
+        })
+    }
+}
+
+pub(super) fn few(key: &str, count: usize) -> Result<(), SceneError> {
+    if count <= MAX_GUIDES {
+        return Ok(());
+    }
+    let allowed = format!("at most {MAX_GUIDES} rows");
+    let remedy = "a smooth profile needs a dozen rows";
+    Err(refuse(key, count as f64, allowed, remedy))
+}
+
+pub(super) fn ascending(key: &str, radii: &[f64], blade: &Blade) -> Result<(), SceneError> {
+    let mut least = 0.0;
+    for (index, radius) in radii.iter().enumerate() {
+        if !(*radius > least && *radius <= blade.outer_radius_m) {
+            let allowed = format!(
+                "more than {least} and at most the radius of the rim ({})",
+                blade.outer_radius_m
+            );
+            let remedy = "list the rows from the bore to the rim, each radius once";
+            let key = format!("{key}[{index}].radius_m");
+            return Err(refuse(&key, *radius, allowed, remedy));
+        }
+        least = *radius;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, SceneFile};
+
+    fn scene(membrane: &str) -> Result<Scene, SceneError> {
+        Scene::try_from(SceneFile {
+            membrane: Some(serde_json::from_str(membrane).unwrap()),
+            ..Scene::paper().file
+        })
+    }
+
+    fn temperature(text: &str) -> (Blade, Temperature) {
+        let scene = scene(&format!("{{\"temperature\": {text}}}")).unwrap();
+        (scene.blade, scene.membrane.unwrap().temperature.unwrap())
+    }
+
+    #[test]
+    fn a_rim_rise_is_straight_from_the_bore_unless_said_otherwise() {
+        let (blade, plain) = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
+        let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let rises = [a, 0.5 * (a + b), b].map(|r| plain.rise_k(&blade, r));
+        assert!((rises[0]).abs() < 1e-12 && (rises[1] - 10.0).abs() < 1e-12);
+        assert!((rises[2] - 20.0).abs() < 1e-12);
+        let (_, shaped) = temperature(
+            r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20, "from_radius_m": 0.3, "exponent": 2}"#,
+        );
+        assert_eq!(shaped.rise_k(&blade, 0.29), 0.0);
+        let share = (0.33 - 0.3) / (b - 0.3);
+        assert!((shaped.rise_k(&blade, 0.33) - 20.0 * share * share).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_table_is_its_peak_times_a_shape() {
+        let (blade, table) = temperature(
+            r#"{"expansion_per_k": 1.2e-5, "table": [{"radius_m": 0.1, "rise_k": 8},
+                {"radius_m": 0.3, "rise_k": -24}]}"#,
+        );
+        assert_eq!(table.peak_rise_k, -24.0);
+        for (r, expected) in [(0.05, 8.0), (0.2, -8.0), (0.35, -24.0)] {
+            assert!((table.rise_k(&blade, r) - expected).abs() < 1e-12);
+        }
+    }
+
+    /// Rows too close to tell from zero would make a shape of infinities.
+    #[test]
+    fn a_table_of_nothing_is_no_temperature() {
+        for rise in ["0", "1e-310"] {
+            let text = format!(
+                r#"{{"expansion_per_k": 1.2e-5, "table": [{{"radius_m": 0.1, "rise_k": {rise}}}]}}"#
+            );
+            let (blade, nothing) = temperature(&text);
+            assert_eq!(nothing.peak_rise_k, 0.0);
+            assert_eq!(nothing.rise_k(&blade, 0.2), 0.0);
+        }
+    }
+
+    #[test]
+    fn numbers_that_no_blade_has_are_refused_by_name() {
+        let cases = [
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "rim_rise_k": 1e5}}"#,
+                "membrane.temperature.rim_rise_k",
+            ),
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "rim_rise_k": 1, "exponent": 21}}"#,
+                "membrane.temperature.exponent",
+            ),
+            (
+                r#"{"temperature": {"expansion_per_k": 1e-5, "table": [
+                    {"radius_m": 0.2, "rise_k": 1}, {"radius_m": 0.4, "rise_k": 1}]}}"#,
+                "membrane.temperature.table[1].radius_m",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1}]}"#,
+                "membrane.roll_tension[0].eigenstrain",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0, "eigenstrain": 1e-4}]}"#,
+                "membrane.roll_tension[0].width_m",
+            ),
+            (
+                r#"{"residual_stress": [{"radius_m": 0.2, "hoop_pa": 1e12}]}"#,
+                "membrane.residual_stress[0].hoop_pa",
+            ),
+        ];
+        for (text, expected) in cases {
+            match scene(text) {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+}

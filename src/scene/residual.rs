@@ -1,0 +1,135 @@
+//! Residual stress as measured: held against equilibrium before it is believed.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{refuse, within};
+use super::membrane::{ascending, few};
+use super::profile::Profile;
+use super::{Blade, Bore, SceneError};
+
+/// Residual stress at one radius.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResidualStressRow {
+    /// Distance from the axis.
+    pub radius_m: f64,
+    /// Stress along the rim, tension positive. The radial stress follows from it.
+    pub hoop_pa: f64,
+    /// Stress along the radius, if measured too: refused where the hoop stress contradicts it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radial_pa: Option<f64>,
+}
+
+/// Validated residual stress, in equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResidualStress {
+    /// σ_θθ, in Pa.
+    pub hoop_pa: Profile,
+    /// ∫σ_θθ dr over ∫|σ_θθ| dr as typed: the mean was taken off where both edges are free.
+    pub imbalance: f64,
+}
+
+/// Steel breaks at 3e9.
+const STRESS_PA: (f64, f64) = (-1e11, 1e11);
+/// Largest imbalance that is taken for the error of a measurement.
+const MAX_IMBALANCE: f64 = 0.05;
+/// The same between a measured radial stress and the one that follows from the hoop stress,
+/// over the largest stress of the table.
+const MAX_CONTRADICTION: f64 = 0.1;
+
+impl ResidualStress {
+    /// The hoop stress is taken as the truth: the radial stress is its integral from the free
+    /// rim, r σ_rr = −∫_r^b σ_θθ dr, whereas the hoop stress would be a derivative of the
+    /// radial one, which no measurement bears. A free bore wants ∫ σ_θθ dr = 0; at a collar
+    /// the blade goes on inwards and takes what is left.
+    pub(super) fn new(
+        rows: &[ResidualStressRow],
+        blade: &Blade,
+    ) -> Result<Option<Self>, SceneError> {
+        let key = "membrane.residual_stress";
+        few(key, rows.len())?;
+        let radii: Vec<f64> = rows.iter().map(|row| row.radius_m).collect();
+        ascending(key, &radii, blade)?;
+        let mut hoop = Vec::new();
+        let mut largest: f64 = 0.0;
+        for (index, row) in rows.iter().enumerate() {
+            let place = |name: &str| format!("{key}[{index}].{name}");
+            hoop.push((
+                row.radius_m,
+                within(&place("hoop_pa"), row.hoop_pa, STRESS_PA)?,
+            ));
+            let radial = row.radial_pa.unwrap_or(0.0);
+            within(&place("radial_pa"), radial, STRESS_PA)?;
+            largest = largest.max(row.hoop_pa.abs()).max(radial.abs());
+        }
+        let Some(hoop) = Profile::new(&hoop) else {
+            return Ok(None);
+        };
+        let residual = Self::balanced(hoop, blade)?;
+        residual.check_radial(rows, blade, largest)?;
+        Ok(Some(residual))
+    }
+
+    fn balanced(hoop_pa: Profile, blade: &Blade) -> Result<Self, SceneError> {
+        let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let (force, size) = (hoop_pa.integral(a, b), hoop_pa.size(a, b));
+        if matches!(blade.bore, Bore::Clamped(_)) || size == 0.0 {
+            return Ok(ResidualStress {
+                hoop_pa,
+                imbalance: 0.0,
+            });
+        }
+        let imbalance = force / size;
+        if imbalance.abs() > MAX_IMBALANCE {
+            let allowed = format!(
+                "in balance: ∫hoop_pa dr over a blade with free edges is zero, and here it is \
+                 {:.1} % of ∫|hoop_pa| dr, more than {:.0} %",
+                100.0 * imbalance,
+                100.0 * MAX_IMBALANCE
+            );
+            let remedy = "measure closer to the edges, where the stress is steepest";
+            let mean = force / (b - a);
+            return Err(refuse(
+                "the mean of membrane.residual_stress",
+                mean,
+                allowed,
+                remedy,
+            ));
+        }
+        Ok(ResidualStress {
+            hoop_pa: hoop_pa.raised(-force / (b - a)),
+            imbalance,
+        })
+    }
+
+    fn check_radial(
+        &self,
+        rows: &[ResidualStressRow],
+        blade: &Blade,
+        largest_pa: f64,
+    ) -> Result<(), SceneError> {
+        for (index, row) in rows.iter().enumerate() {
+            let Some(measured) = row.radial_pa else {
+                continue;
+            };
+            let derived = self.radial_pa(blade, row.radius_m);
+            if (measured - derived).abs() > MAX_CONTRADICTION * largest_pa {
+                let allowed = format!(
+                    "within {:.3e} Pa of {derived:.3e} Pa, the radial stress that is in \
+                     equilibrium with the hoop stresses further out, (1/r)∫hoop_pa dr",
+                    MAX_CONTRADICTION * largest_pa
+                );
+                let key = format!("membrane.residual_stress[{index}].radial_pa");
+                let remedy = "leave it out if the hoop stresses are the better measurement";
+                return Err(refuse(&key, measured, allowed, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// σ_rr = −(1/r) ∫_r^b σ_θθ dr, in Pa.
+    pub fn radial_pa(&self, blade: &Blade, radius_m: f64) -> f64 {
+        -self.hoop_pa.integral(radius_m, blade.outer_radius_m) / radius_m
+    }
+}

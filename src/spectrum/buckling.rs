@@ -1,0 +1,97 @@
+//! How much of a membrane stress a blade bears before a wave of it stands still, or it buckles.
+
+use nalgebra::DMatrix;
+
+use crate::plate::Plate;
+use crate::system::spread;
+
+use super::SpectrumError;
+use super::part::{Part, standing_name};
+use super::pencil::singular_multiples;
+
+/// A multiple of a stress under which K(Ω) is singular.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SingularStress {
+    /// The multiple.
+    pub multiple: f64,
+    /// Nodal diameters of the dominant harmonic of the shape.
+    pub diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub circles: usize,
+}
+
+/// Stress added to that of a plate: from a multiple of a stress onwards, up or down.
+#[derive(Debug, Clone, Copy)]
+pub struct AddedStress<'a> {
+    /// Geometric stiffness of the stress, of n = 0 … n_max, in 1/s².
+    pub stiffness: &'a [DMatrix<f64>],
+    /// The multiple to begin with.
+    pub from: f64,
+    /// +1 or −1.
+    pub direction: f64,
+}
+
+/// The smallest m > 0 at which K(Ω) + (from + direction · m) K_m is singular; `None` when it is
+/// not for any. A generalised symmetric eigenproblem, without a sweep.
+///
+/// # Errors
+/// [`SpectrumError::UnstableAtRest`] when it is not positive definite at m = 0.
+pub fn first_singular(
+    plate: &Plate,
+    parts: &[Part],
+    speed_rad_per_s: f64,
+    added: &AddedStress<'_>,
+) -> Result<Option<SingularStress>, SpectrumError> {
+    let blocks: Vec<&DMatrix<f64>> = added.stiffness.iter().collect();
+    let mut first: Option<SingularStress> = None;
+    for (index, part) in parts.iter().enumerate() {
+        let range = match plate.is_axisymmetric() {
+            true => index..=index,
+            false => 0..=plate.max_diameters(),
+        };
+        let term = spread(plate, range, &blocks);
+        let stiffness = &part.full.stiffness
+            + faer::Scale(speed_rad_per_s.powi(2)) * part.full.standing_spin()
+            + faer::Scale(added.from) * &term;
+        let softening = faer::Scale(-added.direction) * &term;
+        let found = singular_multiples(&stiffness, &part.full.free_rigid, &softening)?;
+        let Some((multiple, shape)) = found.into_iter().next() else {
+            continue;
+        };
+        if first.is_none_or(|other| multiple < other.multiple) {
+            let name = standing_name(plate, part.first, &shape, speed_rad_per_s);
+            first = Some(SingularStress {
+                multiple,
+                diameters: name.diameters,
+                circles: name.circles,
+            });
+        }
+    }
+    Ok(first)
+}
+
+/// Says of a plate that is not stable at rest how much of its membrane stress it bears, where
+/// that is the reason.
+pub fn explained(plate: &Plate, error: SpectrumError) -> SpectrumError {
+    let SpectrumError::UnstableAtRest { .. } = error else {
+        return error;
+    };
+    let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.clone());
+    let stiffness: Vec<DMatrix<f64>> = blocks.collect();
+    if stiffness.is_empty() {
+        return error;
+    }
+    let flat = plate.without_membrane();
+    let added = AddedStress {
+        stiffness: &stiffness,
+        from: 0.0,
+        direction: 1.0,
+    };
+    match first_singular(&flat, &Part::of(&flat), 0.0, &added) {
+        Ok(Some(found)) => SpectrumError::Buckled {
+            diameters: found.diameters,
+            share: found.multiple,
+        },
+        _ => error,
+    }
+}

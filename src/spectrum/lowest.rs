@@ -1,0 +1,95 @@
+//! The few lowest modes of one speed on the whole basis, where no range of speeds is worth
+//! preparing: a handful of speeds of many slightly different saws.
+
+use crate::plate::Plate;
+
+use super::mode::{Mode, ModeKind, classify};
+use super::model::SPLITTING;
+use super::part::{Part, frequency_scale};
+use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs};
+
+/// A plate that is asked for its lowest modes.
+#[derive(Debug)]
+pub struct LowestModes {
+    /// Independent parts of the plate, whole.
+    pub parts: Vec<Part>,
+    scale_rad_per_s: f64,
+}
+
+/// Eigenvalues come by magnitude, modes are counted by frequency: a growing one comes late.
+const MORE: usize = 4;
+/// Below this order all eigenvalues cost less than an iteration.
+const SMALL: usize = 40;
+
+impl LowestModes {
+    /// Of a plate.
+    pub fn new(plate: &Plate) -> Self {
+        LowestModes {
+            parts: Part::of(plate),
+            scale_rad_per_s: frequency_scale(plate),
+        }
+    }
+
+    /// The `count` modes of lowest |Im λ| at a speed, ascending, without rigid motions and
+    /// what decays without oscillation. Fewer where the basis has fewer.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn at(&self, speed_rad_per_s: f64, count: usize) -> Result<Vec<Mode>, SpectrumError> {
+        let speed = speed_rad_per_s.max(SPLITTING * self.scale_rad_per_s);
+        let mut modes = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            let system = &part.full;
+            let mut pairs = Vec::new();
+            if system.order() > SMALL {
+                let shift = 0.5 * self.scale_rad_per_s;
+                pairs = lowest_eigenpairs(system, speed, count + MORE, shift);
+            }
+            if pairs.len() < count {
+                pairs = companion_eigenpairs(system, speed)?;
+            }
+            modes.extend(classify(system, speed, index, pairs));
+        }
+        let oscillates = |m: &Mode| m.lambda.im > 0.0 || m.lambda.re > 0.0;
+        modes.retain(|m| m.kind != ModeKind::Rigid && oscillates(m));
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+        modes.truncate(count);
+        Ok(modes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::Resolution;
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::{SpectralModel, Strategy};
+
+    /// At rest, past critical speeds, in a band of divergence and in one of flutter.
+    #[test]
+    fn they_are_the_lowest_of_all_modes() {
+        let resolution = Resolution {
+            max_diameters: 8,
+            radial_functions: 5,
+        };
+        let free = Scene {
+            guides: Vec::new(),
+            ..Scene::paper()
+        };
+        for scene in [Scene::paper(), free] {
+            let plate = Plate::new(&scene, resolution);
+            let lowest = LowestModes::new(&plate);
+            let range = (0.0, rad_per_s(2600.0));
+            let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
+            for speed in [0.0, 800.0, 1540.0, 2260.0, 2500.0].map(rad_per_s) {
+                let found = lowest.at(speed, 6).unwrap();
+                assert_eq!(found.len(), 6);
+                for (found, exact) in found.iter().zip(model.modes(speed).unwrap()) {
+                    assert_eq!(found.kind, exact.kind);
+                    let distance = (found.lambda - exact.lambda).norm();
+                    assert!(distance < 1e-6, "{} {}", found.lambda, exact.lambda);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! How hot a blade may become.
+//!
+//! With K_T the geometric stiffness of one kelvin of the scene's temperature profile, the first
+//! critical speed has fallen to the operating speed at the first rise at which
+//! K₀ + Ω²(K_σ − N) + rise K_T is singular, and the blade buckles at rest where K₀ + rise K_T is.
+//! Both are generalised symmetric eigenproblems in the rise. Between the two speeds
+//! nothing else can happen: the speeds squared and rises at which K is positive definite form a
+//! convex set.
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::plate::{MembraneStress, membrane_stiffness};
+use crate::scene::{Scene, Temperature};
+use crate::spectrum::{
+    AddedStress, SingularStress, SpectralModel, SpectrumError, critical_speeds, first_singular,
+    standing_name,
+};
+use crate::system::spread;
+
+/// A rise that the blade does not bear, and the shape that gives way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeatLimit {
+    /// Peak of the temperature profile.
+    pub rise_k: f64,
+    /// Nodal diameters of the shape.
+    pub diameters: usize,
+    /// Its nodal circles.
+    pub circles: usize,
+}
+
+/// Critical speed of one wave over the temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatCurve {
+    /// Nodal diameters at the last peak.
+    pub diameters: usize,
+    /// Nodal circles there.
+    pub circles: usize,
+    /// Peaks of the temperature profile.
+    pub rise_k: Vec<f64>,
+    /// Critical speeds.
+    pub speed_rad_per_s: Vec<f64>,
+}
+
+/// What the temperature profile of a scene does to its blade, scaled to other peaks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatLimits {
+    /// Where the lowest critical speed falls to the operating speed, if the scene gives one and
+    /// the blade does not buckle before.
+    pub operating: Option<HeatLimit>,
+    /// Whether the operating speed is past a critical speed of the cold blade already.
+    pub past_critical: bool,
+    /// Where the blade buckles at rest, if it does.
+    pub buckling: Option<HeatLimit>,
+    /// Whether it does so before a critical speed is down at the operating speed.
+    pub buckles_first: bool,
+    /// Where the blade becomes flat, if it is buckled when cold: roll tension alone may do that.
+    pub flat_from: Option<HeatLimit>,
+    /// Lowest critical speeds over the peak of the profile.
+    pub curves: Vec<HeatCurve>,
+}
+
+/// Peaks of the curves, and their number: the squares of critical speeds are nearly straight.
+const RISES: usize = 17;
+const CURVES: usize = 5;
+/// The curves go on past the operating limit by this factor.
+const BEYOND: f64 = 1.25;
+/// They end so close to buckling, where speeds tend to zero.
+const BEFORE_BUCKLING: f64 = 1.0 - 1e-6;
+
+impl HeatLimits {
+    /// The limits of a scene and its model; `None` for a scene without temperature.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(scene: &Scene, model: &SpectralModel) -> Result<Option<Self>, SpectrumError> {
+        let membrane = scene.membrane.as_ref();
+        let Some(temperature) = membrane.and_then(|m| m.temperature.as_ref()) else {
+            return Ok(None);
+        };
+        let heating = Heating::new(model, temperature);
+        let (now_k, hotter) = (heating.now_k, heating.direction);
+        let buckling = heating.limit(0.0, now_k, hotter)?;
+        let colder = heating.limit(0.0, now_k, -hotter)?;
+        let flat_from = colder.filter(|limit| limit.rise_k * hotter > 0.0);
+        let (operating, past_critical) = match scene.operating_rad_per_s {
+            Some(speed) => heating.operating(speed)?,
+            None => (None, false),
+        };
+        let before = |buckling: HeatLimit| {
+            let later = |limit: HeatLimit| buckling.rise_k.abs() < limit.rise_k.abs();
+            scene.operating_rad_per_s.is_some() && !past_critical && operating.is_none_or(later)
+        };
+        let buckles_first = buckling.is_some_and(before);
+        // At speed the rotation still holds flat what has buckled at rest.
+        let operating = operating.filter(|_| !buckles_first);
+        let curves = heating.curves(operating, buckling);
+        Ok(Some(HeatLimits {
+            operating,
+            past_critical,
+            buckling,
+            buckles_first,
+            flat_from,
+            curves,
+        }))
+    }
+}
+
+/// A model under more or less of its temperature.
+struct Heating<'a> {
+    model: &'a SpectralModel,
+    /// K_T per kelvin of the peak, of n = 0 … n_max.
+    per_kelvin: Vec<DMatrix<f64>>,
+    /// The scene's peak.
+    now_k: f64,
+    /// Sign of the scene's peak.
+    direction: f64,
+}
+
+impl<'a> Heating<'a> {
+    fn new(model: &'a SpectralModel, temperature: &Temperature) -> Self {
+        let plate = &model.plate;
+        let stress = MembraneStress::of_heat(&plate.blade, temperature, 1.0);
+        let now_k = temperature.peak_rise_k;
+        Heating {
+            model,
+            per_kelvin: membrane_stiffness(&plate.basis, &stress, plate.max_diameters()),
+            now_k,
+            direction: if now_k < 0.0 { -1.0 } else { 1.0 },
+        }
+    }
+
+    /// The first limit at a speed upwards or downwards from a peak, at which K must be positive
+    /// definite.
+    fn limit(
+        &self,
+        speed_rad_per_s: f64,
+        from_k: f64,
+        direction: f64,
+    ) -> Result<Option<HeatLimit>, SpectrumError> {
+        let added = AddedStress {
+            stiffness: &self.per_kelvin,
+            // The model is at the scene's peak.
+            from: from_k - self.now_k,
+            direction,
+        };
+        let (plate, parts) = (&self.model.plate, &self.model.parts);
+        let found = first_singular(plate, parts, speed_rad_per_s, &added)?;
+        let limit = |found: SingularStress| HeatLimit {
+            rise_k: from_k + direction * found.multiple,
+            diameters: found.diameters,
+            circles: found.circles,
+        };
+        Ok(found.map(limit))
+    }
+
+    /// The limit at the operating speed. Counted from the scene's temperature, or from the cold
+    /// blade where that is past the limit already; and whether even the cold blade is.
+    fn operating(&self, speed: f64) -> Result<(Option<HeatLimit>, bool), SpectrumError> {
+        for from_k in [self.now_k, 0.0] {
+            match self.limit(speed, from_k, self.direction) {
+                Err(SpectrumError::UnstableAtRest { .. }) => (),
+                found => return Ok((found?, false)),
+            }
+        }
+        Ok((None, true))
+    }
+
+    /// Peaks from none to past the limits, closer towards the end, where speeds fall faster.
+    fn rises(&self, operating: Option<HeatLimit>, buckling: Option<HeatLimit>) -> Vec<f64> {
+        let size = |limit: Option<HeatLimit>| limit.map(|limit| limit.rise_k.abs());
+        let shown = size(operating).map_or(0.0, |rise| BEYOND * rise);
+        let shown = shown.max(BEYOND * self.now_k.abs());
+        let end = match size(buckling).map(|rise| BEFORE_BUCKLING * rise) {
+            Some(buckling) if shown == 0.0 || buckling < BEYOND * shown => buckling,
+            _ => shown,
+        };
+        let share = |k: usize| 1.0 - (1.0 - k as f64 / (RISES - 1) as f64).powi(2);
+        let rises = (0..RISES).map(|k| self.direction * end * share(k));
+        match end > 0.0 {
+            true => rises.collect(),
+            false => Vec::new(),
+        }
+    }
+
+    fn curves(&self, operating: Option<HeatLimit>, buckling: Option<HeatLimit>) -> Vec<HeatCurve> {
+        let rises = self.rises(operating, buckling);
+        let speeds: Vec<Vec<Named>> = rises
+            .par_iter()
+            .map(|rise_k| self.lowest_critical(*rise_k))
+            .collect();
+        // Of a free blade a wave keeps its name; of a guided one its place.
+        let free = self.model.plate.is_axisymmetric();
+        let mut curves: Vec<HeatCurve> = Vec::new();
+        for (rise_k, found) in rises.iter().zip(speeds) {
+            for (place, wave) in found.into_iter().enumerate() {
+                let named = |curve: &HeatCurve| curve.diameters == wave.diameters;
+                let index = match free {
+                    true => curves.iter().position(named),
+                    false => (place < curves.len()).then_some(place),
+                };
+                let index = index.unwrap_or_else(|| {
+                    curves.push(HeatCurve {
+                        diameters: wave.diameters,
+                        circles: wave.circles,
+                        rise_k: Vec::new(),
+                        speed_rad_per_s: Vec::new(),
+                    });
+                    curves.len() - 1
+                });
+                // A guided blade's waves change places: the name is that of the last peak.
+                (curves[index].diameters, curves[index].circles) = (wave.diameters, wave.circles);
+                curves[index].rise_k.push(*rise_k);
+                curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);
+            }
+        }
+        curves
+    }
+
+    /// The lowest critical speeds at a peak, one of each number of diameters of a free blade;
+    /// none where the blade has buckled.
+    fn lowest_critical(&self, rise_k: f64) -> Vec<Named> {
+        let plate = &self.model.plate;
+        let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();
+        let mut lowest = Vec::new();
+        let free = plate.is_axisymmetric();
+        for (index, part) in self.model.parts.iter().enumerate() {
+            let range = match free {
+                true => index..=index,
+                false => 0..=plate.max_diameters(),
+            };
+            let mut system = part.full.clone();
+            system.stiffness += faer::Scale(rise_k - self.now_k) * spread(plate, range, &blocks);
+            let Ok(found) = critical_speeds(&system) else {
+                return Vec::new();
+            };
+            let kept = if free { 1 } else { CURVES };
+            lowest.extend(found.into_iter().take(kept).map(|critical| {
+                let speed_rad_per_s = critical.speed_rad_per_s;
+                let name = standing_name(plate, part.first, &critical.shape, speed_rad_per_s);
+                Named {
+                    speed_rad_per_s,
+                    diameters: name.diameters,
+                    circles: name.circles,
+                }
+            }));
+        }
+        lowest.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        lowest.truncate(CURVES);
+        lowest
+    }
+}
+
+struct Named {
+    speed_rad_per_s: f64,
+    diameters: usize,
+    circles: usize,
+}

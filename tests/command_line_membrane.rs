@@ -1,0 +1,167 @@
+//! Goal: who heats or rolls a saw is told what it bears, in words, numbers and a picture, and a
+//! blade that buckles or a table out of balance is refused with the remedy.
+
+mod common;
+
+use assert_cmd::Command;
+use sawflutter::report::Report;
+
+fn analyze(
+    scene: &serde_json::Value,
+    arguments: &[&str],
+) -> (tempfile::TempDir, assert_cmd::assert::Assert) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let assert = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+        .arg("analyze")
+        .arg(&path)
+        .args(["--accuracy", "draft", "--out"])
+        .arg(folder.path().join("out"))
+        .args(arguments)
+        .assert();
+    (folder, assert)
+}
+
+fn tensioned() -> serde_json::Value {
+    let text = std::fs::read_to_string(common::path("scenes/collar-400mm-tensioned.json"));
+    serde_json::from_str(&text.unwrap()).unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+#[test]
+fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
+    let (folder, assert) = analyze(&tensioned(), &["--sensitivity"]);
+    let printed = text(&assert.success().get_output().stdout);
+    for words in [
+        "Heat, peak of the profile now +20.0 K",
+        "brings the first critical speed down to the operating speed",
+        "buckles the blade at rest",
+        "membrane.temperature.rim_rise_k",
+        "membrane.png",
+    ] {
+        assert!(printed.contains(words), "{words}: {printed}");
+    }
+    // The line of files is as long as it is.
+    let report_lines = printed
+        .lines()
+        .take_while(|line| !line.starts_with("Written"));
+    for line in report_lines {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    let out = folder.path().join("out");
+    let report = std::fs::read_to_string(out.join("report.json")).unwrap();
+    let report: Report = serde_json::from_str(&report).unwrap();
+    for term in ["heat K_m", "roll tension K_m"] {
+        assert!(
+            report.terms.iter().any(|own| own == term),
+            "{:?}",
+            report.terms
+        );
+    }
+    let membrane = report.membrane.unwrap();
+    let heat = membrane.heat.unwrap();
+    let (critical, buckling) = (heat.operating_limit.unwrap(), heat.buckling.unwrap());
+    assert!(20.0 < critical.rise_k && critical.rise_k < buckling.rise_k);
+    assert!(!heat.buckles_first && !heat.past_critical_when_cold);
+    assert!(out.join("membrane.png").exists() && out.join("membrane.svg").exists());
+}
+
+/// As the notes of the scene say.
+#[test]
+fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
+    let mut scene = tensioned();
+    scene["membrane"]["roll_tension"] = serde_json::json!([]);
+    let (_folder, assert) = analyze(&scene, &["--json"]);
+    let report: Report =
+        serde_json::from_str(&text(&assert.success().get_output().stdout)).unwrap();
+    assert!(report.critical_speeds[0].rpm < 3800.0);
+    let limit = report
+        .membrane
+        .unwrap()
+        .heat
+        .unwrap()
+        .operating_limit
+        .unwrap();
+    assert!(limit.rise_k < 20.0);
+}
+
+#[test]
+fn a_blade_that_buckles_is_refused_with_the_share_that_it_bears() {
+    let mut scene = tensioned();
+    scene["membrane"]["temperature"]["rim_rise_k"] = 400.into();
+    let (folder, assert) = analyze(&scene, &[]);
+    let message = text(&assert.code(2).get_output().stderr);
+    assert!(message.contains("buckles at rest, in "), "{message}");
+    assert!(message.contains("lower the temperature"), "{message}");
+    assert!(!folder.path().join("out/report.json").exists());
+}
+
+#[test]
+fn refusals_name_key_value_and_remedy() {
+    let row = |radius: f64, hoop: f64| serde_json::json!({ "radius_m": radius, "hoop_pa": hoop });
+    let cases = [
+        (
+            serde_json::json!({ "temperature": { "expansion_per_k": 1.2e-5 } }),
+            "membrane.temperature",
+        ),
+        (
+            serde_json::json!({ "temperature": { "expansion_per_k": 1.2, "rim_rise_k": 10 } }),
+            "membrane.temperature.expansion_per_k is 1.2",
+        ),
+        (
+            serde_json::json!({ "temperature": { "expansion_per_k": 1e-5, "rim_rise_k": 10,
+                "from_radius_m": 0.2 } }),
+            "membrane.temperature.from_radius_m is 0.2",
+        ),
+        (
+            serde_json::json!({ "temperature": { "expansion_per_k": 1e-5, "exponent": 2,
+                "table": [{ "radius_m": 0.1, "rise_k": 1 }] } }),
+            "membrane.temperature.exponent is 2",
+        ),
+        (
+            serde_json::json!({ "roll_tension": [{ "radius_m": 0.195, "width_m": 0.02,
+                "eigenstrain": 1e-4 }] }),
+            "membrane.roll_tension[0].radius_m is 0.195",
+        ),
+        (
+            serde_json::json!({ "residual_stress": [row(0.1, 1e6), row(0.1, 2e6)] }),
+            "membrane.residual_stress[1].radius_m is 0.1",
+        ),
+        (
+            serde_json::json!({ "residual_stress": [row(0.1, -20e6),
+                { "radius_m": 0.15, "hoop_pa": 30e6, "radial_pa": 40e6 }, row(0.2, 40e6)] }),
+            "membrane.residual_stress[1].radial_pa is 40000000",
+        ),
+    ];
+    for (membrane, words) in cases {
+        let mut scene = tensioned();
+        scene["membrane"] = membrane;
+        let (_folder, assert) = analyze(&scene, &[]);
+        let message = text(&assert.code(2).get_output().stderr);
+        assert!(
+            message.contains(words) && message.contains("; "),
+            "{words}: {message}"
+        );
+    }
+}
+
+/// On a blade with free edges the hoop stress balances itself, or has been measured badly.
+#[test]
+fn a_table_out_of_balance_is_refused_with_the_number() {
+    let text_of = std::fs::read_to_string(common::path("scenes/free-blade.json")).unwrap();
+    let mut scene: serde_json::Value = serde_json::from_str(&text_of).unwrap();
+    scene["membrane"] = serde_json::json!({ "residual_stress": [
+        { "radius_m": 0.1, "hoop_pa": -10e6 }, { "radius_m": 0.355, "hoop_pa": 20e6 }] });
+    let (_folder, assert) = analyze(&scene, &[]);
+    let message = text(&assert.code(2).get_output().stderr);
+    // (20 − 10)/2 over (10²/30 + 20²/30)/2: 5 of 8.33.
+    assert!(message.contains("60.0 % of ∫|hoop_pa| dr"), "{message}");
+    scene["membrane"]["residual_stress"][1]["hoop_pa"] = 10.2e6.into();
+    let (_folder, assert) = analyze(&scene, &[]);
+    let printed = text(&assert.success().get_output().stdout);
+    assert!(printed.contains("out of balance by"), "{printed}");
+}

@@ -1,0 +1,268 @@
+//! Goal: `place` finds the best place of a guide, and says what it is worth.
+//!
+//! Sources: symmetry (guides turned together are the same saw), and brute force.
+
+mod common;
+
+use common::{assert_close, scene};
+use rayon::prelude::*;
+use sawflutter::place::{Demands, Goal, Options, Placement};
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
+use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
+
+const RADIUS: &str = "guides[0].radius_m";
+const ANGLE: &str = "guides[0].angle_deg";
+const SMALL: Resolution = Resolution {
+    max_diameters: 6,
+    radial_functions: 3,
+};
+const TOP_RPM: f64 = 2400.0;
+
+fn quick() -> Options {
+    Options {
+        samples: 8,
+        places: 1,
+        refine: 24,
+        map: 0,
+        resolution: Some(SMALL),
+    }
+}
+
+fn freed(scene: &Scene, numbers: &[(&str, f64, f64)]) -> Vec<Freed> {
+    let freed = numbers
+        .iter()
+        .map(|(path, from, to)| Freed::new(&scene.file, path, *from, *to).unwrap());
+    freed.collect()
+}
+
+fn with(scene: &Scene, numbers: &[(&str, f64)]) -> Scene {
+    let named: Vec<(Parameter, f64)> = numbers
+        .iter()
+        .map(|(path, value)| (Parameter::new(path), *value))
+        .collect();
+    let numbers: Vec<(&Parameter, f64)> = named.iter().map(|(p, v)| (p, *v)).collect();
+    scene.file.with(&numbers).unwrap()
+}
+
+/// A saw of `scenes/`, swept as far as the small basis holds its waves.
+fn swept(name: &str) -> Scene {
+    with(&scene(name), &[("sweep.to_rpm", TOP_RPM)])
+}
+
+fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -> Placement {
+    Placement::new(scene, freed, demands, options, &|_, _, _| ()).unwrap()
+}
+
+/// Bands of a saw by the library's own parts, not by `place`.
+fn bands(scene: &Scene) -> Vec<Instability> {
+    let SpeedRange {
+        from_rad_per_s: from,
+        to_rad_per_s: to,
+    } = scene.sweep.unwrap();
+    let plate = Plate::new(scene, SMALL);
+    let model = SpectralModel::new(plate, (from, to), Strategy::Reduced).unwrap();
+    undamped_bands(&model, (from, to), 40).unwrap().0
+}
+
+fn flutter_rpm(scene: &Scene) -> f64 {
+    let strong = |b: &&Instability| {
+        b.kind == InstabilityKind::Flutter && b.peak_growth_per_s >= scene.flutter_threshold_per_s
+    };
+    bands(scene)
+        .iter()
+        .find(strong)
+        .map_or(TOP_RPM, |b| rpm(b.from))
+}
+
+/// What `place` relies on where it holds an angle: nothing but the guides stands in space.
+#[test]
+fn guides_that_turn_together_are_the_same_saw() {
+    for (name, turned) in [
+        ("paper", vec![(ANGLE, 35.0)]),
+        (
+            "two-pads",
+            vec![(ANGLE, 50.0), ("guides[1].angle_deg", 160.0)],
+        ),
+    ] {
+        let saw = swept(name);
+        let (here, there) = (bands(&saw), bands(&with(&saw, &turned)));
+        assert!(here.len() >= 3 && here.len() == there.len(), "{name}");
+        for (x, y) in here.iter().zip(&there) {
+            assert_close("onset", y.from, x.from, 1e-9);
+            assert_close("growth", y.peak_growth_per_s, x.peak_growth_per_s, 1e-5);
+        }
+    }
+}
+
+#[test]
+fn an_angle_that_means_nothing_is_held_and_named() {
+    let one = swept("paper");
+    let free = freed(&one, &[(RADIUS, 0.19, 0.21), (ANGLE, -90.0, 0.0)]);
+    let found = place(&one, &free, &Demands::default(), &quick());
+    let held: Vec<&str> = found
+        .without_effect
+        .iter()
+        .map(|f| f.parameter.path())
+        .collect();
+    assert_eq!(held, [ANGLE]);
+    assert_eq!(found.scene.file.guides[0].angle_deg, -55.0);
+    let two = swept("two-pads");
+    let both = freed(
+        &two,
+        &[(ANGLE, -90.0, 0.0), ("guides[1].angle_deg", 30.0, 90.0)],
+    );
+    let found = place(&two, &both, &Demands::default(), &quick());
+    let held: Vec<&str> = found
+        .without_effect
+        .iter()
+        .map(|f| f.parameter.path())
+        .collect();
+    assert_eq!(held, [ANGLE]);
+}
+
+/// Turned by 40°, saw and bounds together, the best saw is the same one, turned by 40°.
+#[test]
+fn the_best_place_turns_with_the_saw() {
+    let here = swept("two-pads");
+    let there = with(&here, &[(ANGLE, -10.0), ("guides[1].angle_deg", 100.0)]);
+    let best = |saw: &Scene, from: f64| {
+        let free = freed(saw, &[(ANGLE, from, from + 60.0)]);
+        place(saw, &free, &Demands::default(), &quick())
+    };
+    let (here, there) = (best(&here, -90.0), best(&there, -50.0));
+    assert_close(
+        "flutter speed",
+        there.best.value_rad_per_s,
+        here.best.value_rad_per_s,
+        1e-6,
+    );
+    let turn = there.parameters[0].value - here.parameters[0].value;
+    assert!((turn - 40.0).abs() < 1e-6, "{turn}");
+}
+
+/// A grid of 12 × 12 saws finds nothing better than the best by more than half a per cent.
+#[test]
+fn brute_force_finds_nothing_better() {
+    let saw = swept("two-pads");
+    let (radii, angles) = ((0.22, 0.28), (-100.0, -20.0));
+    let free = freed(
+        &saw,
+        &[(RADIUS, radii.0, radii.1), (ANGLE, angles.0, angles.1)],
+    );
+    let options = Options { map: 7, ..quick() };
+    let found = place(&saw, &free, &Demands::default(), &options);
+    let best = rpm(found.best.value_rad_per_s);
+    assert_close(
+        "its own saw",
+        flutter_rpm(&Scene {
+            sweep: saw.sweep,
+            ..found.scene.clone()
+        }),
+        best,
+        1e-6,
+    );
+    let along = |(from, to): (f64, f64), k: usize| from + (to - from) * k as f64 / 11.0;
+    let grid: Vec<f64> = (0..144)
+        .into_par_iter()
+        .map(|i| {
+            let place = [
+                (RADIUS, along(radii, i % 12)),
+                (ANGLE, along(angles, i / 12)),
+            ];
+            flutter_rpm(&with(&saw, &place))
+        })
+        .collect();
+    let brute = grid.iter().copied().fold(0.0, f64::max);
+    println!(
+        "best {best} of {} saws, brute force {brute}, before {}",
+        found.evaluations,
+        rpm(found.before.value_rad_per_s)
+    );
+    assert!(brute <= 1.005 * best, "{brute} is better than {best}");
+    assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
+    let map = found.map.unwrap();
+    assert_eq!((map.x.len(), map.y.len(), map.outcomes.len()), (7, 7, 7));
+}
+
+/// The farther the two pads stand apart, the higher is the lowest critical speed; flutter comes
+/// latest in between. A limit above the critical speed of the best saw makes it give way and is
+/// kept; one that no saw keeps is said to be broken.
+#[test]
+fn a_limit_on_the_critical_speed_is_active_and_kept() {
+    let saw = swept("two-pads");
+    let free = freed(&saw, &[(ANGLE, -115.0, -60.0)]);
+    let unlimited = place(&saw, &free, &Demands::default(), &quick());
+    let loose = unlimited.best.critical_rad_per_s.unwrap();
+    let at_least = |rad_per_s: f64| Demands {
+        min_critical_rad_per_s: Some(rad_per_s),
+        ..Demands::default()
+    };
+    let limit = 1.02 * loose;
+    let limited = place(&saw, &free, &at_least(limit), &quick());
+    let kept = limited.best.critical_rad_per_s.unwrap();
+    println!(
+        "flutter {} critical {}; limited to {}: flutter {} critical {}",
+        rpm(unlimited.best.value_rad_per_s),
+        rpm(loose),
+        rpm(limit),
+        rpm(limited.best.value_rad_per_s),
+        rpm(kept)
+    );
+    assert!(limited.best.is_kept() && kept >= limit);
+    assert!(limited.best.value_rad_per_s < unlimited.best.value_rad_per_s);
+    let impossible = place(&saw, &free, &at_least(3.0 * loose), &quick());
+    assert!(!impossible.best.is_kept());
+    assert!(impossible.best.critical_rad_per_s.unwrap() >= kept);
+}
+
+#[test]
+fn the_window_is_free_of_bands_and_wider_than_before() {
+    let saw = swept("two-pads");
+    let around_rad_per_s = rad_per_s(1800.0);
+    let demands = Demands {
+        goal: Goal::StableWindow { around_rad_per_s },
+        min_critical_rad_per_s: None,
+    };
+    let free = freed(&saw, &[(RADIUS, 0.2, 0.3)]);
+    let found = place(&saw, &free, &demands, &quick());
+    let (from, to) = found.best.window.unwrap();
+    assert!(from < around_rad_per_s && around_rad_per_s < to);
+    assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
+    let threshold = saw.flutter_threshold_per_s;
+    for band in &found.best.bands {
+        let counts =
+            band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold;
+        assert!(!counts || band.to <= from || band.from >= to, "{band:?}");
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let saw = swept("two-pads");
+    let free = freed(&saw, &[(ANGLE, -80.0, -30.0)]);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            place(
+                &saw,
+                &free,
+                &Demands::default(),
+                &Options {
+                    samples: 6,
+                    map: 5,
+                    ..quick()
+                },
+            )
+        })
+    };
+    let (one, three) = (on(1), on(3));
+    assert_eq!(one.parameters, three.parameters);
+    assert_eq!(one.best, three.best);
+    assert_eq!(one.neighbours, three.neighbours);
+    assert_eq!((one.map, one.evaluations), (three.map, three.evaluations));
+}

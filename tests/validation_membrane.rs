@@ -1,0 +1,443 @@
+//! Goal: heat and roll tension move the frequencies as an independent computation says, in the
+//! directions that saw makers know, and the temperatures that a blade bears are those that
+//! a search over whole computations finds.
+//!
+//! Sources: tests/reference/collar_saw.json and collar_saw_membrane.json, both by other
+//! Kirchhoff codes.
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{Worst, assert_close, of_diameters, reference_model, relative_error};
+use proptest::prelude::*;
+use sawflutter::check::{Check, Limits};
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{
+    InPlane, MembraneFile, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm,
+};
+use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
+use sawflutter::stability::{Analysis, HeatLimits, chart, sensitivities};
+
+const SMALL: Resolution = Resolution {
+    max_diameters: 6,
+    radial_functions: 5,
+};
+
+fn scene_with(base: &Scene, membrane: serde_json::Value) -> Scene {
+    let membrane: MembraneFile = serde_json::from_value(membrane).unwrap();
+    let mut file = base.file.clone();
+    file.membrane = Some(membrane);
+    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn collar() -> Scene {
+    common::scene("collar-400mm")
+}
+
+fn heated(base: &Scene, rise_k: f64) -> Scene {
+    let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "rim_rise_k": rise_k });
+    scene_with(base, serde_json::json!({ "temperature": temperature }))
+}
+
+fn rolled(base: &Scene, eigenstrain: f64) -> Scene {
+    let band = serde_json::json!({ "radius_m": 0.10, "width_m": 0.02, "eigenstrain": eigenstrain });
+    scene_with(base, serde_json::json!({ "roll_tension": [band] }))
+}
+
+/// The lowest frequency at rest of each n, in Hz.
+fn at_rest_hz(scene: &Scene) -> Vec<f64> {
+    let model = reference_model(scene, rad_per_s(1000.0));
+    let modes = model.all_modes(0.0).unwrap();
+    let lowest = |n| {
+        let frequencies = of_diameters(&modes, n).map(|mode| mode.frequency_rad_per_s() / TAU);
+        frequencies.fold(f64::INFINITY, f64::min)
+    };
+    (0..=6).map(lowest).collect()
+}
+
+fn compare(name: &str, key: &str, scene: &Scene, tolerance: f64) {
+    let text = std::fs::read_to_string(common::path(&format!("tests/reference/{name}"))).unwrap();
+    let reference: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let expected: Vec<f64> = serde_json::from_value(reference[key].clone()).unwrap();
+    assert!(expected.len() >= 6);
+    let mut worst = Worst::default();
+    for (n, (actual, expected)) in at_rest_hz(scene).into_iter().zip(expected).enumerate() {
+        let error = relative_error(actual, expected);
+        worst.add(error, || {
+            format!("n = {n}, {actual} instead of {expected} Hz")
+        });
+    }
+    worst.assert_at_most(key, tolerance);
+}
+
+/// Three decimals of about 100 Hz.
+#[test]
+fn the_rim_ten_kelvin_hotter() {
+    let key = "rim_heated_10_k_linear_from_collar_alpha_1.2e-5_fixed_0_rpm_hz";
+    compare("collar_saw.json", key, &heated(&collar(), 10.0), 1e-5);
+}
+
+/// The same blade with a rolled band, and with a temperature that has a kink on the blade: finite
+/// differences for the stress, Hermite elements for the plate.
+#[test]
+fn a_rolled_band_and_a_kinked_temperature() {
+    let name = "collar_saw_membrane.json";
+    let rolled = rolled(&collar(), 7e-4);
+    compare(name, "rolled_100_mm_20_mm_7e-4_fixed_hz", &rolled, 1e-4);
+    let table = serde_json::json!([
+        { "radius_m": 0.06, "rise_k": 4.0 },
+        { "radius_m": 0.15, "rise_k": 6.0 },
+        { "radius_m": 0.20, "rise_k": 30.0 }
+    ]);
+    let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "table": table });
+    let mut free = collar();
+    free.file.mount = Mount::Collar {
+        diameter_m: 0.12,
+        in_plane: InPlane::Free,
+    };
+    let kinked = scene_with(&free, serde_json::json!({ "temperature": temperature }));
+    compare(
+        name,
+        "table_4_6_30_k_at_60_150_200_mm_free_hz",
+        &kinked,
+        1e-4,
+    );
+}
+
+#[test]
+fn a_hot_rim_and_roll_tension_work_against_each_other() {
+    let cold = at_rest_hz(&collar());
+    let hot = at_rest_hz(&heated(&collar(), 10.0));
+    let tensioned = at_rest_hz(&rolled(&collar(), 7e-4));
+    for (n, ((cold, hot), tensioned)) in cold.iter().zip(hot).zip(tensioned).enumerate() {
+        let (heating, tension) = (hot - cold, tensioned - cold);
+        if n >= 2 {
+            assert!(heating < 0.0 && tension > 0.0, "{n}: {heating} {tension}");
+        } else {
+            assert!(heating > 0.0 && tension < 0.0, "{n}: {heating} {tension}");
+        }
+    }
+}
+
+/// To the last bit: what is zero is not there.
+#[test]
+fn without_heat_everything_stays_as_it_was() {
+    for base in [collar(), Scene::paper()] {
+        let [plain, zero] = [base.clone(), heated(&base, 0.0)].map(|scene| {
+            let range = (0.0, rad_per_s(2000.0));
+            let plate = Plate::new(&scene, SMALL);
+            let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+            let modes = model.modes(rad_per_s(900.0)).unwrap();
+            let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
+            let values: Vec<f64> = critical.chain(modes.iter().map(|m| m.lambda.im)).collect();
+            values
+        });
+        assert!(plain.len() > 20);
+        assert_eq!(plain, zero);
+    }
+}
+
+/// The paper's saw, guided, at a speed below its first critical one; and the collar saw.
+fn saws() -> [(Scene, f64); 2] {
+    let mut paper = Scene::paper().file;
+    paper.operating_rpm = Some(1200.0);
+    let mut collar = collar().file;
+    collar.operating_rpm = Some(3800.0);
+    [paper, collar].map(|file| {
+        let speed = file.operating_rpm.unwrap();
+        (Scene::try_from(file).unwrap(), rad_per_s(speed))
+    })
+}
+
+fn limits(scene: &Scene) -> HeatLimits {
+    let plate = Plate::new(scene, SMALL);
+    let model = SpectralModel::new(plate, (0.0, 100.0), Strategy::Dense).unwrap();
+    HeatLimits::new(scene, &model).unwrap().unwrap()
+}
+
+/// Where `holds` ceases to, between two rises.
+fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    assert!(holds(low) && !holds(high));
+    for _ in 0..45 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Whole scenes at other temperatures, until their lowest critical speed is the operating
+/// speed; and the limit does not depend on the temperature that the scene happens to have.
+#[test]
+fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
+    for (base, operating) in saws() {
+        let lowest = |rise_k: f64| {
+            let plate = Plate::new(&heated(&base, rise_k), SMALL);
+            let critical = SpectralModel::critical_speeds(&plate);
+            critical.map_or(0.0, |critical| critical[0].speed_rad_per_s)
+        };
+        let expected = bisected(0.0, 200.0, |rise_k| lowest(rise_k) > operating);
+        for scene_k in [0.0, 0.5 * expected, 1.1 * expected] {
+            let found = limits(&heated(&base, scene_k));
+            let limit = found.operating.unwrap();
+            assert_close("operating limit", limit.rise_k, expected, 1e-9);
+            assert!(limit.diameters >= 2 && !found.buckles_first && !found.past_critical);
+            // The curves pass through it.
+            let curve = &found.curves[0];
+            let below = curve.rise_k.partition_point(|rise| *rise < expected);
+            assert!(curve.speed_rad_per_s[below - 1] > operating);
+            assert!(curve.speed_rad_per_s[below] < operating);
+            assert_close(
+                "curve",
+                curve.speed_rad_per_s[0],
+                lowest(curve.rise_k[0]),
+                1e-9,
+            );
+        }
+    }
+}
+
+#[test]
+fn the_blade_buckles_where_no_critical_speed_can_be_computed_any_more() {
+    for (base, _) in saws() {
+        let flat = |rise_k: f64| {
+            SpectralModel::critical_speeds(&Plate::new(&heated(&base, rise_k), SMALL))
+        };
+        let expected = bisected(0.0, 500.0, |rise_k| flat(rise_k).is_ok());
+        let found = limits(&heated(&base, 5.0)).buckling.unwrap();
+        assert_close("buckling", found.rise_k, expected, 1e-8);
+        // The error names it too, as a share of what the scene asks for.
+        match flat(2.0 * expected) {
+            Err(SpectrumError::Buckled { share, diameters }) => {
+                assert_close("share", share, 0.5, 1e-8);
+                assert_eq!(diameters, found.diameters);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// Cold at the rim, the blade buckles into a dish or tilts: another limit on the other side.
+#[test]
+fn a_cold_rim_has_a_limit_of_its_own() {
+    let found = limits(&heated(&collar(), -1.0));
+    let dish = found.buckling.unwrap();
+    assert!(dish.rise_k < 0.0 && dish.diameters < 2, "{dish:?}");
+    assert!(found.buckles_first && found.operating.is_none());
+    let expected = -bisected(0.0, 500.0, |fall_k| {
+        let plate = Plate::new(&heated(&collar(), -fall_k), SMALL);
+        SpectralModel::critical_speeds(&plate).is_ok()
+    });
+    assert_close("dish", dish.rise_k, expected, 1e-8);
+}
+
+/// Rolled so much that it is a dish when cold, and flat when the rim is warm.
+#[test]
+fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
+    let both = |rise_k: f64| {
+        let mut membrane = heated(&collar(), rise_k).file.membrane.unwrap();
+        membrane.roll_tension = rolled(&collar(), 3e-3).file.membrane.unwrap().roll_tension;
+        scene_with(&collar(), serde_json::to_value(membrane).unwrap())
+    };
+    let flat =
+        |rise_k: f64| SpectralModel::critical_speeds(&Plate::new(&both(rise_k), SMALL)).is_ok();
+    let expected = bisected(60.0, 0.0, flat);
+    let found = limits(&both(60.0)).flat_from.unwrap();
+    assert_close("flat from", found.rise_k, expected, 1e-8);
+    assert_eq!(found.diameters, 0);
+    assert!(limits(&heated(&collar(), 5.0)).flat_from.is_none());
+}
+
+/// Past its critical speed no heat has to bring the saw there.
+#[test]
+fn a_saw_past_its_critical_speed_is_said_to_be() {
+    let mut file = heated(&collar(), 3.0).file;
+    file.operating_rpm = Some(6000.0);
+    let found = limits(&Scene::try_from(file).unwrap());
+    assert!(found.past_critical && found.operating.is_none());
+}
+
+#[test]
+fn a_buckled_blade_is_an_error_with_the_remedy() {
+    let hot = heated(&collar(), 150.0);
+    for message in [
+        Analysis::new(&hot, &|_, _| ())
+            .map(drop)
+            .unwrap_err()
+            .to_string(),
+        Check::new(&hot, &Limits::at(100.0))
+            .map(drop)
+            .unwrap_err()
+            .to_string(),
+    ] {
+        assert!(message.contains("buckles at rest"), "{message}");
+        assert!(message.contains("lower the temperature"), "{message}");
+    }
+}
+
+/// Guides, heat and tension together: every band certified.
+#[test]
+fn the_krein_index_holds_under_membrane_stress() {
+    let membrane = serde_json::json!({
+        "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": 3.0, "exponent": 1.5 },
+        "roll_tension": [{ "radius_m": 0.25, "width_m": 0.03, "eigenstrain": 5e-5 }]
+    });
+    let mut file = scene_with(&Scene::paper(), membrane).file;
+    file.tolerance = Some(1e-2);
+    let plain = Analysis::new(&Scene::paper(), &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&Scene::try_from(file).unwrap(), &|_, _| ()).unwrap();
+    let certificate = &analysis.chart.certificate;
+    assert!(certificate.speeds_checked > 20 && certificate.violations.is_empty());
+    let lowest = |a: &Analysis| rpm(a.model.critical[0].speed_rad_per_s);
+    assert!((lowest(&analysis) - lowest(&plain)).abs() > 5.0);
+}
+
+fn analysis_of(scene: &Scene) -> Analysis {
+    let range = (rad_per_s(300.0), rad_per_s(2000.0));
+    let model = SpectralModel::new(Plate::new(scene, SMALL), range, Strategy::Dense).unwrap();
+    let chart = chart(&model, range, 12, &|_, _| ()).unwrap();
+    Analysis {
+        model,
+        range,
+        chart,
+        flutter_speed: None,
+        first_merge: None,
+        root_loci: None,
+        estimated_relative_error: None,
+    }
+}
+
+/// The numbers of the block appear among the sensitivities, with the derivative of the lowest
+/// critical speed that central differences of whole scenes give.
+#[test]
+fn sensitivities_to_heat_and_tension() {
+    let membrane = serde_json::json!({
+        "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": 3.0 },
+        "roll_tension": [{ "radius_m": 0.25, "width_m": 0.03, "eigenstrain": 5e-5 }]
+    });
+    let scene = scene_with(&Scene::paper(), membrane);
+    let analysis = analysis_of(&scene);
+    let found = sensitivities(&scene, &analysis, rad_per_s(400.0)).unwrap();
+    let of_membrane: Vec<_> = found
+        .iter()
+        .filter(|s| s.parameter.starts_with("membrane."))
+        .collect();
+    assert_eq!(of_membrane.len(), 4);
+    for sensitivity in of_membrane {
+        let parameter = Parameter::new(&sensitivity.parameter);
+        let value = parameter.get(&scene.file).unwrap();
+        let change = match sensitivity.change {
+            "1 %" => 0.01 * value,
+            "1 K" => 1.0,
+            other => panic!("{other}"),
+        };
+        let lowest = |share: f64| {
+            let moved = scene.file.with(&[(&parameter, value + share * change)]);
+            let plate = Plate::new(&moved.unwrap(), SMALL);
+            SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s
+        };
+        let share = 0.02;
+        let difference = (lowest(share) - lowest(-share)) / (2.0 * share * lowest(0.0));
+        let error = (sensitivity.critical_speeds[0] - difference).abs();
+        // A central difference of a change of 1 % or so, cut off at its square.
+        assert!(
+            error < 1e-4 * difference.abs() && difference != 0.0,
+            "{}: {} {difference}",
+            sensitivity.parameter,
+            sensitivity.critical_speeds[0]
+        );
+    }
+}
+
+fn spline_blade(bore: f64, rises: &[f64], shift: f64) -> Scene {
+    let mut file: SceneFile = common::scene("free-blade").file;
+    let outer = file.blade.outer_diameter_m;
+    file.blade.inner_diameter_m = bore * outer;
+    let radius = |k: usize| 0.5 * outer * (bore + (1.0 - bore) * k as f64 / 4.0);
+    let rows = rises.iter().enumerate();
+    let rows: Vec<_> = rows
+        .map(|(k, rise)| serde_json::json!({ "radius_m": radius(k), "rise_k": rise + shift }))
+        .collect();
+    let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "table": rows });
+    let membrane = serde_json::json!({ "temperature": temperature });
+    file.membrane = Some(serde_json::from_value(membrane).unwrap());
+    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// On free edges an even rise adds no stress to any profile, and heave and tilt stay free.
+    #[test]
+    fn an_even_rise_changes_nothing_on_a_spline(
+        bore in 0.05..0.8f64,
+        rises in proptest::collection::vec(-2.0..2.0f64, 5),
+        shift in -100.0..100.0f64,
+    ) {
+        let critical = |shift: f64| {
+            let plate = Plate::new(&spline_blade(bore, &rises, shift), SMALL);
+            SpectralModel::critical_speeds(&plate)
+        };
+        match (critical(0.0), critical(shift)) {
+            (Ok(one), Ok(other)) => {
+                prop_assert_eq!(one.len(), other.len());
+                for (x, y) in one.iter().zip(&other).take(8) {
+                    prop_assert!(relative_error(y.speed_rad_per_s, x.speed_rad_per_s) < 1e-8);
+                }
+            }
+            (Err(SpectrumError::Buckled { .. }), Err(SpectrumError::Buckled { .. })) => (),
+            other => prop_assert!(false, "{other:?}"),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    /// Whatever is heated, rolled and guided: a certified chart, or a plain word of buckling.
+    #[test]
+    fn a_drawn_saw_is_charted_or_said_to_buckle(
+        rise_k in -40.0..40.0f64,
+        exponent in 0.0..4.0f64,
+        place in 0.1..0.9f64,
+        eigenstrain in -8e-4..8e-4f64,
+        guided in any::<bool>(),
+    ) {
+        let mut file = collar().file;
+        let radius = 0.06 + 0.14 * place;
+        file.membrane = Some(serde_json::from_value(serde_json::json!({
+            "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": rise_k, "exponent": exponent },
+            "roll_tension": [{ "radius_m": radius, "width_m": 0.01, "eigenstrain": eigenstrain }]
+        })).unwrap());
+        file.tolerance = Some(0.05);
+        if guided {
+            file.guides = common::scene("two-pads").file.guides;
+            file.guides.truncate(1);
+            file.guides[0].radius_m = 0.17;
+            file.guides[0].radial_length_m = 0.03;
+            file.guides[0].tangential_length_m = 0.05;
+        }
+        let mut scene = Scene::try_from(file).unwrap();
+        // A sweep past many critical speeds has many bands, and takes as long.
+        if let Ok(critical) = SpectralModel::critical_speeds(&Plate::new(&scene, SMALL)) {
+            scene.sweep = Some(SpeedRange {
+                from_rad_per_s: 0.0,
+                to_rad_per_s: 1.1 * critical[0].speed_rad_per_s,
+            });
+        }
+        match Analysis::new(&scene, &|_, _| ()) {
+            Ok(analysis) => {
+                prop_assert!(analysis.chart.certificate.violations.is_empty());
+                let limits = HeatLimits::new(&scene, &analysis.model).unwrap().unwrap();
+                let buckling = limits.buckling.map_or(f64::INFINITY, |b| b.rise_k.abs());
+                prop_assert!(buckling > rise_k.abs());
+            }
+            Err(SpectrumError::Buckled { share, .. }) => prop_assert!(share < 1.0 + 1e-9),
+            Err(other) => prop_assert!(false, "{other}"),
+        }
+    }
+}
