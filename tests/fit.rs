@@ -136,6 +136,9 @@ fn measured(exact: &[Vec<f64>], mut noise: impl FnMut() -> f64) -> Measurement {
     }
 }
 
+/// Path, true value, lowest and highest allowed.
+type Number = (&'static str, f64, f64, f64);
+
 /// Without noise the truth itself comes back: pad and density, and of two pads the angle too.
 #[test]
 fn exact_frequencies_give_the_saw_back() {
@@ -145,7 +148,7 @@ fn exact_frequencies_give_the_saw_back() {
         ..Options::default()
     };
     let two = scene("two-pads");
-    let truths: [(&Scene, Vec<(&str, f64, f64, f64)>); 2] = [
+    let truths: [(&Scene, Vec<Number>); 2] = [
         (
             &scene("paper"),
             vec![

@@ -89,7 +89,7 @@ mod tests {
     fn only_the_own_page_is_let_in() {
         use header::{HOST, ORIGIN};
         let own = (HOST, "127.0.0.1:4711");
-        assert_eq!(refusal(&[own.clone()]), None);
+        assert_eq!(refusal(std::slice::from_ref(&own)), None);
         assert_eq!(refusal(&[(HOST, "localhost:4711")]), None);
         let page = (ORIGIN, "http://127.0.0.1:4711");
         assert_eq!(refusal(&[own.clone(), page.clone()]), None);

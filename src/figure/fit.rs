@@ -257,7 +257,14 @@ mod tests {
         };
         for to_rpm in [0.0, 500.0] {
             let fitted = table.up_to(to_rpm);
-            let fit = Fit::new(&scene, &fitted, &[freed.clone()], &options, &|_, _| ()).unwrap();
+            let fit = Fit::new(
+                &scene,
+                &fitted,
+                std::slice::from_ref(&freed),
+                &options,
+                &|_, _| (),
+            )
+            .unwrap();
             let report = FitReport::new(&scene, &table, to_rpm, 0.95, &fit).unwrap();
             assert_tidy(&sheet(&report));
         }

@@ -185,13 +185,10 @@ mod tests {
     #[test]
     fn no_sweep_goes_to_where_the_blade_would_be_torn() {
         let mut scene = Scene::paper();
-        let sweep_to = |rpm: f64| {
-            Some(SpeedRange {
-                from_rad_per_s: 0.0,
-                to_rad_per_s: rad_per_s(rpm),
-            })
-        };
-        scene.sweep = sweep_to(43_500.0);
+        scene.sweep = Some(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: rad_per_s(43_500.0),
+        });
         match ChosenBasis::new(&scene, 1e-2) {
             Err(SpectrumError::Overstretched { limit_rpm, .. }) => {
                 assert!((limit_rpm - 43_400.0).abs() < 50.0, "{limit_rpm}");
