@@ -41,7 +41,8 @@ fn assert_same(left: &[Instability], right: &[Instability], what: &str) {
     for (x, y) in left.iter().zip(right) {
         assert_eq!(x.kind, y.kind, "{what}");
         for (a, b) in [(x.from, y.from), (x.to, y.to)] {
-            assert!((a / b - 1.0).abs() < 1e-9, "{what}: {} {}", rpm(a), rpm(b));
+            let same = (a / b - 1.0).abs() < 1e-9;
+            assert!(same, "{what}: {:#?} {:#?}", list(left), list(right));
         }
     }
 }

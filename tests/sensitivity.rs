@@ -95,6 +95,10 @@ fn assert_central_differences(scene: &Scene) -> usize {
         }
         for (k, value) in sensitivity.eigenvalues.iter().enumerate() {
             let of = |a: &Analysis| a.model.modes(at).unwrap()[k].lambda.im;
+            if of(&middle) == 0.0 {
+                // It diverges, and has no frequency to be relative to.
+                continue;
+            }
             close(value.im / of(&middle), difference(&of), "frequency");
         }
     }

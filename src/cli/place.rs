@@ -178,10 +178,10 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         let PlacedEntry {
             less_rpm, more_rpm, ..
         } = p;
-        let side = |rpm: &Option<f64>| rpm.map_or("past the bound".into(), |r| format!("{r:.0}"));
+        let side = |rpm: &Option<f64>| rpm.map_or("past bound".into(), |r| format!("{r:.0}"));
         writeln!(
             text,
-            "  {:<34} -{:<9} {:>10}   +{:<9} {:>10}",
+            "  {:<30} -{:<7} {:>10}   +{:<7} {:>10}",
             p.path,
             short(p.offset),
             side(less_rpm),

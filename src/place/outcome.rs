@@ -1,10 +1,9 @@
 //! What a saw is worth that is tried.
 
-use crate::campbell::even_speeds;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
-use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
-use crate::stability::{Instability, InstabilityKind, chart, undamped_bands};
+use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::stability::{Instability, InstabilityKind, first_flutter, search_bands};
 
 use super::Goal;
 
@@ -36,8 +35,6 @@ pub struct Question {
     pub resolution: Resolution,
 }
 
-/// Even speeds from which bands are searched; the same bands come out of any number.
-const SEARCH_SPEEDS: usize = 25;
 /// A saw worse than any that can be analysed.
 pub const REFUSED: f64 = 1e12;
 
@@ -55,18 +52,10 @@ impl Question {
             // Without a critical speed every limit is kept.
             _ => 0.0,
         };
-        let model = SpectralModel::with_critical(plate, critical, self.range, Strategy::Reduced)?;
-        let bands = if model.is_conservative() {
-            undamped_bands(&model, self.range, SEARCH_SPEEDS)?.0
-        } else {
-            let speeds = even_speeds(self.range, SEARCH_SPEEDS).len();
-            chart(&model, self.range, speeds, &|_, _| ())?.instabilities
-        };
+        let (bands, _) = search_bands(plate, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s;
-        let flutter = bands
-            .iter()
-            .find(|b| b.kind == InstabilityKind::Flutter && b.peak_growth_per_s >= threshold)
-            .map(|b| b.from);
+        let (_, strong) = first_flutter(&bands, threshold);
+        let flutter = strong.map(|band| band.from);
         let window = match self.goal {
             Goal::FlutterSpeed => None,
             Goal::StableWindow { around_rad_per_s } => {

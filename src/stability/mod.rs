@@ -22,6 +22,6 @@ pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart
 pub use basis::ChosenBasis;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
-pub use onsets::Onsets;
+pub use onsets::{Onsets, first_flutter, search_bands};
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
 pub use tradeoff::{Method, Setting, recommended, tradeoff};

@@ -48,7 +48,7 @@ impl Onsets {
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
         let (instabilities, certificate) = match plate.is_axisymmetric() || is_slow {
             true if !is_damped => Default::default(),
-            _ => bands(plate, critical, range)?,
+            _ => search_bands(plate, critical, range)?,
         };
         let (first, strong) = first_flutter(&instabilities, scene.flutter_threshold_per_s);
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
@@ -64,7 +64,12 @@ impl Onsets {
     }
 }
 
-fn bands(
+/// Every band of a plate whose critical speeds are known, with the proof that none is missing;
+/// by the modes that can meet alone, unless damping leaves all that a chart has to be looked at.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn search_bands(
     plate: Plate,
     critical: Vec<NamedCriticalSpeed>,
     range: (f64, f64),
@@ -79,7 +84,7 @@ fn bands(
 }
 
 /// The first flutter band of all, and the first that grows as fast as the threshold.
-pub(super) fn first_flutter(
+pub fn first_flutter(
     bands: &[Instability],
     threshold_per_s: f64,
 ) -> (Option<&Instability>, Option<&Instability>) {

@@ -24,6 +24,8 @@ const NEWTON_TOLERANCE: f64 = 1e-8;
 /// the least growth rate told from rounding.
 const VERTEX_TOLERANCE: f64 = 1e-6;
 const MAX_NEWTON: usize = 8;
+/// Relative distance over which a pair is not taken for another.
+const NO_NEIGHBOURS: f64 = 1e-5;
 const MAX_STEPS: usize = 40;
 /// Share of a square growth rate by which the few states of a station may be off.
 const LIKENESS: f64 = 0.05;
@@ -222,6 +224,9 @@ pub fn onset_between(
     let Some((onset, pair)) = near.and_then(|near| near.onset(ends)) else {
         return Ok(None);
     };
+    if (ends.1 - ends.0).abs() <= NO_NEIGHBOURS * ends.1 {
+        return Ok(Some(onset));
+    }
     let inside = onset + 0.1 * (ends.1 - onset);
     let shown = pair.is_shown(&apart.word(), inside, place)?;
     Ok(shown.then_some(onset))

@@ -15,7 +15,7 @@ const GROWTH_FLOOR: f64 = 1e-7;
 const MAX_STEPS: usize = 120;
 /// Pursuits of a pair, each over half the distance of the one before: one that loses its pair
 /// among its neighbours may keep it when it begins nearer.
-const PURSUITS: usize = 6;
+const PURSUITS: usize = 20;
 
 /// ((ω₁ − ω₂)/2)² of the pair at a place of the doubled list: −σ² once merged.
 /// Of two real modes it is ((σ₁ − σ₂)/2)², and −ω² once they oscillate.

@@ -29,7 +29,7 @@ impl Inputs {
         }
     }
 
-    /// What differs in another's, in words: "scene.guides[0].radius_m is 0.2 there and 0.25 here".
+    /// What differs in another's, in words: "`scene.guides[0].radius_m` is 0.2 there and 0.25 here".
     pub fn difference(&self, here: &Inputs) -> Option<String> {
         let value = |inputs: &Inputs| serde_json::to_value(inputs).unwrap_or_default();
         difference("", &value(self), &value(here))
