@@ -809,8 +809,8 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
         let finer = critical(
             &file,
             Resolution {
-                max_diameters: 30,
-                radial_functions: 12,
+                max_diameters: 38,
+                radial_functions: 13,
             },
         );
         // It speaks of the critical speeds within the sweep.
