@@ -20,7 +20,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, Instability, InstabilityKind, OPERATING_LIMIT};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT};
 use crate::system::GyroscopicSystem;
 
 /// What a saw has to keep.
@@ -176,9 +176,7 @@ impl Limits {
             lowest_critical,
             operating / self.margin,
         )];
-        let strong = bands.iter().filter(|band| {
-            band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold_per_s
-        });
+        let strong = bands.iter().filter(|band| band.counts(threshold_per_s));
         let inside = strong
             .filter(|band| (band.from..=band.to).contains(&operating))
             .map(|band| band.from)

@@ -173,6 +173,25 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         let (before, best) = (short(p.start), short(p.value));
         writeln!(text, "{:<36} {before:>12} {best:>12}{bound}", p.path)?;
     }
+    neighbours(text, report, goal)?;
+    for band in &report.almost {
+        let line = format!(
+            "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
+            band.from_rpm, band.peak_growth_per_s, report.flutter_threshold_per_s
+        );
+        writeln!(text, "{}", wrapped(&line))?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
+    }
+    writeln!(
+        text,
+        "{} saws analysed, {:.0} to {:.0} rpm",
+        report.saws, report.from_rpm, report.to_rpm
+    )
+}
+
+fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::Result {
     writeln!(text, "\nA little off, the {goal} becomes [rpm]")?;
     for p in &report.parameters {
         let PlacedEntry {
@@ -194,21 +213,6 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     writeln!(
         text,
         "The worst of these saws and their corners has {share:.0} % of it: {verdict}"
-    )?;
-    for band in &report.almost {
-        let line = format!(
-            "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
-            band.from_rpm, band.peak_growth_per_s, report.flutter_threshold_per_s
-        );
-        writeln!(text, "{}", wrapped(&line))?;
-    }
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
-    }
-    writeln!(
-        text,
-        "{} saws analysed, {:.0} to {:.0} rpm",
-        report.saws, report.from_rpm, report.to_rpm
     )
 }
 

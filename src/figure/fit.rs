@@ -70,29 +70,7 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
         [LOWER.bottom, LOWER.top],
         Spread::Linear,
     );
-    draw_vertical(
-        &mut sheet,
-        &frequency,
-        &UPPER,
-        "frequency in space\u{2003}[Hz]",
-    );
-    draw_vertical(
-        &mut sheet,
-        &residual,
-        &LOWER,
-        "model − measured\u{2003}[Hz]",
-    );
-    let zero = [
-        [LOWER.left, residual.at(0.0)],
-        [LOWER.right, residual.at(0.0)],
-    ];
-    sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
-    draw_horizontal(&mut sheet, &speed, UPPER.bottom, false);
-    draw_horizontal(&mut sheet, &speed, LOWER.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = (LOWER.left + LOWER.right) / 2.0;
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, LOWER.bottom + 42.0], letters, name);
+    draw_axes(&mut sheet, &speed, &frequency, &residual);
     let before = Stroke {
         dash: Some(DASH),
         ..Stroke::solid(BEFORE, HAIRLINE)
@@ -117,6 +95,22 @@ pub(super) fn sheet(report: &FitReport) -> Sheet {
     }
     draw_key(&mut sheet, report, shown.iter().any(|r| !r.fitted));
     sheet
+}
+
+fn draw_axes(sheet: &mut Sheet, speed: &Axis, frequency: &Axis, residual: &Axis) {
+    draw_vertical(sheet, frequency, &UPPER, "frequency in space\u{2003}[Hz]");
+    draw_vertical(sheet, residual, &LOWER, "model − measured\u{2003}[Hz]");
+    let zero = [
+        [LOWER.left, residual.at(0.0)],
+        [LOWER.right, residual.at(0.0)],
+    ];
+    sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
+    draw_horizontal(sheet, speed, UPPER.bottom, false);
+    draw_horizontal(sheet, speed, LOWER.bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let middle = (LOWER.left + LOWER.right) / 2.0;
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([middle, LOWER.bottom + 42.0], letters, name);
 }
 
 fn facts(report: &FitReport) -> String {

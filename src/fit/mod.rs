@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod error;
 mod measurement;
 mod model;
 mod solve;
@@ -36,49 +37,10 @@ use crate::scene::{
 use crate::spectrum::{LowestModes, SpectrumError};
 use crate::stability::ChosenBasis;
 
+pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
 use solve::{Found, at_bound, minimum, statistics};
-
-/// Why nothing could be fitted.
-#[derive(Debug, thiserror::Error)]
-pub enum FitError {
-    /// A line of the table is none.
-    #[error("line {line} of the measured frequencies: {problem}")]
-    Table {
-        /// Line, from 1.
-        line: u64,
-        /// What is wrong and what to do.
-        problem: String,
-    },
-    /// More unknowns than the data can determine.
-    #[error(
-        "{measured} measured frequencies do not determine {free} numbers; measure more, or free fewer numbers"
-    )]
-    TooFew {
-        /// Measured frequencies.
-        measured: usize,
-        /// Numbers that are free and move them.
-        free: usize,
-    },
-    /// Nothing to fit with.
-    #[error(
-        "no number is free that moves a measured frequency; free another one, like guides[0].radius_m"
-    )]
-    NothingFree,
-    /// Every start was refused.
-    #[error("none of {starts} starts between the bounds is a saw; narrow the bounds")]
-    NoStart {
-        /// How many were tried.
-        starts: usize,
-    },
-    /// A scene was refused.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// An eigenproblem failed.
-    #[error(transparent)]
-    Spectrum(#[from] SpectrumError),
-}
 
 /// How to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,20 +177,9 @@ impl Fit {
         let spread = statistics(&fine, &best.shares, options.confidence)?;
         let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
         let before = fine.residuals_hz(&own)?;
-        let parameters = freed.iter().enumerate().map(|(k, freed)| {
-            let share = best.shares[k];
-            let half = spread.half_widths[k];
-            FittedParameter {
-                freed: freed.clone(),
-                start: freed.value(own[k]),
-                value: freed.value(share),
-                interval: half.map(|h| (freed.value(share - h), freed.value(share + h))),
-                at_bound: at_bound(share),
-            }
-        });
         Ok(Fit {
             scene: calibrated(scene, measurement, &freed, &best)?,
-            parameters: parameters.collect(),
+            parameters: parameters(&freed, &own, &best.shares, &spread.half_widths),
             without_effect,
             correlation: spread.correlation,
             degrees_of_freedom: spread.degrees_of_freedom,
@@ -255,6 +206,23 @@ impl Fit {
             .map(|rpm| Model::frequencies_hz(&lowest, rad_per_s(*rpm), count))
             .collect()
     }
+}
+
+/// Every number with what was found for it, from shares of its bounds.
+fn parameters(
+    freed: &[Freed],
+    own: &[f64],
+    shares: &[f64],
+    half_widths: &[Option<f64>],
+) -> Vec<FittedParameter> {
+    let numbers = freed.iter().enumerate().map(|(k, freed)| FittedParameter {
+        freed: freed.clone(),
+        start: freed.value(own[k]),
+        value: freed.value(shares[k]),
+        interval: half_widths[k].map(|h| (freed.value(shares[k] - h), freed.value(shares[k] + h))),
+        at_bound: at_bound(shares[k]),
+    });
+    numbers.collect()
 }
 
 fn rms(residuals: &[f64]) -> f64 {

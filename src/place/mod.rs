@@ -31,7 +31,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
-use crate::scene::{Freed, Scene, SceneError, common_turn, scene_at, spread};
+use crate::scene::{Freed, Scene, SceneError, SpeedRange, common_turn, scene_at, spread};
 use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
 
@@ -210,7 +210,7 @@ impl Placement {
         let (candidate, map) = look_everywhere(&coarse, &own, options, progress)?;
         if options.resolution.is_none() {
             let near = scene_at(&scene.file, &freed, &candidate.shares)?;
-            let sweep = Some(crate::scene::SpeedRange {
+            let sweep = Some(SpeedRange {
                 from_rad_per_s: question.range.0,
                 to_rad_per_s: question.range.1,
             });
@@ -229,15 +229,9 @@ impl Placement {
             return Err(PlaceError::NoSaw { tried });
         };
         let neighbours = Neighbours::new(&fine, &best.shares, &found, progress);
-        let parameters = freed.iter().enumerate().map(|(k, freed)| PlacedParameter {
-            freed: freed.clone(),
-            start: freed.value(own[k]),
-            value: freed.value(best.shares[k]),
-            at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&best.shares[k]),
-        });
         Ok(Placement {
             scene: placed(scene, &freed, &best)?,
-            parameters: parameters.collect(),
+            parameters: parameters(&freed, &own, &best.shares),
             without_effect,
             before,
             best: found,
@@ -248,6 +242,17 @@ impl Placement {
             evaluations: evaluations.load(Ordering::Relaxed),
         })
     }
+}
+
+/// Every number with what was found for it, from shares of its bounds.
+fn parameters(freed: &[Freed], own: &[f64], shares: &[f64]) -> Vec<PlacedParameter> {
+    let numbers = freed.iter().enumerate().map(|(k, freed)| PlacedParameter {
+        freed: freed.clone(),
+        start: freed.value(own[k]),
+        value: freed.value(shares[k]),
+        at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&shares[k]),
+    });
+    numbers.collect()
 }
 
 /// Samples, refines the best of them, and draws the map through the best; a map that shows a

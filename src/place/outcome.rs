@@ -3,7 +3,7 @@
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 use crate::spectrum::{SpectralModel, SpectrumError};
-use crate::stability::{Instability, InstabilityKind, first_flutter, search_bands};
+use crate::stability::{Instability, first_flutter, search_bands};
 
 use super::Goal;
 
@@ -83,11 +83,8 @@ impl Question {
         threshold_per_s: f64,
         around: f64,
     ) -> Option<(f64, f64)> {
-        let counts = |b: &&Instability| {
-            b.kind == InstabilityKind::Divergence || b.peak_growth_per_s >= threshold_per_s
-        };
         let (mut from, mut to) = self.range;
-        for band in bands.iter().filter(counts) {
+        for band in bands.iter().filter(|band| band.counts(threshold_per_s)) {
             if band.to < around {
                 from = from.max(band.to);
             } else if band.from > around {

@@ -15,7 +15,7 @@ use super::{
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::{DescribedMode, Direction, SpectrumError, WorkCounters, in_words};
-use crate::stability::{Analysis, OPERATING_LIMIT, Sensitivity};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -42,7 +42,12 @@ impl Report {
             terms: terms(&model.plate),
             modes_at_rest: at_rest.iter().map(|m| rest_mode(analysis, m)).collect(),
             critical_speeds: critical_speeds(analysis),
-            instabilities: instabilities(analysis),
+            instabilities: analysis
+                .chart
+                .instabilities
+                .iter()
+                .map(InstabilityEntry::from)
+                .collect(),
             flutter_speed_rpm: analysis.flutter_speed.map(rpm),
             first_merge_rpm: analysis.first_merge.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s,
@@ -214,10 +219,9 @@ fn critical_speeds(analysis: &Analysis) -> Vec<CriticalSpeedEntry> {
     entries
 }
 
-fn instabilities(analysis: &Analysis) -> Vec<InstabilityEntry> {
-    let bands = analysis.chart.instabilities.iter();
-    bands
-        .map(|band| InstabilityEntry {
+impl From<&Instability> for InstabilityEntry {
+    fn from(band: &Instability) -> Self {
+        InstabilityEntry {
             kind: band.kind,
             from_rpm: rpm(band.from),
             to_rpm: rpm(band.to),
@@ -226,8 +230,8 @@ fn instabilities(analysis: &Analysis) -> Vec<InstabilityEntry> {
             peak_growth_per_s: band.peak_growth_per_s,
             frequency_hz: band.frequency / TAU,
             modes: band.modes.clone(),
-        })
-        .collect()
+        }
+    }
 }
 
 fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {

@@ -1,13 +1,10 @@
 //! `place.json`: the best place for the guides, what is next door, and a map.
 
-use std::f64::consts::TAU;
-
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use crate::place::{Demands, Goal, Map, Neighbours, Outcome, Placement};
 use crate::scene::{Scene, SceneFile, rpm};
-use crate::stability::Instability;
 
 /// `place.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -162,14 +159,23 @@ impl PlaceReport {
                 .collect(),
             before: OutcomeEntry::from(&found.before),
             best: OutcomeEntry::from(&found.best),
-            bands: found.best.bands.iter().map(band).collect(),
+            bands: found
+                .best
+                .bands
+                .iter()
+                .map(InstabilityEntry::from)
+                .collect(),
             fragile: neighbours.are_fragile(),
             worst_neighbour: neighbours.worst.as_ref().map(|worst| NeighbourEntry {
                 values: worst.values.clone(),
                 outcome: worst.outcome.as_ref().map(OutcomeEntry::from),
             }),
             worst_neighbour_share: neighbours.worst_share,
-            almost: neighbours.almost.iter().map(band).collect(),
+            almost: neighbours
+                .almost
+                .iter()
+                .map(InstabilityEntry::from)
+                .collect(),
             map: found.map.as_ref().map(MapEntry::from),
             saws: found.evaluations,
             max_diameters: found.resolution.max_diameters,
@@ -207,19 +213,6 @@ impl From<&Map> for MapEntry {
                 .collect(),
             kept: rows.map(|row| row.iter().map(kept).collect()).collect(),
         }
-    }
-}
-
-fn band(band: &Instability) -> InstabilityEntry {
-    InstabilityEntry {
-        kind: band.kind,
-        from_rpm: rpm(band.from),
-        to_rpm: rpm(band.to),
-        closed: band.closed,
-        peak_rpm: rpm(band.peak),
-        peak_growth_per_s: band.peak_growth_per_s,
-        frequency_hz: band.frequency / TAU,
-        modes: band.modes.clone(),
     }
 }
 

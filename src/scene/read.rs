@@ -3,6 +3,8 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
+
 use super::{Scene, SceneFile};
 
 /// No scene a person writes comes near this size; a file beyond it is something else.
@@ -112,23 +114,39 @@ impl Scene {
         if text.trim().is_empty() {
             return Err(SceneError::Empty);
         }
-        let mut json = serde_json::Deserializer::from_str(text);
-        let file: SceneFile = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let key = match error.path().to_string().as_str() {
-                "." => "the scene".to_owned(),
-                path => path.to_owned(),
-            };
-            SceneError::Syntax {
-                key,
-                message: error.into_inner().to_string(),
-            }
-        })?;
-        json.end().map_err(|error| SceneError::Syntax {
-            key: "the scene".into(),
-            message: error.to_string(),
-        })?;
+        let file: SceneFile = from_keyed_json(text, "the scene")
+            .map_err(|KeyedError { key, message }| SceneError::Syntax { key, message })?;
         Scene::try_from(file)
     }
+}
+
+/// What a JSON text was refused for.
+#[derive(Debug)]
+pub(crate) struct KeyedError {
+    /// JSON path of the key, or the whole.
+    pub key: String,
+    /// What the parser said, with line and column.
+    pub message: String,
+}
+
+/// Reads JSON, and nothing after it; errors point at the key, or at the `whole` by its name.
+pub(crate) fn from_keyed_json<T: DeserializeOwned>(
+    text: &str,
+    whole: &str,
+) -> Result<T, KeyedError> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| KeyedError {
+        key: match error.path().to_string().as_str() {
+            "." => whole.to_owned(),
+            path => path.to_owned(),
+        },
+        message: error.into_inner().to_string(),
+    })?;
+    json.end().map_err(|error| KeyedError {
+        key: whole.to_owned(),
+        message: error.to_string(),
+    })?;
+    Ok(value)
 }
 
 /// The JSON schema of a scene file, derived from [`SceneFile`].

@@ -1,5 +1,7 @@
 //! Few vectors that span the low modes over a whole range of speeds.
 
+mod drawn;
+
 use std::sync::atomic::Ordering;
 
 use faer::{Col, Mat, Scale, c64};
@@ -11,9 +13,7 @@ use crate::system::GyroscopicSystem;
 use super::dense::Eigenpair;
 use super::mode::{ModeKind, classify, split};
 use super::model::WorkCounters;
-use super::pair::standing_states;
 use super::part::NamedCriticalSpeed;
-use super::state::{State, StateModel};
 use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs};
 
 /// Modes a chart shows at the lowest speed.
@@ -25,10 +25,6 @@ const SPAN_TOLERANCE: f64 = 1e-6;
 const FREQUENCY_TOLERANCE: f64 = 1e-8;
 /// The same for modes that are only drawn: a chart has three digits, its numbers six.
 const DRAWN_TOLERANCE: f64 = 1e-7;
-/// The same for the few states that curves are drawn from.
-const LOCAL_TOLERANCE: f64 = 1e-5;
-/// Modes up to this multiple of the window are among these states.
-const DRAWN_MARGIN: f64 = 1.05;
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
 const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
@@ -323,53 +319,6 @@ impl<'a> Builder<'a> {
     fn pairs(&self, projection: &Projection, speed: f64) -> Vec<Eigenpair> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         companion_eigenpairs(&projection.reduced, speed).unwrap_or_default()
-    }
-
-    /// Both halves of a piece on the states at its ends, in its middle, and where a wave
-    /// stands; nothing for a half that is not good enough to draw.
-    fn drawn(
-        &self,
-        piece: &Projection,
-        ends: &[Snapshot],
-        (middle, pairs): (f64, Vec<Eigenpair>),
-    ) -> Vec<(f64, Option<StateModel>)> {
-        let low = |pairs: Vec<Eigenpair>| -> Vec<Eigenpair> {
-            let height = DRAWN_MARGIN * self.window;
-            let low = |pair: &Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
-            pairs.into_iter().filter(low).collect()
-        };
-        let end = |snapshot: &Snapshot| {
-            let inward = snapshot.pairs.iter().map(|pair| piece.inward(pair));
-            piece.states(snapshot.speed, low(inward.collect()))
-        };
-        let inner = piece.states(middle, low(pairs));
-        let (left, right) = (end(&ends[0]), end(&ends[1]));
-        let mut drawn = Vec::new();
-        for (from, to, outer) in [
-            (ends[0].speed, middle, left),
-            (middle, ends[1].speed, right),
-        ] {
-            let mut states: Vec<State> = Vec::new();
-            for critical in self.critical {
-                if (from..=to).contains(&critical.speed_rad_per_s) {
-                    let shape = piece.basis.transpose() * &critical.shape;
-                    let speed = critical.speed_rad_per_s;
-                    states.extend(standing_states(&piece.reduced, speed, &shape, self.window));
-                }
-            }
-            states.extend(inner.iter().cloned().chain(outer));
-            let model = StateModel::new(&piece.reduced, self.window, &states);
-            let good = model.filter(|model| self.draws_well(piece, model, 0.5 * (from + to)));
-            drawn.push((to, good));
-        }
-        drawn
-    }
-
-    fn draws_well(&self, piece: &Projection, model: &StateModel, speed: f64) -> bool {
-        self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
-        let pairs = model.eigenpairs(speed).unwrap_or_default();
-        let error = self.frequency_error(piece, speed, self.window, &pairs);
-        error <= LOCAL_TOLERANCE * self.window
     }
 
     /// Largest |rᴴ P⁻¹ r| / |qᴴ(2ω − 2iΩG)q| over the modes below the window, r the

@@ -40,6 +40,14 @@ pub struct Instability {
     pub modes: Vec<String>,
 }
 
+impl Instability {
+    /// Whether it counts as an instability of the saw: flutter slower than the threshold drowns
+    /// in damping that no scene names; a blade that leans over does not come back.
+    pub fn counts(&self, threshold_per_s: f64) -> bool {
+        self.kind == InstabilityKind::Divergence || self.peak_growth_per_s >= threshold_per_s
+    }
+}
+
 /// Proof that the chart missed nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {

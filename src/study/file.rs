@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::SceneError;
+use crate::scene::{KeyedError, SceneError, from_keyed_json};
 use crate::spectrum::SpectrumError;
 
 /// Which numbers of a scene vary, how, and what the saws have to keep.
@@ -183,22 +183,8 @@ impl StudyFile {
     /// # Errors
     /// [`StudyError::Syntax`] with the JSON path of the offending key.
     pub fn from_json(text: &str) -> Result<Self, StudyError> {
-        let mut json = serde_json::Deserializer::from_str(text);
-        let file = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let key = match error.path().to_string().as_str() {
-                "." => "the study".to_owned(),
-                path => path.to_owned(),
-            };
-            StudyError::Syntax {
-                key,
-                message: error.into_inner().to_string(),
-            }
-        })?;
-        json.end().map_err(|error| StudyError::Syntax {
-            key: "the study".into(),
-            message: error.to_string(),
-        })?;
-        Ok(file)
+        from_keyed_json(text, "the study")
+            .map_err(|KeyedError { key, message }| StudyError::Syntax { key, message })
     }
 }
 
