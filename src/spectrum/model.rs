@@ -271,8 +271,9 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The modes that instabilities are made of, from the smallest sound projection.
-    /// `None` for a plate whose harmonics nothing couples: undamped, it has no bands.
+    /// The modes that instabilities are made of, from the smallest sound projection. `None`
+    /// where there are no bands: for an undamped plate whose harmonics nothing couples, and below
+    /// its lowest critical speed.
     pub fn low_model(&self) -> Option<LowModel<'_>> {
         let [part] = self.parts.as_slice() else {
             return None;
@@ -285,6 +286,7 @@ impl SpectralModel {
                 let inward = |(speed, x)| (speed, projection.basis.transpose() * x);
                 (&projection.reduced, standing.map(inward).collect(), *height)
             }
+            None if part.is_projected() => return None,
             None => {
                 let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
                 (&part.full, own.collect(), self.complete_to_rad_per_s)

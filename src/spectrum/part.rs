@@ -62,6 +62,12 @@ impl Part {
         }
     }
 
+    /// Whether the chart is drawn from fewer unknowns than the part has.
+    pub(super) fn is_projected(&self) -> bool {
+        let order = self.full.order();
+        self.chart.iter().any(|piece| piece.reduced.order() < order)
+    }
+
     /// Coordinates in this part of a vector in the basis of the plate.
     pub fn coordinates(&self, shape: &Col<c64>) -> Col<c64> {
         Col::from_fn(self.full.order(), |i| shape[self.first + i])
