@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use anyhow::Context;
+use sawflutter::check::{Check, Limits};
 use sawflutter::figure;
 use sawflutter::fit::{Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
-use sawflutter::report::{CutReport, FitReport, PlaceReport, Report, RunUpReport};
-use sawflutter::scene::{Freed, Scene};
+use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use sawflutter::scene::{Freed, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::transient::{Cutting, RunningUp};
 
@@ -61,6 +62,9 @@ fn main() -> anyhow::Result<()> {
             write("runup.png", &figure::runup_png(&report)?)?;
             write("response-map.png", &figure::response_map_png(&report)?)?;
         }
+        if scene.operating_rad_per_s.is_some() && scene.guides.len() == 1 {
+            write("check.png", &figure::check_png(&check(&scene)?)?)?;
+        }
         if scene.file.measured.is_some() {
             write("fit.png", &figure::fit_png(&fit(&scene)?)?)?;
         }
@@ -77,6 +81,17 @@ fn main() -> anyhow::Result<()> {
     std::fs::write(figures.join("paper-study.png"), figure::study_png(&report)?)?;
     println!("paper-study");
     Ok(())
+}
+
+/// `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.
+fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
+    let limits = Limits {
+        min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+        min_flutter_rad_per_s: Some(rad_per_s(2500.0)),
+        ..Limits::at(rad_per_s(1250.0))
+    };
+    let check = Check::new(scene, &limits)?;
+    Ok(CheckReport::new(scene, &limits, &check))
 }
 
 /// `sawflutter fit --to-rpm 1250`.
@@ -109,7 +124,7 @@ fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
     let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.2, 0.3)?;
     let angle = Freed::new(&scene.file, "guides[0].angle_deg", -120.0, 0.0)?;
     let options = sawflutter::place::Options {
-        map: 31,
+        map: 21,
         ..Default::default()
     };
     let demands = Demands::default();

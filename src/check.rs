@@ -141,10 +141,10 @@ impl std::fmt::Display for Criterion {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let found = self
             .found
-            .map_or("none".into(), |w| format!("{:.1}", rpm(w)));
+            .map_or("none".into(), |w| format!("{:.1} rpm", rpm(w)));
         write!(
             formatter,
-            "{}: {found} rpm, asked {:.1} rpm",
+            "{}: {found}, asked {:.1} rpm",
             self.name,
             rpm(self.asked)
         )

@@ -2,20 +2,24 @@
 
 use std::fmt::Write as _;
 use std::io::Write;
+use std::path::PathBuf;
 
 use anyhow::{Context, bail};
 use clap::Args;
 use sawflutter::check::{Check, Limits};
-use sawflutter::scene::{rad_per_s, rpm};
-use serde_json::json;
+use sawflutter::figure;
+use sawflutter::report::CheckReport;
+use sawflutter::scene::{Scene, rad_per_s};
 
 use super::common::Input;
+use super::output::OutputFolder;
 
 pub const EXAMPLES: &str = "\
 Examples:
   sawflutter check my-saw.json --operating-rpm 2400
   sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
   sawflutter check --operating-rpm 1250 --json | jq .passed
+  sawflutter check my-saw.json --out checked      with a picture
 
 Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
 
@@ -43,11 +47,41 @@ pub struct Arguments {
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
+    /// Write check.json and a picture, check.png and check.svg, to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 /// Holds a saw against limits; whether it keeps them all.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.input.scene()?;
+    let limits = limits(arguments, &scene)?;
+    let folder = arguments
+        .out
+        .as_deref()
+        .map(OutputFolder::open)
+        .transpose()?;
+    let check = Check::new(&scene, &limits)?;
+    let report = CheckReport::new(&scene, &limits, &check);
+    let json = serde_json::to_string_pretty(&report)?;
+    if let Some(folder) = folder {
+        let files = [
+            ("check.svg", figure::check_svg(&report)?.into_bytes()),
+            ("check.png", figure::check_png(&report)?),
+            ("check.json", json.clone().into_bytes()),
+        ];
+        folder.write_together(&files, &[])?;
+    }
+    let mut stdout = std::io::stdout().lock();
+    if arguments.json {
+        writeln!(stdout, "{json}")?;
+    } else {
+        write!(stdout, "{}", summary(&check))?;
+    }
+    Ok(check.passed())
+}
+
+fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     let operating = match arguments.operating_rpm {
         Some(rpm) => rad_per_s(speed("--operating-rpm", rpm)?),
         None => scene.operating_rad_per_s.context(
@@ -62,20 +96,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     }
     let asked =
         |name, value: Option<f64>| value.map(|rpm| speed(name, rpm).map(rad_per_s)).transpose();
-    let limits = Limits {
+    Ok(Limits {
         margin: arguments.margin,
         min_flutter_rad_per_s: asked("--min-flutter-rpm", arguments.min_flutter_rpm)?,
         min_critical_rad_per_s: asked("--min-critical-rpm", arguments.min_critical_rpm)?,
         ..Limits::at(operating)
-    };
-    let check = Check::new(&scene, &limits)?;
-    let mut stdout = std::io::stdout().lock();
-    if arguments.json {
-        writeln!(stdout, "{}", serde_json::to_string_pretty(&json(&check))?)?;
-    } else {
-        write!(stdout, "{}", summary(&check))?;
-    }
-    Ok(check.passed())
+    })
 }
 
 /// Faster than any saw, and far from overflow.
@@ -103,26 +129,4 @@ fn summary(check: &Check) -> String {
         1e-3 * check.rim_stiffness_n_per_m
     );
     text
-}
-
-fn json(check: &Check) -> serde_json::Value {
-    let criteria: Vec<_> = check
-        .criteria
-        .iter()
-        .map(|criterion| {
-            json!({
-                "name": criterion.name,
-                "found_rpm": criterion.found.map(rpm),
-                "asked_rpm": rpm(criterion.asked),
-                "passed": criterion.passed,
-            })
-        })
-        .collect();
-    json!({
-        "passed": check.passed(),
-        "criteria": criteria,
-        "rim_stiffness_at_rest_n_per_m": check.rim_stiffness_at_rest_n_per_m,
-        "rim_stiffness_n_per_m": check.rim_stiffness_n_per_m,
-        "estimated_relative_error": check.analysis.estimated_relative_error,
-    })
 }

@@ -16,7 +16,7 @@ use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{
     AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten,
 };
-use super::{heading, render};
+use super::{bands, heading, render};
 use crate::report::{InstabilityKind, Report};
 
 const WIDTH: u32 = 1200;
@@ -62,7 +62,8 @@ fn campbell(report: &Report) -> Sheet {
 
     let labels = BandLabels::new(&chart);
     let growth_axis = growth::axis(&chart, labels.height());
-    speeds::shade_bands(&mut sheet, &chart);
+    let bands = chart.report.instabilities.iter();
+    bands::shade(&mut sheet, &chart.speed, bands, &[chart.upper, chart.lower]);
     draw_axes(&mut sheet, &chart, growth_axis.as_ref());
     speeds::draw_critical(&mut sheet, &chart);
     speeds::draw_operating(&mut sheet, &chart);

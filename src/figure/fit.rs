@@ -4,9 +4,10 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
+use super::key::Key;
 use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, Colour, DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE,
-    QUIET, STANDING, Weight, text_width,
+    QUIET, STANDING, Weight, shorten,
 };
 use super::{FigureError, heading, render};
 use crate::report::{FitReport, ResidualEntry};
@@ -189,42 +190,28 @@ fn draw_pair(
 }
 
 fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
-    let y = f64::from(HEIGHT) - 22.0;
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let mut x = UPPER.left;
-    let word = |sheet: &mut Sheet, x: &mut f64, text: &str| {
-        sheet.text([*x, y], letters, text);
-        *x += text_width(text, LABEL_SIZE, Weight::Regular) + 22.0;
-    };
-    draw_measured_mark(sheet, [x + 4.0, y - 4.0]);
-    x += 14.0;
-    let source = super::style::shorten(&report.source, LABEL_SIZE, Weight::Regular, 260.0);
-    word(sheet, &mut x, &source);
+    let source = shorten(&report.source, LABEL_SIZE, Weight::Regular, 260.0);
+    let mut key = Key::new(sheet, UPPER.left, f64::from(HEIGHT) - 22.0);
+    key.mark(8.0, |sheet, [x, y]| draw_measured_mark(sheet, [x + 4.0, y]))
+        .word(&source);
     if some_left_out {
-        sheet.disc([x + 3.0, y - 4.0], 2.0, QUIET);
-        x += 12.0;
-        word(sheet, &mut x, "not fitted");
+        key.mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 2.0, QUIET))
+            .word("not fitted");
     }
-    for (stroke, text) in [
-        (Stroke::solid(FITTED, CURVE), "fitted"),
-        (
-            Stroke {
-                dash: Some(DASH),
-                ..Stroke::solid(BEFORE, HAIRLINE)
-            },
-            "before",
-        ),
-    ] {
-        sheet.line([[x, y - 4.0], [x + 22.0, y - 4.0]], stroke);
-        x += 30.0;
-        word(sheet, &mut x, text);
+    let before = Stroke {
+        dash: Some(DASH),
+        ..Stroke::solid(BEFORE, HAIRLINE)
+    };
+    for (stroke, text) in [(Stroke::solid(FITTED, CURVE), "fitted"), (before, "before")] {
+        key.mark(22.0, |sheet, [x, y]| {
+            sheet.line([[x, y], [x + 22.0, y]], stroke)
+        })
+        .word(text);
     }
     let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
     for (place, colour) in PLACES.iter().enumerate().take(deepest) {
-        sheet.disc([x + 3.0, y - 4.0], 3.0, *colour);
-        x += 12.0;
-        let name = ["lowest", "second", "third", "fourth, …"][place];
-        word(sheet, &mut x, name);
+        key.mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 3.0, *colour))
+            .word(["lowest", "second", "third", "fourth, …"][place]);
     }
 }
 

@@ -5,8 +5,10 @@
 //! writes files.
 
 mod axis;
+mod bands;
 mod campbell;
 mod canvas;
+mod check;
 mod clip;
 mod cut;
 mod cut_map;
@@ -16,6 +18,7 @@ mod declutter;
 mod fit;
 mod heading;
 mod heat;
+mod key;
 mod meeting;
 mod membrane;
 mod palette;
@@ -34,6 +37,7 @@ mod tidy;
 mod tradeoff;
 
 pub use campbell::{campbell_png, campbell_svg};
+pub use check::{check_png, check_svg};
 pub use cut::{cut_png, cut_svg};
 pub use cut_map::{cut_map_png, cut_map_svg};
 pub use fit::{fit_png, fit_svg};

@@ -4,10 +4,8 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::fit::four_digits;
 use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, INK, LABEL_SIZE, PAPER, QUIET, STRONG_CURVE, Weight,
-    text_width,
-};
+use super::key::Key;
+use super::style::{ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, INK, PAPER, STRONG_CURVE};
 use super::{FigureError, heading, render};
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
 
@@ -215,32 +213,18 @@ fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
 }
 
 fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
-    let y = f64::from(HEIGHT) - 26.0;
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let mut x = PANEL.left;
-    let word = |sheet: &mut Sheet, x: &mut f64, text: &str| {
-        sheet.text([*x, y], letters, text);
-        *x += text_width(text, LABEL_SIZE, Weight::Regular) + 26.0;
-    };
-    draw_best(sheet, [x + 11.0, y - 4.0]);
-    x += 30.0;
-    word(sheet, &mut x, "best");
-    sheet.ring([x + 5.0, y - 4.0], 5.0, Stroke::solid(INK, 2.0), PAPER);
-    x += 18.0;
-    word(sheet, &mut x, "the scene");
+    let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
+    key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
+        .word("best")
+        .mark(10.0, |sheet, [x, y]| {
+            sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
+        })
+        .word("the scene");
     if map.kept.iter().flatten().any(|kept| !kept) {
-        let frame = Frame {
-            left: x,
-            top: y - 12.0,
-            right: x + 22.0,
-            bottom: y + 2.0,
-        };
-        sheet.fill(frame, BROKEN);
-        x += 30.0;
         let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
             format!("lowest critical speed below {rpm:.0} rpm")
         });
-        word(sheet, &mut x, &limit);
+        key.shade(BROKEN).word(&limit);
     }
 }
 

@@ -4,12 +4,13 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::declutter::{Wish, push_apart};
+use super::key::Key;
 use super::style::{
     ALARM, AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width,
 };
-use super::{FigureError, heading, render};
-use crate::report::{InstabilityKind, RunUpReport};
+use super::{FigureError, bands, heading, render};
+use crate::report::RunUpReport;
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 640;
@@ -21,8 +22,6 @@ const PANEL: Frame = Frame {
 };
 /// The scale ends at this many thicknesses of the blade.
 const BELIEVABLE_THICKNESSES: f64 = 5.0;
-/// Narrower bands are drawn so wide, to be seen.
-const NARROWEST_BAND: f64 = 1.5;
 
 /// The run-up as PNG, 1200 × 640 pixels.
 pub fn runup_png(report: &RunUpReport) -> Result<Vec<u8>, FigureError> {
@@ -59,7 +58,8 @@ pub(super) fn sheet(report: &RunUpReport) -> Sheet {
         [PANEL.bottom, PANEL.top],
         Spread::SignedRoot,
     );
-    draw_bands(&mut sheet, report, &speed);
+    let found = report.bands.iter().map(|entry| &entry.band);
+    bands::shade(&mut sheet, &speed, found, &[PANEL]);
     draw_vertical(
         &mut sheet,
         &deflection,
@@ -84,26 +84,6 @@ pub(super) fn sheet(report: &RunUpReport) -> Sheet {
     }
     draw_key(&mut sheet);
     sheet
-}
-
-fn draw_bands(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) {
-    for entry in &report.bands {
-        let (left, right) = (speed.at(entry.band.from_rpm), speed.at(entry.band.to_rpm));
-        let (middle, half) = (
-            0.5 * (left + right),
-            0.5 * (right - left).max(NARROWEST_BAND),
-        );
-        let colour = match entry.band.kind {
-            InstabilityKind::Divergence => DIVERGENCE_SHADE,
-            InstabilityKind::Flutter => FLUTTER_SHADE,
-        };
-        let band = Frame {
-            left: middle - half,
-            right: middle + half,
-            ..PANEL
-        };
-        sheet.fill(band, colour);
-    }
 }
 
 /// Thousands of samples fall on one pixel: a stroke from the least to the greatest of each
@@ -190,26 +170,10 @@ fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) 
 }
 
 fn draw_key(sheet: &mut Sheet) {
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let y = f64::from(HEIGHT) - 26.0;
-    let mut x = PANEL.left;
-    let keys = [
-        (Some(DIVERGENCE_SHADE), "divergence"),
-        (Some(FLUTTER_SHADE), "flutter"),
-        (None, "dashed: critical speeds [rpm]"),
-    ];
-    for (colour, text) in keys {
-        if let Some(colour) = colour {
-            let box_of = Frame {
-                left: x,
-                top: y - 10.0,
-                right: x + 16.0,
-                bottom: y + 2.0,
-            };
-            sheet.fill(box_of, colour);
-            x += 22.0;
-        }
-        sheet.text([x, y], letters, text);
-        x += text_width(text, LABEL_SIZE, Weight::Regular) + 26.0;
-    }
+    Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0)
+        .shade(DIVERGENCE_SHADE)
+        .word("divergence")
+        .shade(FLUTTER_SHADE)
+        .word("flutter")
+        .word("dashed: critical speeds [rpm]");
 }

@@ -2,9 +2,10 @@
 
 use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::key::Key;
 use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
-    QUIET, STANDING, STRONG_CURVE, Weight, text_width, tint,
+    QUIET, STANDING, STRONG_CURVE, tint,
 };
 use super::{FigureError, heading, render};
 use crate::stability::{Method, Setting};
@@ -90,14 +91,11 @@ fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis
 }
 
 fn draw_key(sheet: &mut Sheet) {
-    let mut x = PANEL.left;
-    let y = f64::from(HEIGHT) - 22.0;
+    let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 22.0);
     for method in METHODS {
         let (colour, name) = look(method);
-        sheet.disc([x + 4.0, y - 4.0], 4.0, colour);
-        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
-        sheet.text([x + 14.0, y], letters, name);
-        x += 14.0 + text_width(name, LABEL_SIZE, Weight::Regular) + 26.0;
+        key.mark(8.0, |sheet, [x, y]| sheet.disc([x + 4.0, y], 4.0, colour))
+            .word(name);
     }
 }
 

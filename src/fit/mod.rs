@@ -15,7 +15,7 @@
 //! let measured = scene.file.measured.as_ref().expect("the paper's Table 5");
 //! let measurement = Measurement::of_scene(measured).up_to(1250.0);
 //! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.1, 0.355)?;
-//! let small = Resolution { max_diameters: 4, radial_functions: 3 };
+//! let small = Resolution { max_diameters: 8, radial_functions: 4 };
 //! let options = Options { resolution: Some(small), ..Options::default() };
 //! let fit = Fit::new(&scene, &measurement, &[radius], &options, &|_, _| ())?;
 //! assert!(fit.rms_hz < 1.2 && (fit.parameters[0].value - 0.2).abs() < 0.02);

@@ -169,6 +169,9 @@ const APART: f64 = 0.08;
 /// First and last steps of the refinement as shares of the bounds.
 const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
 const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
+/// The fine basis moves an optimum, and the cliffs next to it, by little: so many times fewer saws
+/// are enough there, and each costs ten times as much.
+const SETTLED: u64 = 3;
 /// A map that still finds better saws is not drawn again for ever.
 const MAP_ROUNDS: usize = 3;
 /// Nearer to a bound than this a share rests on it.
@@ -223,7 +226,7 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let best = settle(&fine, &candidate, options.refine, progress);
+        let best = settle(&fine, &candidate, options.refine / SETTLED, progress);
         let (Some(found), Some(before)) = (fine.outcome(&best.shares), fine.outcome(&own)) else {
             let tried = evaluations.into_inner();
             return Err(PlaceError::NoSaw { tried });

@@ -3,6 +3,7 @@
 
 mod branches;
 mod build;
+mod check;
 mod csv;
 mod cut;
 mod fit;
@@ -14,6 +15,7 @@ mod spline;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::check::{CheckReport, CriterionEntry};
 pub use self::cut::{
     ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
 };

@@ -27,7 +27,7 @@ const LADDER: [(usize, usize); 9] = [
 /// falls faster, the estimate is too large, which is harmless.
 const FALL: (f64, f64) = (0.5, 0.8);
 /// What extrapolation gives was up to 2.1 times too small on thirty saws, and up to 3.2 times
-/// on the first fifteen of the others in `tests/tolerance.rs`.
+/// on the first fifteen of the others in `tests/convergence/tolerance.rs`.
 const SAFETY: f64 = 4.0;
 /// Ten times the strain at which the strongest steel yields.
 const LARGEST_STRETCH: f64 = 0.1;

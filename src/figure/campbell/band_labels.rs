@@ -1,8 +1,9 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
+use super::super::bands::{NARROW, places};
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
-use super::speeds::{NARROW, band_places, line_colour, operating_place};
+use super::speeds::{line_colour, operating_place};
 use super::{Chart, WIDTH};
 use crate::report::{InstabilityEntry, InstabilityKind};
 
@@ -36,7 +37,7 @@ impl BandLabels {
         let bands = &chart.report.instabilities;
         let mut order: Vec<&InstabilityEntry> = bands.iter().collect();
         order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
-        let places = bands.iter().filter_map(|band| band_places(chart, band));
+        let places = bands.iter().filter_map(|band| places(&chart.speed, band));
         let mut thin: Vec<_> = places
             .filter(|[left, right]| right - left < NARROW)
             .collect();
@@ -51,7 +52,7 @@ impl BandLabels {
 
     /// The best free place: few thin lines crossed, high up, next to its band.
     fn best_place(&self, chart: &Chart, band: &InstabilityEntry) -> Option<Placed> {
-        let own = band_places(chart, band)?;
+        let own = places(&chart.speed, band)?;
         let free = |place: &Placed| {
             let Frame { left, right, .. } = place.frame;
             let inside = left >= chart.lower.left + 4.0 && right <= f64::from(WIDTH) - MARGIN;

@@ -1,68 +1,21 @@
 //! What belongs to single speeds: bands, critical speeds, the operating speed.
 
+use super::super::bands::places;
 use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
 use super::super::declutter::{Cluster, join_close};
 use super::super::style::{
-    Colour, DIVERGENCE, DIVERGENCE_SHADE, DIVERGENCE_STREAK, FINE_DASH, FLUTTER, FLUTTER_SHADE,
-    FLUTTER_STREAK, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, text_width,
+    Colour, DIVERGENCE, FINE_DASH, FLUTTER, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET,
+    Weight, text_width,
 };
 use super::{Chart, WIDTH, waves};
-use crate::report::{InstabilityEntry, InstabilityKind};
+use crate::report::InstabilityKind;
 
-/// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
-pub const NARROW: f64 = 4.0;
-const STREAK_WIDTH: f64 = 1.5;
 const CRITICAL_BASELINE: f64 = 90.0;
 
 pub fn line_colour(kind: InstabilityKind) -> Colour {
     match kind {
         InstabilityKind::Divergence => DIVERGENCE,
         InstabilityKind::Flutter => FLUTTER,
-    }
-}
-
-fn shade(kind: InstabilityKind, narrow: bool) -> Colour {
-    match (kind, narrow) {
-        (InstabilityKind::Divergence, false) => DIVERGENCE_SHADE,
-        (InstabilityKind::Divergence, true) => DIVERGENCE_STREAK,
-        (InstabilityKind::Flutter, false) => FLUTTER_SHADE,
-        (InstabilityKind::Flutter, true) => FLUTTER_STREAK,
-    }
-}
-
-/// Left and right edge of a band on the sheet, or `None` outside the sweep.
-pub fn band_places(chart: &Chart, band: &InstabilityEntry) -> Option<[f64; 2]> {
-    let [first, last] = chart.speed.values();
-    let (from, to) = (band.from_rpm.max(first), band.to_rpm.min(last));
-    if band.from_rpm.is_nan() || band.to_rpm.is_nan() || from > to {
-        return None;
-    }
-    let [left, right] = [from, to].map(|rpm| chart.speed.at(rpm));
-    let missing = (STREAK_WIDTH - (right - left)).max(0.0);
-    Some([left - missing / 2.0, right + missing / 2.0])
-}
-
-pub fn shade_bands(sheet: &mut Sheet, chart: &Chart) {
-    // Streaks last: a wide band must not hide a narrow one within it.
-    for narrow in [false, true] {
-        for band in &chart.report.instabilities {
-            let Some([left, right]) = band_places(chart, band) else {
-                continue;
-            };
-            if (right - left < NARROW) != narrow {
-                continue;
-            }
-            for panel in [chart.upper, chart.lower] {
-                sheet.fill(
-                    Frame {
-                        left,
-                        right,
-                        ..panel
-                    },
-                    shade(band.kind, narrow),
-                );
-            }
-        }
     }
 }
 
@@ -176,7 +129,7 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
     let within = frame.bottom > chart.upper.top;
     let bands = chart.report.instabilities.iter().filter(|_| within);
-    let bands = bands.filter_map(|band| band_places(chart, band));
+    let bands = bands.filter_map(|band| places(&chart.speed, band));
     let critical = critical_shown(chart).into_iter();
     let critical = critical.map(|rpm| [chart.speed.at(rpm); 2]);
     bands

@@ -1,0 +1,187 @@
+//! Limits and what was found, each on its own line over the same axis of speeds.
+
+use super::axis::{Axis, Spread, draw_horizontal};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::key::Key;
+use super::style::{
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FLUTTER_SHADE, FORWARD, GRID,
+    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
+};
+use super::{FigureError, bands, heading, render};
+use crate::report::{CheckReport, CriterionEntry};
+
+const WIDTH: u32 = 1200;
+const LEFT: f64 = 372.0;
+const RIGHT: f64 = 1160.0;
+const TOP: f64 = 96.0;
+const ROW: f64 = 66.0;
+/// Below the rows: axis, its name, the key.
+const BELOW: f64 = 92.0;
+const PASS: Colour = FORWARD;
+
+/// The check as PNG, 1200 pixels wide.
+pub fn check_png(report: &CheckReport) -> Result<Vec<u8>, FigureError> {
+    render::png(&sheet(report))
+}
+
+/// The check as SVG.
+pub fn check_svg(report: &CheckReport) -> Result<String, FigureError> {
+    render::svg(&sheet(report))
+}
+
+fn sheet(report: &CheckReport) -> Sheet {
+    let rows = 1 + report.criteria.len();
+    let bottom = TOP + ROW * rows as f64;
+    let mut sheet = Sheet::new(WIDTH, (bottom + BELOW) as u32);
+    let verdict = if report.passed { "passed" } else { "failed" };
+    let title = format!("{}: check {verdict}", report.scene.name);
+    heading::draw(&mut sheet, &title, &facts(report));
+    let speed = Axis::new([0.0, report.to_rpm], [LEFT, RIGHT], Spread::Linear);
+    draw_saw(&mut sheet, report, &speed);
+    for (k, criterion) in report.criteria.iter().enumerate() {
+        draw_criterion(&mut sheet, criterion, &speed, row(k + 1));
+    }
+    let operating = speed.at(report.operating_rpm);
+    let line = [[operating, TOP], [operating, bottom]];
+    sheet.line(line, Stroke::solid(INK, HAIRLINE));
+    draw_horizontal(&mut sheet, &speed, bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let centre = 0.5 * (LEFT + RIGHT);
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([centre, bottom + 42.0], letters, name);
+    draw_key(&mut sheet, bottom + BELOW - 22.0);
+    sheet
+}
+
+fn row(k: usize) -> Frame {
+    Frame {
+        left: LEFT,
+        top: TOP + ROW * k as f64,
+        right: RIGHT,
+        bottom: TOP + ROW * (k + 1) as f64,
+    }
+}
+
+fn facts(report: &CheckReport) -> String {
+    [
+        format!("operating speed {:.0} rpm", report.operating_rpm),
+        format!("margin {:.0} %", 100.0 * report.margin),
+        format!(
+            "rim stiffness {:.1} N/mm at rest, {:.1} N/mm at the operating speed",
+            1e-3 * report.rim_stiffness_at_rest_n_per_m,
+            1e-3 * report.rim_stiffness_n_per_m
+        ),
+    ]
+    .join(BETWEEN_FACTS)
+}
+
+/// Bands and critical speeds, whatever is asked of them.
+fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
+    let frame = row(0);
+    bands::shade(sheet, speed, report.instabilities.iter(), &[frame]);
+    for rpm in report.critical_speeds_rpm.iter().map(|rpm| speed.at(*rpm)) {
+        let middle = 0.5 * (frame.top + frame.bottom);
+        sheet.line(
+            [[rpm, frame.top], [rpm, frame.bottom]],
+            Stroke::solid(QUIET, HAIRLINE),
+        );
+        sheet.disc([rpm, middle], 3.5, INK);
+    }
+    name(sheet, frame, "the saw", "critical speeds and bands", QUIET);
+}
+
+/// Name of a row and what is said of it.
+fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colour) {
+    let room = LEFT - 2.0 * MARGIN;
+    let middle = 0.5 * (frame.top + frame.bottom);
+    for (text, baseline, colour) in [(above, middle - 4.0, INK), (below, middle + 14.0, colour)] {
+        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
+        let text = shorten(text, LABEL_SIZE, Weight::Regular, room);
+        sheet.text([MARGIN, baseline], letters, &text);
+    }
+    let line = [[MARGIN, frame.bottom], [RIGHT, frame.bottom]];
+    sheet.line(line, Stroke::solid(GRID, HAIRLINE));
+}
+
+/// The limit as an upright, what was found as a disc, and a bar between them: how much there is
+/// to spare, or is wanting.
+fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, frame: Frame) {
+    let (colour, word) = match criterion.passed {
+        true => (PASS, "pass"),
+        false => (ALARM, "FAIL"),
+    };
+    let found = criterion.found_rpm;
+    // A band at the operating speed is not a limit to stay away from: there is one or not.
+    let is_limit = criterion.key != "operating";
+    let asked = criterion.asked_rpm;
+    let said = match found {
+        Some(rpm) => format!("{word}: {rpm:.1} rpm, asked {asked:.1} rpm"),
+        None if is_limit => format!("{word}: none in the sweep, asked {asked:.1} rpm"),
+        None => format!("{word}: none at {asked:.1} rpm"),
+    };
+    name(sheet, frame, &criterion.name, &said, colour);
+    let middle = 0.5 * (frame.top + frame.bottom);
+    let asked = speed.at(asked);
+    let unreached = if is_limit { RIGHT } else { asked };
+    let end = found.map_or(unreached, |rpm| speed.at(rpm).min(RIGHT));
+    let bar = Frame {
+        left: asked.min(end),
+        top: middle - 7.0,
+        right: asked.max(end),
+        bottom: middle + 7.0,
+    };
+    sheet.fill(bar, tint(colour, 0.35));
+    let upright = [[asked, middle - 16.0], [asked, middle + 16.0]];
+    sheet.line(upright, Stroke::solid(INK, STRONG_CURVE));
+    if found.is_some_and(|rpm| speed.shows(rpm)) {
+        sheet.disc([end, middle], 6.0, colour);
+    }
+}
+
+fn draw_key(sheet: &mut Sheet, baseline: f64) {
+    let limit = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
+        sheet.line(
+            [[x, y - 8.0], [x, y + 8.0]],
+            Stroke::solid(INK, STRONG_CURVE),
+        );
+    };
+    Key::new(sheet, MARGIN, baseline)
+        .shade(DIVERGENCE_SHADE)
+        .word("divergence")
+        .shade(FLUTTER_SHADE)
+        .word("flutter")
+        .mark(4.0, limit)
+        .word("limit")
+        .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, PASS))
+        .word("found, with what there is to spare")
+        .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, ALARM))
+        .word("found, with what is wanting")
+        .word("thin upright: operating speed");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::{Check, Limits};
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::scene::{Accuracy, Scene, rad_per_s};
+
+    #[test]
+    fn limits_that_are_kept_and_limits_that_are_not_are_told_apart() {
+        let scene = Scene {
+            accuracy: Accuracy::Draft,
+            ..Scene::paper()
+        };
+        let limits = Limits {
+            min_flutter_rad_per_s: Some(rad_per_s(2800.0)),
+            min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+            ..Limits::at(rad_per_s(1250.0))
+        };
+        let check = Check::new(&scene, &limits).unwrap();
+        let sheet = sheet(&CheckReport::new(&scene, &limits, &check));
+        assert_tidy(&sheet);
+        let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
+        assert_eq!((with("pass: "), with("FAIL: ")), (3, 1), "{said:?}");
+    }
+}

@@ -1,0 +1,55 @@
+//! The line below a figure that tells what its marks mean.
+
+use super::canvas::{Anchor, Frame, Lettering, Sheet};
+use super::style::{Colour, LABEL_SIZE, QUIET, Weight, text_width};
+
+/// Space after each word, and between a mark and its word.
+const AFTER_WORD: f64 = 24.0;
+const AFTER_MARK: f64 = 8.0;
+
+/// Marks and words from left to right.
+pub struct Key<'a> {
+    sheet: &'a mut Sheet,
+    left: f64,
+    baseline: f64,
+}
+
+impl<'a> Key<'a> {
+    /// Begins at the left end of a baseline.
+    pub fn new(sheet: &'a mut Sheet, left: f64, baseline: f64) -> Self {
+        Key {
+            sheet,
+            left,
+            baseline,
+        }
+    }
+
+    /// A mark of a width; it is told where its left end is, at half the height of the letters.
+    pub fn mark(&mut self, width: f64, draw: impl FnOnce(&mut Sheet, [f64; 2])) -> &mut Self {
+        draw(self.sheet, [self.left, self.baseline - 4.0]);
+        self.left += width + AFTER_MARK;
+        self
+    }
+
+    /// A box of a colour.
+    pub fn shade(&mut self, colour: Colour) -> &mut Self {
+        let width = 16.0;
+        self.mark(width, |sheet, [x, y]| {
+            let frame = Frame {
+                left: x,
+                top: y - 6.0,
+                right: x + width,
+                bottom: y + 6.0,
+            };
+            sheet.fill(frame, colour);
+        })
+    }
+
+    /// A word, of the mark before it or of its own.
+    pub fn word(&mut self, text: &str) -> &mut Self {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+        self.sheet.text([self.left, self.baseline], letters, text);
+        self.left += text_width(text, LABEL_SIZE, Weight::Regular) + AFTER_WORD;
+        self
+    }
+}

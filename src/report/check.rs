@@ -1,0 +1,95 @@
+//! `sawflutter check --json`: every limit and what was found.
+
+use serde::{Deserialize, Serialize};
+
+use super::InstabilityEntry;
+use crate::check::{Check, Criterion, Limits};
+use crate::scene::{Scene, SceneFile, rpm};
+
+/// A saw held against limits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CheckReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Whether every limit is kept.
+    pub passed: bool,
+    /// Every limit.
+    pub criteria: Vec<CriterionEntry>,
+    /// Speed at which the saw is run.
+    pub operating_rpm: f64,
+    /// Largest share of the lowest critical speed that it may be.
+    pub margin: f64,
+    /// Last speed of the sweep: nothing is seen beyond it.
+    pub to_rpm: f64,
+    /// Critical speeds within the sweep, ascending.
+    pub critical_speeds_rpm: Vec<f64>,
+    /// Every band of instability within the sweep.
+    pub instabilities: Vec<InstabilityEntry>,
+    /// Growth rate from which a band counts.
+    pub flutter_threshold_per_s: f64,
+    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.
+    pub rim_stiffness_at_rest_n_per_m: f64,
+    /// The same at the operating speed.
+    pub rim_stiffness_n_per_m: f64,
+    /// Estimated relative error of the critical speeds.
+    pub estimated_relative_error: Option<f64>,
+}
+
+/// One limit and what was found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CriterionEntry {
+    /// The limit in a word.
+    pub key: String,
+    /// What is compared.
+    pub name: String,
+    /// What was found; none where there is no such speed within the sweep.
+    pub found_rpm: Option<f64>,
+    /// What was asked.
+    pub asked_rpm: f64,
+    /// Whether it is kept.
+    pub passed: bool,
+}
+
+impl CheckReport {
+    /// Reports a check.
+    pub fn new(scene: &Scene, limits: &Limits, check: &Check) -> Self {
+        let analysis = &check.analysis;
+        let to_rad_per_s = analysis.range.1;
+        let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+        let bands = analysis.chart.instabilities.iter();
+        CheckReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: scene.file.clone(),
+            passed: check.passed(),
+            criteria: check.criteria.iter().map(CriterionEntry::from).collect(),
+            operating_rpm: rpm(limits.operating_rad_per_s),
+            margin: limits.margin,
+            to_rpm: rpm(to_rad_per_s),
+            critical_speeds_rpm: critical
+                .take_while(|speed| *speed <= to_rad_per_s)
+                .map(rpm)
+                .collect(),
+            instabilities: bands.map(InstabilityEntry::from).collect(),
+            flutter_threshold_per_s: scene.flutter_threshold_per_s,
+            rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
+            rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,
+            estimated_relative_error: analysis.estimated_relative_error,
+        }
+    }
+}
+
+impl From<&Criterion> for CriterionEntry {
+    fn from(criterion: &Criterion) -> Self {
+        CriterionEntry {
+            key: criterion.key.to_owned(),
+            name: criterion.name.to_owned(),
+            found_rpm: criterion.found.map(rpm),
+            asked_rpm: rpm(criterion.asked),
+            passed: criterion.passed,
+        }
+    }
+}
