@@ -132,6 +132,22 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let chart = page.find("#campbell").await;
+        // By pointer, downwards from the middle until it comes by a branch.
+        let plot = page.find("#campbell .u-over").await;
+        let middle = hand(&page).move_to_element_center(&plot);
+        middle.perform().await.unwrap();
+        let told = "document.querySelector('#mode').textContent.includes('Krein')";
+        for _ in 0..60 {
+            if page.value(told).await == json!(true) {
+                break;
+            }
+            let lower = hand(&page).move_by_offset(0, 3);
+            lower.perform().await.unwrap();
+        }
+        page.wait(told).await;
+        hand(&page).move_to(2, 2).perform().await.unwrap();
+        page.wait("!document.querySelector('#mode').textContent.includes('Krein')")
+            .await;
         chart.focus().await.unwrap();
         // By keyboard alone: along a branch, and to the next ones.
         let mut told = Vec::new();
@@ -164,6 +180,28 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let before = page.value(pixels).await;
         page.wait(&format!("{pixels} !== {before}")).await;
         page.screenshot("1280-mode.png").await;
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_is_resized_by_its_corner() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let pad = "sawflutter.state.scene.guides[0]";
+        let before = page.value(pad).await;
+        drag(&page, "[data-path='guides[0]'] .handle", 20, (1, -1)).await;
+        let_go(&page).await;
+        page.settle().await;
+        let after = page.value(pad).await;
+        let [radial, tangential] = ["radial_length_m", "tangential_length_m"];
+        assert!(before[radial] != after[radial] || before[tangential] != after[tangential]);
+        for same in ["radius_m", "angle_deg", "stiffness_n_per_m"] {
+            assert_eq!(before[same], after[same], "{same}");
+        }
+        assert!(page.text("#facts").await.contains(" → "));
         page.close().await;
     });
 }

@@ -5,8 +5,6 @@
 //! momentum of a free motion is constant, waves stand still at other speeds than if it were
 //! held. Both are tested by the Krein index and by a solver that knows nothing of either.
 
-mod common;
-
 use faer::c64;
 use nalgebra::{DMatrix, linalg::Schur};
 use sawflutter::plate::{Plate, Resolution};

@@ -3,8 +3,6 @@
 //! `report.json` is written last: while it is there, every other file belongs to it.
 #![cfg(target_os = "linux")]
 
-mod common;
-
 use std::fs::File;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
@@ -22,7 +20,7 @@ const STAGED: &str = ".sawflutter-";
 
 /// A scene that takes no time: the blade without guides, at draft accuracy.
 fn quick_scene(name: &str) -> SceneFile {
-    let mut file = common::scene("free-blade").file;
+    let mut file = crate::common::scene("free-blade").file;
     file.accuracy = Accuracy::Draft;
     file.name = name.to_owned();
     file

@@ -2,9 +2,7 @@
 //!
 //! Sources: symmetry (guides turned together are the same saw), and brute force.
 
-mod common;
-
-use common::{assert_close, scene};
+use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::place::{Demands, Goal, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};

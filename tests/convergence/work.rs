@@ -3,18 +3,25 @@
 //!
 //! The bounds are what the chart of the paper's saw took when they were written, and a fifth.
 
-mod common;
-
 use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::scene::{Accuracy, Scene, SpeedRange, rad_per_s};
 use sawflutter::stability::Analysis;
 
-fn report(accuracy: Accuracy) -> Report {
+fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
     let scene = Scene {
         accuracy,
+        sweep: Some(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: rad_per_s(to_rpm),
+        }),
         ..Scene::paper()
     };
     let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    (scene, analysis)
+}
+
+fn report(accuracy: Accuracy) -> Report {
+    let (scene, analysis) = analysis(accuracy, 3000.0);
     Report::new(&scene, &analysis).unwrap()
 }
 
@@ -37,6 +44,21 @@ fn work_hardly_depends_on_the_accuracy() {
     assert!(reference.full_solves <= draft.full_solves + 4);
     assert!(reference.local_solves <= 2 * draft.local_solves);
     assert!(reference.reduced_solves <= 2 * draft.reduced_solves);
+}
+
+/// Below the lowest critical speed no wave is reflected, and no band is searched for.
+#[test]
+fn a_slow_saw_takes_less_work() {
+    let (scene, analysis) = analysis(Accuracy::Design, 1400.0);
+    assert!(analysis.model.low_model().is_none());
+    assert!(analysis.chart.certificate.speeds_checked > 0);
+    let work = Report::new(&scene, &analysis).unwrap().work;
+    println!("{work:?}");
+    assert_eq!(work.refined_pairs, 0);
+    assert!(
+        work.full_solves <= 9 && work.reduced_solves <= 73,
+        "{work:?}"
+    );
 }
 
 /// Counts, like results, are those of the work and not of the threads that do it.

@@ -1,12 +1,18 @@
 //! Goal: who heats or rolls a saw is told what it bears, in words, numbers and a picture, and a
 //! blade that buckles or a table out of balance is refused with the remedy.
 
-mod common;
-
 use assert_cmd::Command;
-use sawflutter::report::Report;
+use sawflutter::report::{Report, RunUpReport};
 
 fn analyze(
+    scene: &serde_json::Value,
+    arguments: &[&str],
+) -> (tempfile::TempDir, assert_cmd::assert::Assert) {
+    command("analyze", scene, arguments)
+}
+
+fn command(
+    name: &str,
     scene: &serde_json::Value,
     arguments: &[&str],
 ) -> (tempfile::TempDir, assert_cmd::assert::Assert) {
@@ -14,7 +20,7 @@ fn analyze(
     let path = folder.path().join("scene.json");
     std::fs::write(&path, scene.to_string()).unwrap();
     let assert = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
-        .arg("analyze")
+        .arg(name)
         .arg(&path)
         .args(["--accuracy", "draft", "--out"])
         .arg(folder.path().join("out"))
@@ -24,7 +30,7 @@ fn analyze(
 }
 
 fn tensioned() -> serde_json::Value {
-    let text = std::fs::read_to_string(common::path("scenes/collar-400mm-tensioned.json"));
+    let text = std::fs::read_to_string(crate::common::path("scenes/collar-400mm-tensioned.json"));
     serde_json::from_str(&text.unwrap()).unwrap()
 }
 
@@ -152,7 +158,7 @@ fn refusals_name_key_value_and_remedy() {
 /// On a blade with free edges the hoop stress balances itself, or has been measured badly.
 #[test]
 fn a_table_out_of_balance_is_refused_with_the_number() {
-    let text_of = std::fs::read_to_string(common::path("scenes/free-blade.json")).unwrap();
+    let text_of = std::fs::read_to_string(crate::common::path("scenes/free-blade.json")).unwrap();
     let mut scene: serde_json::Value = serde_json::from_str(&text_of).unwrap();
     scene["membrane"] = serde_json::json!({ "residual_stress": [
         { "radius_m": 0.1, "hoop_pa": -10e6 }, { "radius_m": 0.355, "hoop_pa": 20e6 }] });
@@ -164,4 +170,44 @@ fn a_table_out_of_balance_is_refused_with_the_number() {
     let (_folder, assert) = analyze(&scene, &[]);
     let printed = text(&assert.success().get_output().stdout);
     assert!(printed.contains("out of balance by"), "{printed}");
+}
+
+/// What else looks at a saw looks at it with its heat and tension: a run-up meets the same critical
+/// speeds, which the hot rim and the rolled band have moved.
+#[test]
+fn cut_run_up_and_matrices_have_heat_and_tension() {
+    let mut scene = tensioned();
+    scene["cut"] = serde_json::json!({
+        "angle_deg": 0, "depth_m": 0.06, "tangential_n_per_tooth": 60,
+        "radial_n_per_tooth": 20, "lateral_n_per_tooth": 2, "speeds": [{"rpm": 3000}]
+    });
+    scene["runup"] = serde_json::json!({
+        "from_rpm": 0, "to_rpm": 6000, "duration_s": 5, "force_n": 5, "angle_deg": 0
+    });
+    let runup = |scene: &serde_json::Value| -> RunUpReport {
+        let (folder, assert) = command("runup", scene, &[]);
+        assert.success();
+        let path = folder.path().join("out/runup.json");
+        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+    };
+    let (folder, assert) = analyze(&scene, &[]);
+    assert.success();
+    let report = std::fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let report: Report = serde_json::from_str(&report).unwrap();
+    let lowest = report.critical_speeds[0].rpm;
+    let met = runup(&scene).critical_speeds[0].rpm;
+    assert!((met / lowest - 1.0).abs() < 1e-9, "{met} {lowest}");
+    let (_folder, assert) = command("cut", &scene, &[]);
+    assert.success();
+
+    let stiffness = |scene: &serde_json::Value| {
+        let (folder, assert) = command("export", scene, &["--matrices"]);
+        assert.success();
+        std::fs::read(folder.path().join("out/stiffness.npy")).unwrap()
+    };
+    let tensioned = stiffness(&scene);
+    scene["membrane"] = serde_json::Value::Null;
+    assert!(stiffness(&scene) != tensioned);
+    let cold = runup(&scene).critical_speeds[0].rpm;
+    assert!((cold / lowest - 1.0).abs() > 0.01, "{cold} {lowest}");
 }

@@ -4,9 +4,7 @@
 //! sizes and places: 30 saws, and 30 others. The truth is a basis of 1176 functions, half as large again
 //! as the largest that the program takes.
 
-mod common;
-
-use common::Worst;
+use crate::common::Worst;
 use rayon::prelude::*;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, GuideFile, Scene};

@@ -4,9 +4,7 @@
 //! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
 //! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6.
 
-mod common;
-
-use common::{Worst, of_diameters, reference_model, relative_error};
+use crate::common::{Worst, of_diameters, reference_model, relative_error};
 use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::ModeKind;
 use serde::Deserialize;
@@ -48,7 +46,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
 
 /// Largest relative error over all roots with one s. Every n ≥ 1 must come twice.
 fn worst_of(bc: &str, s: usize) -> Worst {
-    let roots: Vec<Root> = common::table("annulus_exact.csv");
+    let roots: Vec<Root> = crate::common::table("annulus_exact.csv");
     let mut ratios: Vec<f64> = roots.iter().map(|root| root.ratio).collect();
     ratios.dedup();
     ratios.sort_by(f64::total_cmp);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::Output;
 
 use assert_cmd::Command;
-use sawflutter::report::{FitReport, PlaceReport};
+use sawflutter::report::{CheckReport, FitReport, PlaceReport};
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
@@ -55,6 +55,40 @@ fn table(folder: &TempDir, content: &str) -> String {
     let path: PathBuf = folder.path().join("measured.csv");
     std::fs::write(&path, content).unwrap();
     path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_check_draws_its_limits_where_it_is_asked_to() {
+    let folder = TempDir::new().unwrap();
+    let arguments = [
+        "check",
+        "--accuracy",
+        "draft",
+        "--operating-rpm",
+        "1250",
+        "--min-flutter-rpm",
+        "2800",
+        "--json",
+    ];
+    let output = run(&arguments, &folder);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_eq!(names(&folder), ["check.json", "check.png", "check.svg"]);
+    let printed: CheckReport = serde_json::from_str(text(&output.stdout)).unwrap();
+    let written: CheckReport = serde_json::from_str(&read(&folder, "check.json")).unwrap();
+    assert_eq!(printed, written);
+    let kept: Vec<_> = printed
+        .criteria
+        .iter()
+        .map(|c| (c.key.as_str(), c.passed))
+        .collect();
+    let expected = [
+        ("margin", true),
+        ("operating", true),
+        ("min_flutter", false),
+    ];
+    assert_eq!(kept, expected);
+    assert!(!printed.passed && printed.critical_speeds_rpm.len() == 6);
+    assert!(read(&folder, "check.svg").contains("FAIL: "));
 }
 
 /// From the paper's Table 5, one number left out.

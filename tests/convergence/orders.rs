@@ -5,9 +5,7 @@
 //! paper's blade: critical speeds move 0.3 % from (n_max, J) = (8, 5) to (12, 8), and
 //! 0.02 % from there to (20, 10).
 
-mod common;
-
-use common::relative_error;
+use crate::common::relative_error;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Scene, rpm};
 use sawflutter::spectrum::SpectralModel;

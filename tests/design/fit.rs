@@ -4,9 +4,7 @@
 //! Sources: the paper's Table 5 and the calibration of `scenes/paper.json` on it; synthetic
 //! measurements of known saws with drawn noise.
 
-mod common;
-
-use common::{assert_close, scene};
+use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::fit::{Fit, FitError, Measurement, Options, Row, Start};
 use sawflutter::plate::{Plate, Resolution};

@@ -3,11 +3,9 @@
 //! Source: symmetry, similarity and energy arguments, each stated at its test; nothing
 //! here is compared with numbers from elsewhere. The draws are the same in every run.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::relative_error;
+use crate::common::relative_error;
 use faer::{Mat, c64};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, RngAlgorithm, TestRng, TestRunner};
@@ -26,7 +24,7 @@ const SMALL: Resolution = Resolution {
 };
 
 /// Seeds of failures, kept in the repository.
-const REGRESSIONS: &str = "tests/invariants.proptest-regressions";
+const REGRESSIONS: &str = "tests/invariants/properties.proptest-regressions";
 
 /// Checks a property of `cases` random values, the same ones in every run.
 fn check<S: Strategy>(

@@ -5,12 +5,10 @@
 //! 3-D solids (free_disk_calculix.csv); and an independent implementation of this
 //! plate model, which gave the frequencies, critical speeds and bands quoted here.
 
-mod common;
-
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
-use common::{Worst, assert_close, of_diameters, reference_model, relative_error, scene};
+use crate::common::{Worst, assert_close, of_diameters, reference_model, relative_error, scene};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::{ModeKind, SpectralModel};
 use sawflutter::stability::{Analysis, InstabilityKind};
@@ -82,7 +80,7 @@ fn thin_plate(model: &SpectralModel, solid: &Solid) -> f64 {
 fn against_solids(of_interest: impl Fn(&Solid) -> bool) -> Worst {
     let model = free_model();
     let mut worst = Worst::default();
-    let table: Vec<Solid> = common::table("free_disk_calculix.csv");
+    let table: Vec<Solid> = crate::common::table("free_disk_calculix.csv");
     for solid in table.iter().filter(|solid| of_interest(solid)) {
         let actual = thin_plate(&model, solid);
         let what = format!(
@@ -253,7 +251,7 @@ impl TableRow {
 #[test]
 fn table_5_from_rest_to_1250_rpm() {
     let mut squares = Vec::new();
-    for row in common::table::<TableRow>("table5.csv") {
+    for row in crate::common::table::<TableRow>("table5.csv") {
         if row.rpm > 1250.0 {
             continue;
         }
@@ -275,7 +273,7 @@ fn table_5_from_rest_to_1250_rpm() {
 #[test]
 fn the_scene_carries_table_5() {
     let rows = Scene::paper().file.measured.expect("measured").rows;
-    let table: Vec<TableRow> = common::table("table5.csv");
+    let table: Vec<TableRow> = crate::common::table("table5.csv");
     assert_eq!(rows.len(), table.len());
     for (row, printed) in rows.iter().zip(&table) {
         assert_eq!(row.rpm, printed.rpm);

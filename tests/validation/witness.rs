@@ -4,9 +4,7 @@
 //! beside faer's); another formulation, the inertia of the Hermitian L(ω), which needs no
 //! unsymmetric eigenproblem; and single modes computed with a hundred digits.
 
-mod common;
-
-use common::Worst;
+use crate::common::Worst;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use faer::{Col, Mat, c64};
@@ -83,7 +81,7 @@ fn two_solvers_agree_on_every_scene() {
     let mut worst = Worst::default();
     let mut rigid = 0;
     for name in SCENES {
-        let scene = common::scene(name);
+        let scene = crate::common::scene(name);
         for rpm in SPEEDS_RPM {
             let speed = rad_per_s(rpm);
             for (part, system) in systems(&scene, Resolution::of(scene.accuracy))
@@ -141,7 +139,7 @@ fn inertia_brackets_every_low_frequency_and_its_krein_sign() {
         radial_functions: 4,
     };
     for name in ["paper", "two-pads"] {
-        let plate = Plate::new(&common::scene(name), resolution);
+        let plate = Plate::new(&crate::common::scene(name), resolution);
         for rpm in SPEEDS_RPM {
             let speed = rad_per_s(rpm);
             let model = SpectralModel::new(plate.clone(), (0.0, speed.max(1.0)), Strategy::Dense);
@@ -331,14 +329,14 @@ fn both_solvers_against_a_hundred_digits() {
     };
     let (mut first, mut second) = (Worst::default(), Worst::default());
     let mut growing = 0;
-    let flutters = fluttering_rpm(&systems(&common::scene("paper"), resolution)[0]);
+    let flutters = fluttering_rpm(&systems(&crate::common::scene("paper"), resolution)[0]);
     for (name, rpm) in [
         ("paper", 1200.0),
         ("paper", flutters),
         ("collar-400mm", 3000.0),
     ] {
         let speed = rad_per_s(rpm);
-        let systems = systems(&common::scene(name), resolution);
+        let systems = systems(&crate::common::scene(name), resolution);
         // Of the collar saw the waves of two diameters.
         let system = systems.get(2).unwrap_or(&systems[0]);
         let others = by_nalgebra(system, speed).unwrap();

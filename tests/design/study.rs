@@ -4,9 +4,7 @@
 //! Source: the waves of a free blade feel nothing but bending and rotation, K_b ~ h³ and
 //! M ~ h, so every critical speed is proportional to the thickness h.
 
-mod common;
-
-use common::{assert_close, scene};
+use crate::common::{assert_close, scene};
 use sawflutter::check::{Check, Limits};
 use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};

@@ -5,11 +5,9 @@
 //! Sources: tests/reference/collar_saw.json and collar_saw_membrane.json, both by other
 //! Kirchhoff codes.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{Worst, assert_close, of_diameters, reference_model, relative_error};
+use crate::common::{Worst, assert_close, of_diameters, reference_model, relative_error};
 use proptest::prelude::*;
 use sawflutter::check::{Check, Limits};
 use sawflutter::plate::{Plate, Resolution};
@@ -32,7 +30,7 @@ fn scene_with(base: &Scene, membrane: serde_json::Value) -> Scene {
 }
 
 fn collar() -> Scene {
-    common::scene("collar-400mm")
+    crate::common::scene("collar-400mm")
 }
 
 fn heated(base: &Scene, rise_k: f64) -> Scene {
@@ -57,7 +55,8 @@ fn at_rest_hz(scene: &Scene) -> Vec<f64> {
 }
 
 fn compare(name: &str, key: &str, scene: &Scene, tolerance: f64) {
-    let text = std::fs::read_to_string(common::path(&format!("tests/reference/{name}"))).unwrap();
+    let text =
+        std::fs::read_to_string(crate::common::path(&format!("tests/reference/{name}"))).unwrap();
     let reference: serde_json::Value = serde_json::from_str(&text).unwrap();
     let expected: Vec<f64> = serde_json::from_value(reference[key].clone()).unwrap();
     assert!(expected.len() >= 6);
@@ -354,7 +353,7 @@ fn sensitivities_to_heat_and_tension() {
 }
 
 fn spline_blade(bore: f64, rises: &[f64], shift: f64) -> Scene {
-    let mut file: SceneFile = common::scene("free-blade").file;
+    let mut file: SceneFile = crate::common::scene("free-blade").file;
     let outer = file.blade.outer_diameter_m;
     file.blade.inner_diameter_m = bore * outer;
     let radius = |k: usize| 0.5 * outer * (bore + (1.0 - bore) * k as f64 / 4.0);
@@ -415,7 +414,7 @@ proptest! {
         })).unwrap());
         file.tolerance = Some(0.05);
         if guided {
-            file.guides = common::scene("two-pads").file.guides;
+            file.guides = crate::common::scene("two-pads").file.guides;
             file.guides.truncate(1);
             file.guides[0].radius_m = 0.17;
             file.guides[0].radial_length_m = 0.03;

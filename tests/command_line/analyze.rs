@@ -3,8 +3,6 @@
 //!
 //! Source: the scene and report keys and exit codes of the README and `--help`.
 
-mod common;
-
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
@@ -83,7 +81,7 @@ fn default_run() -> &'static DefaultRun {
 
 /// A scene that takes no time: the blade without guides, at draft accuracy.
 fn quick_scene() -> SceneFile {
-    let mut file = common::scene("free-blade").file;
+    let mut file = crate::common::scene("free-blade").file;
     file.accuracy = sawflutter::scene::Accuracy::Draft;
     file
 }
@@ -333,7 +331,7 @@ fn refused_text(text: &[u8]) -> String {
 
 /// The paper's scene with one line exchanged for another.
 fn paper_with(line: &str, instead: &str) -> String {
-    let text = std::fs::read_to_string(common::path("scenes/paper.json")).unwrap();
+    let text = std::fs::read_to_string(crate::common::path("scenes/paper.json")).unwrap();
     assert_eq!(text.matches(line).count(), 1, "{line}");
     text.replace(line, instead)
 }

@@ -1,8 +1,6 @@
 //! Goal: however a study was computed (at once, in parts, stopped and gone on with, on one
 //! thread or two), it leaves the same bytes, and no saw is computed twice or lost.
 
-mod common;
-
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
@@ -34,7 +32,7 @@ impl Bench {
     /// Free blades of random thickness and material, some of which none can be of.
     fn new() -> Self {
         let folder = TempDir::new().unwrap();
-        let mut file = common::scene("free-blade").file;
+        let mut file = crate::common::scene("free-blade").file;
         file.accuracy = Accuracy::Draft;
         let scene = folder.path().join("scene.json");
         std::fs::write(&scene, serde_json::to_string(&file).unwrap()).unwrap();

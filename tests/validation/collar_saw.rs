@@ -5,12 +5,10 @@
 //! which 3-D solids confirm to 0.02 to 0.75 %. Its frequencies are those on the blade;
 //! in space the wave of n diameters is seen at f ± nΩ/2π.
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use common::{Worst, of_diameters, reference_model, relative_error};
+use crate::common::{Worst, of_diameters, reference_model, relative_error};
 use sawflutter::check::{Check, Limits};
 use sawflutter::scene::{InPlane, Mount, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::SpectralModel;
@@ -45,13 +43,14 @@ struct Free {
 }
 
 fn reference() -> Reference {
-    let text = std::fs::read_to_string(common::path("tests/reference/collar_saw.json")).unwrap();
+    let text =
+        std::fs::read_to_string(crate::common::path("tests/reference/collar_saw.json")).unwrap();
     serde_json::from_str(&text).unwrap()
 }
 
 /// The saw of `scenes/`, which is the reference's.
 fn saw(in_plane: InPlane) -> Scene {
-    let mut file = common::scene("collar-400mm").file;
+    let mut file = crate::common::scene("collar-400mm").file;
     file.mount = Mount::Collar {
         diameter_m: 0.120,
         in_plane,
@@ -157,7 +156,7 @@ fn compare_critical(in_plane: InPlane, expected: &BTreeMap<String, f64>) -> Wors
         }
     }
     let lowest = expected.values().copied().fold(f64::INFINITY, f64::min);
-    common::assert_close(
+    crate::common::assert_close(
         "the lowest of all",
         rpm(model.critical[0].speed_rad_per_s),
         lowest,
@@ -187,7 +186,8 @@ fn critical_speeds_of_the_blade_free_in_its_plane() {
 /// A newton on the rim of the blade at rest, by the same independent code.
 #[test]
 fn the_rim_is_as_stiff_as_the_reference_says() {
-    let text = std::fs::read_to_string(common::path("tests/reference/collar_saw.json")).unwrap();
+    let text =
+        std::fs::read_to_string(crate::common::path("tests/reference/collar_saw.json")).unwrap();
     let reference: serde_json::Value = serde_json::from_str(&text).unwrap();
     let expected = reference["rim_point_stiffness_n_per_m_at_rest"]
         .as_f64()

@@ -1,0 +1,14 @@
+//! Goal: the program as its users meet it: output, files, exit codes, faults.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod analyze;
+mod cutting;
+mod design;
+#[cfg(feature = "explore")]
+mod explore;
+mod faults;
+mod membrane;
+mod scenes;
+mod study;

@@ -1,0 +1,8 @@
+//! Goal: the designer's tools find what is known beforehand.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod fit;
+mod place;
+mod study;

@@ -1,0 +1,97 @@
+//! One line of the table of extremes, and whether the page tells it.
+
+use crate::common::{self, relative_error};
+
+/// One line of the table.
+pub struct Row {
+    pub what: &'static str,
+    pub range: &'static str,
+    pub answer: &'static str,
+    pub asked: f64,
+    pub reached: f64,
+    pub place: String,
+}
+
+impl Row {
+    pub fn new(what: &'static str, range: &'static str, answer: &'static str, asked: f64) -> Self {
+        Row {
+            what,
+            range,
+            answer,
+            asked,
+            reached: 0.0,
+            place: "nothing was compared".into(),
+        }
+    }
+
+    pub fn add(&mut self, error: f64, place: impl FnOnce() -> String) {
+        if error >= self.reached || error.is_nan() {
+            self.reached = error;
+            self.place = place();
+        }
+    }
+
+    /// Pairs of numbers, by their relative difference.
+    pub fn compare(&mut self, actual: &[f64], expected: &[f64], place: &str) {
+        assert!(
+            !expected.is_empty() && actual.len() >= expected.len(),
+            "{place}"
+        );
+        for (k, (a, e)) in actual.iter().zip(expected).enumerate() {
+            self.add(relative_error(*a, *e), || {
+                format!("{place}, no. {k}: {a} for {e}")
+            });
+        }
+    }
+}
+
+pub const FILE: &str = "docs/extremes.md";
+
+pub const HEAD: &str = "\
+# Extremes
+
+Where users may push the numbers, and the largest relative error found there against an
+independent answer. Made by `WRITE_EXTREMES=1 cargo test --release --test extremes`; the same
+test without the variable fails where an error exceeds what is asked, or this page does not
+tell what was found.
+
+| what | range | independent answer | asked | reached |
+|---|---|---|---|---|
+";
+
+/// The line of the table without the error reached.
+pub fn line_start(row: &Row) -> String {
+    let Row {
+        what,
+        range,
+        answer,
+        asked,
+        ..
+    } = row;
+    format!("| {what} | {range} | {answer} | {asked:.0e} | ")
+}
+
+/// What the page says was reached, by the start of each line. Rounding differs from one
+/// processor to the next, so a page is current while no error is three times what it says.
+pub fn assert_current(rows: &[Row]) {
+    let page = std::fs::read_to_string(common::path(FILE)).unwrap();
+    let lines = page.lines().filter(|line| line.starts_with("| ")).count();
+    assert_eq!(
+        lines,
+        rows.len() + 1,
+        "{FILE} has other lines than the test"
+    );
+    for row in rows {
+        let start = line_start(row);
+        let line = page.lines().find_map(|line| line.strip_prefix(&start));
+        let stated: f64 = line
+            .and_then(|rest| rest.trim_end_matches([' ', '|']).parse().ok())
+            .unwrap_or_else(|| panic!("{FILE} does not have {start}"));
+        let rounding = 1e-14;
+        assert!(
+            row.reached <= 3.0 * stated + rounding,
+            "{FILE} is not current: {start}{:.1e}",
+            row.reached
+        );
+    }
+}

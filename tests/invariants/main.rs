@@ -1,0 +1,10 @@
+//! Goal: what holds for every saw holds for drawn ones, and no input breaks the program.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/draw.rs"]
+mod draw;
+
+mod certified_bands;
+mod fuzz;
+mod properties;

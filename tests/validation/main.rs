@@ -1,0 +1,18 @@
+//! Goal: every number has an independent source: closed forms, other programs, other
+//! formulations, invariants.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod annulus;
+mod collar_saw;
+mod cutting;
+mod damping;
+mod edge_load;
+mod floquet;
+mod membrane;
+mod paper;
+mod rigid_motions;
+mod sensitivity;
+mod spline;
+mod witness;
