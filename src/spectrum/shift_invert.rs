@@ -250,16 +250,17 @@ mod tests {
     fn a_cluster_of_modes_is_found() {
         let mut scene = Scene::paper();
         scene.blade.material.youngs_modulus_pa = 2e7;
-        scene.guides[0].damping_n_s_per_m = 5.0;
-        scene.guides[0].radial_length_m = 1.0;
-        scene.guides[0].tangential_length_m = 2.0;
+        let bed = &mut scene.guides[0];
+        bed.damping_n_s_per_m = 5.0;
+        (bed.radius_m, bed.radial_length_m, bed.tangential_length_m) = (0.0, 2.0, 2.0);
         let resolution = Resolution {
-            max_diameters: 12,
-            radial_functions: 4,
+            max_diameters: 16,
+            radial_functions: 5,
         };
         let system = GyroscopicSystem::of_plate(&Plate::new(&scene, resolution));
         let dense = companion_eigenpairs(&system, 1.0).unwrap();
-        assert!((dense[13].0.norm() / dense[0].0.norm() - 1.0).abs() < 0.1);
+        let spread = dense[13].0.norm() / dense[0].0.norm();
+        assert!(spread < 1.1, "no cluster: {spread}");
         let few = lowest_eigenpairs(&system, 1.0, 14, 1.0);
         assert!(few.len() >= 14);
         for (found, exact) in few.iter().zip(&dense).take(14) {
