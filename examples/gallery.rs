@@ -20,59 +20,14 @@ fn main() -> anyhow::Result<()> {
     scenes.retain(|path| path.is_file());
     scenes.sort();
     for path in scenes {
-        let name = path
-            .file_stem()
-            .context("a scene has a name")?
-            .to_string_lossy()
-            .into_owned();
+        let name = path.file_stem().context("a scene has a name")?;
+        let folder = root.join("figures");
+        let to = |suffix: &str| folder.join(format!("{}-{suffix}", name.to_string_lossy()));
         let scene = Scene::from_path(&path)?;
-        let write = |suffix: &str, content: &[u8]| {
-            std::fs::write(
-                root.join("figures").join(format!("{name}-{suffix}")),
-                content,
-            )
-        };
-        if let (Some(_), Some(cut)) = (&scene.spline, &scene.cut) {
-            // Another scene's saw on its spline: only that is new.
-            let report = CutReport::new(&scene, &Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?);
-            let orbit = figure::spline_orbit_png(&report)?.context("it has a spline")?;
-            write("orbit.png", &orbit)?;
-            println!("{name}");
-            continue;
+        for (suffix, content) in figures(&scene)? {
+            std::fs::write(to(suffix), content)?;
         }
-        let analysis = Analysis::new(&scene, &|_, _| ())?;
-        let report = Report::new(&scene, &analysis)?;
-        write("campbell.png", &figure::campbell_png(&report)?)?;
-        write("campbell.svg", figure::campbell_svg(&report)?.as_bytes())?;
-        if let Some(png) = figure::root_loci_png(&report)? {
-            write("root-loci.png", &png)?;
-        }
-        if let Some(png) = figure::membrane_png(&report)? {
-            write("membrane.png", &png)?;
-        }
-        if let Some(cut) = &scene.cut {
-            let cutting = Cutting::new(&scene, cut, &cut.runs, &|_, _| ())?;
-            let report = CutReport::new(&scene, &cutting);
-            write("cut.png", &figure::cut_png(&report)?)?;
-            write("cut-map.png", &figure::cut_map_png(&report)?)?;
-        }
-        if let Some(runup) = &scene.runup {
-            let found = RunningUp::new(&scene, runup, &|_, _| ())?;
-            let report = RunUpReport::new(&scene, runup, &found)?;
-            write("runup.png", &figure::runup_png(&report)?)?;
-            write("response-map.png", &figure::response_map_png(&report)?)?;
-        }
-        if scene.operating_rad_per_s.is_some() && scene.guides.len() == 1 {
-            write("check.png", &figure::check_png(&check(&scene)?)?)?;
-        }
-        if scene.file.measured.is_some() {
-            write("fit.png", &figure::fit_png(&fit(&scene)?)?)?;
-        }
-        if scene.guides.len() > 1 {
-            let png = figure::place_png(&place(&scene)?)?.context("it has a map")?;
-            write("place.png", &png)?;
-        }
-        println!("{name}");
+        println!("{}", name.display());
     }
     // A thousand saws take minutes: README.md says how its report was made.
     let figures = root.join("figures");
@@ -81,6 +36,57 @@ fn main() -> anyhow::Result<()> {
     std::fs::write(figures.join("paper-study.png"), figure::study_png(&report)?)?;
     println!("paper-study");
     Ok(())
+}
+
+/// The end of a file's name and what is in it.
+type Figure = (&'static str, Vec<u8>);
+
+/// The figures that a scene has something to show in.
+fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
+    if scene.spline.is_some() {
+        // Another scene's saw on its spline: only that is new.
+        return Ok(vec![("orbit.png", orbit(scene)?)]);
+    }
+    let report = Report::new(scene, &Analysis::new(scene, &|_, _| ())?)?;
+    let mut figures = vec![
+        ("campbell.png", figure::campbell_png(&report)?),
+        ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
+    ];
+    figures.extend(figure::root_loci_png(&report)?.map(|png| ("root-loci.png", png)));
+    figures.extend(figure::membrane_png(&report)?.map(|png| ("membrane.png", png)));
+    if scene.cut.is_some() {
+        let report = cut(scene)?;
+        figures.push(("cut.png", figure::cut_png(&report)?));
+        figures.push(("cut-map.png", figure::cut_map_png(&report)?));
+    }
+    if let Some(runup) = &scene.runup {
+        let found = RunningUp::new(scene, runup, &|_, _| ())?;
+        let report = RunUpReport::new(scene, runup, &found)?;
+        figures.push(("runup.png", figure::runup_png(&report)?));
+        figures.push(("response-map.png", figure::response_map_png(&report)?));
+    }
+    if scene.operating_rad_per_s.is_some() && scene.guides.len() == 1 {
+        figures.push(("check.png", figure::check_png(&check(scene)?)?));
+    }
+    if scene.file.measured.is_some() {
+        figures.push(("fit.png", figure::fit_png(&fit(scene)?)?));
+    }
+    if scene.guides.len() > 1 {
+        let png = figure::place_png(&place(scene)?)?.context("it has a map")?;
+        figures.push(("place.png", png));
+    }
+    Ok(figures)
+}
+
+/// `sawflutter cut`.
+fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
+    let cut = scene.cut.as_ref().context("it has a cut")?;
+    let cutting = Cutting::new(scene, cut, &cut.runs, &|_, _| ())?;
+    Ok(CutReport::new(scene, &cutting))
+}
+
+fn orbit(scene: &Scene) -> anyhow::Result<Vec<u8>> {
+    figure::spline_orbit_png(&cut(scene)?)?.context("it has a spline")
 }
 
 /// `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{MembraneSource, Plate};
-use crate::scene::{Bore, Scene, rpm};
+use crate::scene::{Blade, Bore, Scene, rpm};
 use crate::spectrum::DescribedMode;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, Certificate};
 
 /// Relative rounding from which a frequency is not to be trusted to six digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -55,78 +55,95 @@ pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
 
 /// Limits of the model that this scene comes near to.
 pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
-    let plate = &analysis.model.plate;
-    let blade = &plate.blade;
-    let mut warnings = Vec::new();
-    if let Some(error) = analysis.estimated_relative_error
-        && !reached(scene, analysis)
-    {
-        warnings.push(format!(
+    let certificate = &analysis.chart.certificate;
+    let found = [
+        out_of_reach(scene, analysis),
+        uncalibrated(scene),
+        thick(&analysis.model.plate.blade),
+        out_of_balance(scene),
+        rounded(analysis, at_rest),
+        mismatched(certificate),
+        cut_short(certificate),
+        left_free(analysis),
+    ];
+    found.into_iter().flatten().collect()
+}
+
+fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
+    let error = analysis.estimated_relative_error?;
+    (!reached(scene, analysis)).then(|| {
+        format!(
             "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
             scene.tolerance(),
-            plate.degrees_of_freedom()
-        ));
-    }
-    if scene
-        .guides
-        .iter()
-        .any(|guide| guide.stiffness_n_per_m > CALIBRATED_N_PER_M)
-    {
-        warnings.push(format!(
-            "a guide is stiffer than {CALIBRATED_N_PER_M:e} N/m: the estimated error is calibrated on softer ones and may be too small"
-        ));
-    }
-    let width = blade.outer_radius_m - blade.inner_radius_m;
-    if blade.thickness_m > 0.1 * width {
-        warnings.push(format!(
-            "the blade is {:.2} of its width thick; thin-plate theory holds below 0.1",
-            blade.thickness_m / width
-        ));
-    }
-    let membrane = scene.membrane.as_ref();
-    if let Some(residual) = membrane.and_then(|m| m.residual_stress.as_ref())
-        && residual.imbalance != 0.0
-    {
-        warnings.push(format!(
+            analysis.model.plate.degrees_of_freedom()
+        )
+    })
+}
+
+fn uncalibrated(scene: &Scene) -> Option<String> {
+    let mut guides = scene.guides.iter();
+    let stiff = guides.any(|guide| guide.stiffness_n_per_m > CALIBRATED_N_PER_M);
+    stiff.then(|| {
+        format!(
+            "a guide is stiffer than {CALIBRATED_N_PER_M:e} N/m: the estimated error is \
+             calibrated on softer ones and may be too small"
+        )
+    })
+}
+
+fn thick(blade: &Blade) -> Option<String> {
+    let share = blade.thickness_m / (blade.outer_radius_m - blade.inner_radius_m);
+    (share > 0.1).then(|| {
+        format!("the blade is {share:.2} of its width thick; thin-plate theory holds below 0.1")
+    })
+}
+
+fn out_of_balance(scene: &Scene) -> Option<String> {
+    let residual = scene.membrane.as_ref()?.residual_stress.as_ref()?;
+    (residual.imbalance != 0.0).then(|| {
+        format!(
             "the measured hoop stress is out of balance by {:.1} % of its size; its mean was \
              taken off, for the edges of the blade are free",
             100.0 * residual.imbalance
-        ));
-    }
+        )
+    })
+}
+
+fn rounded(analysis: &Analysis, at_rest: &[DescribedMode]) -> Option<String> {
     let rounded = |m: &&DescribedMode| analysis.model.relative_rounding(&m.mode) > LEAST_DIGITS;
-    if let Some(slow) = at_rest.iter().rfind(rounded) {
-        warnings.push(format!(
-            "the frequencies of this scene are so far apart that rounding leaves fewer than \
-             six digits of those up to {:.3e} Hz",
-            slow.mode.frequency_rad_per_s() / TAU
-        ));
-    }
-    let certificate = &analysis.chart.certificate;
-    if let Some(first) = certificate.violations.first() {
-        warnings.push(format!(
-            "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be missing",
-            certificate.violations.len(),
-            certificate.speeds_checked,
-            rpm(*first)
-        ));
-    }
-    if analysis.chart.certificate.gave_up {
-        warnings.push(format!(
+    let highest = at_rest.iter().rfind(rounded)?;
+    Some(format!(
+        "the frequencies of this scene are so far apart that rounding leaves fewer than \
+         six digits of those up to {:.3e} Hz",
+        highest.mode.frequency_rad_per_s() / TAU
+    ))
+}
+
+fn mismatched(certificate: &Certificate) -> Option<String> {
+    let first = certificate.violations.first()?;
+    Some(format!(
+        "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be \
+         missing",
+        certificate.violations.len(),
+        certificate.speeds_checked,
+        rpm(*first)
+    ))
+}
+
+fn cut_short(certificate: &Certificate) -> Option<String> {
+    certificate.gave_up.then(|| {
+        format!(
             "the search for bands stopped after {} speeds: bands may be missing; narrow the sweep",
             certificate.speeds_checked
-        ));
-    }
-    if matches!(blade.bore, Bore::Free)
-        && analysis
-            .model
-            .parts
-            .iter()
-            .any(|p| !p.full.free_rigid.is_empty())
-    {
-        warnings.push(
-            "nothing holds the blade against some rigid motion; it is left out of the modes"
-                .to_owned(),
-        );
-    }
-    warnings
+        )
+    })
+}
+
+fn left_free(analysis: &Analysis) -> Option<String> {
+    let free_bore = matches!(analysis.model.plate.blade.bore, Bore::Free);
+    let mut parts = analysis.model.parts.iter();
+    let free = free_bore && parts.any(|p| !p.full.free_rigid.is_empty());
+    free.then(|| {
+        "nothing holds the blade against some rigid motion; it is left out of the modes".to_owned()
+    })
 }

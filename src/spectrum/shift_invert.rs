@@ -92,9 +92,10 @@ impl ShiftedInverse {
 
 /// Relative residual at which a Krylov vector is good enough to span a mode.
 const TOLERANCE: f64 = 1e-10;
-/// Steps beyond the number of eigenvalues wanted before the first look, and at least from one
-/// look to the next; later looks cost more, and are further apart.
-const STEPS_BEYOND: usize = 32;
+/// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
+/// all steps before it: most saws need no second one. Steps at least from one look to the next;
+/// later looks cost more, and are further apart.
+const STEPS_BEYOND: usize = 44;
 const MORE_STEPS: usize = 16;
 /// Steps for each eigenvalue wanted, at most. A soft blade on a stiff bed has a cluster of
 /// modes next to its lowest one, where three are not enough.

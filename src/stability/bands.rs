@@ -141,6 +141,7 @@ pub(super) fn bands(
     model: &SpectralModel,
     speeds: &[f64],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let speeds = from_lowest_critical(model, speeds);
     let finder = Finder::new(model, speeds)?;
     let stations = finder.stations(speeds)?;
     let mut instabilities = Vec::new();
@@ -153,6 +154,15 @@ pub(super) fn bands(
         instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
     }
     Ok((instabilities, finder.certificate()))
+}
+
+/// Ascending speeds without those at which nothing can be unstable: below its lowest critical
+/// speed K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
+fn from_lowest_critical<'a>(model: &SpectralModel, speeds: &'a [f64]) -> &'a [f64] {
+    let lowest = model.critical.first();
+    let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
+    let below = speeds.partition_point(|speed| *speed < lowest);
+    &speeds[below.saturating_sub(1)..]
 }
 
 /// The speeds, and both sides of each group of critical speeds in the range, and the

@@ -8,6 +8,8 @@ use crate::spectrum::SpectrumError;
 
 /// Relative accuracy in speed to which onsets are bracketed.
 const SPEED_TOLERANCE: f64 = 1e-11;
+/// Relative distance within which few states show where two real λ meet.
+const NARROW: f64 = 1e-6;
 /// Relative width below which a crossing is not halved any more.
 const ROUGH_TOLERANCE: f64 = 1e-5;
 /// Share of |ω| + Ω below which a growth rate is rounding.
@@ -61,12 +63,40 @@ pub fn boundary(
         }
     }
     let exact = |speed| finder.exact_station(speed);
-    let (apart, merged) = (exact(ends.0)?, exact(ends.1)?);
+    let [apart, merged] = match narrowed(finder, apart, merged, place)? {
+        Some(narrow) => narrow,
+        None => [exact(ends.0)?, exact(ends.1)?],
+    };
     let inside = discriminant(&merged, place, is_real(&apart, place));
     if inside.is_none_or(|d| d >= 0.0) {
         return Ok(None);
     }
-    false_position(&exact, &apart, &merged, place).map(Some)
+    false_position(&exact, &apart, &merged, place, SPEED_TOLERANCE).map(Some)
+}
+
+/// The two stations, moved to both sides of the merging that few states show. `None` where it
+/// is not between them: then they are too near to another event.
+fn narrowed(
+    finder: &Finder<'_>,
+    apart: &Station,
+    merged: &Station,
+    place: usize,
+) -> Result<Option<[Station; 2]>, SpectrumError> {
+    let near = |speed| finder.station(speed);
+    let speed = false_position(&near, apart, merged, place, 0.1 * NARROW)?;
+    let step = NARROW * (merged.speed_rad_per_s - apart.speed_rad_per_s).signum() * speed;
+    let sides = [speed - step, speed + step];
+    let between = (speed - apart.speed_rad_per_s).abs() > step.abs()
+        && (speed - merged.speed_rad_per_s).abs() > step.abs();
+    if !between {
+        return Ok(None);
+    }
+    let sides = [
+        finder.exact_station(sides[0])?,
+        finder.exact_station(sides[1])?,
+    ];
+    let same = sides[0].word() == apart.word() && sides[1].word() == merged.word();
+    Ok(same.then_some(sides))
 }
 
 /// Whether the token at a place of the doubled list is a real λ.
@@ -80,12 +110,14 @@ pub fn is_real(station: &Station, place: usize) -> bool {
 /// How the word of a speed is had.
 type Look<'a> = &'a dyn Fn(f64) -> Result<Station, SpectrumError>;
 
-/// False position in its Illinois form on the discriminant: the last speed inside.
+/// False position in its Illinois form on the discriminant, to a relative width: the last speed
+/// inside.
 fn false_position(
     look: Look<'_>,
     apart: &Station,
     merged: &Station,
     place: usize,
+    tolerance: f64,
 ) -> Result<f64, SpectrumError> {
     let value = |station: &Station| discriminant(station, place, is_real(apart, place));
     let (mut out, mut inn) = (apart.speed_rad_per_s, merged.clone());
@@ -93,7 +125,7 @@ fn false_position(
     let mut d_inn = value(merged).unwrap_or(-1.0);
     for step in 0..MAX_STEPS {
         let width = inn.speed_rad_per_s - out;
-        if width.abs() <= SPEED_TOLERANCE * inn.speed_rad_per_s.abs() || d_out == d_inn {
+        if width.abs() <= tolerance * inn.speed_rad_per_s.abs() || d_out == d_inn {
             break;
         }
         // A halving now and then bounds the steps whatever the function does.

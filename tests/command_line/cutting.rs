@@ -2,45 +2,11 @@
 //!
 //! Source: `--help`, the README, and the paper's verdicts (section 3.2).
 
-use std::path::PathBuf;
-use std::process::Output;
-
-use assert_cmd::Command;
 use sawflutter::report::{CutReport, RunUpReport, Verdict};
 use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
 
-fn run(arguments: &[&str], folder: &TempDir) -> Output {
-    let out = folder.path().join("out");
-    Command::new(env!("CARGO_BIN_EXE_sawflutter"))
-        .args(arguments)
-        .arg("--out")
-        .arg(out)
-        .output()
-        .unwrap()
-}
-
-fn names(folder: &TempDir) -> Vec<String> {
-    let mut names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
-        .map(|entries| {
-            entries
-                .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-                .collect()
-        })
-        .unwrap_or_default();
-    names.sort();
-    names
-}
-
-fn written(folder: &TempDir, file: &SceneFile) -> PathBuf {
-    let path = folder.path().join("scene.json");
-    std::fs::write(&path, serde_json::to_string(file).unwrap()).unwrap();
-    path
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
-}
+use super::program::{names_in, out, run, sawflutter, text, write_scene};
 
 #[test]
 fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
@@ -54,7 +20,7 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
         "cut.png",
         "cut.svg",
     ];
-    assert_eq!(names(&folder), expected);
+    assert_eq!(names_in(&out(&folder)), expected);
     let summary = text(&output.stdout);
     assert!(
         summary.contains("UNSTABLE") && summary.contains("agrees"),
@@ -103,7 +69,7 @@ fn a_run_up_tells_of_every_band_it_passes() {
         force_n: 5.0,
         angle_deg: 0.0,
     });
-    let scene = written(&folder, &file);
+    let scene = write_scene(&folder, &file);
     let output = run(
         &["runup", scene.to_str().unwrap(), "--accuracy", "draft"],
         &folder,
@@ -116,7 +82,7 @@ fn a_run_up_tells_of_every_band_it_passes() {
         "runup.png",
         "runup.svg",
     ];
-    assert_eq!(names(&folder), expected);
+    assert_eq!(names_in(&out(&folder)), expected);
     let json = std::fs::read(folder.path().join("out/runup.json")).unwrap();
     let report: RunUpReport = serde_json::from_slice(&json).unwrap();
     // The divergence near 1540 rpm: 21 rpm wide, passed at 200 rpm/s.
@@ -146,14 +112,14 @@ fn a_scene_without_the_forces_is_refused() {
         let folder = TempDir::new().unwrap();
         let mut file = Scene::paper().file;
         change(&mut file);
-        let scene = written(&folder, &file);
+        let scene = write_scene(&folder, &file);
         let mut arguments = arguments.to_vec();
         arguments.insert(1, scene.to_str().unwrap());
         let output = run(&arguments, &folder);
         assert_eq!(output.status.code(), Some(2), "{expected}");
         let error = text(&output.stderr);
         assert!(error.contains(expected), "{expected}: {error}");
-        assert_eq!(names(&folder), Vec::<String>::new(), "{expected}");
+        assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{expected}");
     }
 }
 
@@ -185,7 +151,7 @@ fn a_check_passes_fails_or_is_refused() {
         (&["--margin", "2"], 2, "--margin is 2"),
     ];
     for (arguments, code, expected) in cases {
-        let output = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+        let output = sawflutter()
             .args(["check", "--accuracy", "draft"])
             .args(arguments)
             .output()

@@ -3,41 +3,15 @@
 //! Source: `--help` and the README.
 
 use std::path::PathBuf;
-use std::process::Output;
 
-use assert_cmd::Command;
 use sawflutter::report::{CheckReport, FitReport, PlaceReport};
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
-fn run(arguments: &[&str], folder: &TempDir) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_sawflutter"))
-        .args(arguments)
-        .arg("--out")
-        .arg(folder.path().join("out"))
-        .output()
-        .unwrap()
-}
-
-fn names(folder: &TempDir) -> Vec<String> {
-    let mut names: Vec<String> = std::fs::read_dir(folder.path().join("out"))
-        .map(|entries| {
-            let name = |entry: std::io::Result<std::fs::DirEntry>| {
-                entry.unwrap().file_name().into_string().unwrap()
-            };
-            entries.map(name).collect()
-        })
-        .unwrap_or_default();
-    names.sort();
-    names
-}
+use super::program::{names_in, out, run, text};
 
 fn read(folder: &TempDir, name: &str) -> String {
-    std::fs::read_to_string(folder.path().join("out").join(name)).unwrap()
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).unwrap()
+    std::fs::read_to_string(out(folder).join(name)).unwrap()
 }
 
 fn is_readable(summary: &str) {
@@ -72,7 +46,10 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
     ];
     let output = run(&arguments, &folder);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
-    assert_eq!(names(&folder), ["check.json", "check.png", "check.svg"]);
+    assert_eq!(
+        names_in(&out(&folder)),
+        ["check.json", "check.png", "check.svg"]
+    );
     let printed: CheckReport = serde_json::from_str(text(&output.stdout)).unwrap();
     let written: CheckReport = serde_json::from_str(&read(&folder, "check.json")).unwrap();
     assert_eq!(printed, written);
@@ -114,7 +91,7 @@ fn a_table_is_fitted_and_the_scene_it_gives_can_be_used() {
     let output = run(&arguments, &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let expected = ["fit.json", "fit.png", "fit.svg", "fitted-scene.json"];
-    assert_eq!(names(&folder), expected);
+    assert_eq!(names_in(&out(&folder)), expected);
     let summary = text(&output.stdout);
     is_readable(summary);
     assert!(
@@ -174,7 +151,7 @@ fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
         assert_eq!(output.status.code(), Some(2), "{more:?}");
         let error = text(&output.stderr);
         assert!(error.contains(expected), "{more:?}: {error}");
-        assert_eq!(names(&folder), Vec::<String>::new(), "{more:?}");
+        assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{more:?}");
     }
 }
 
@@ -201,7 +178,7 @@ fn a_place_is_found_and_written() {
     let output = run(&arguments, &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let expected = ["place.json", "place.png", "place.svg", "placed-scene.json"];
-    assert_eq!(names(&folder), expected);
+    assert_eq!(names_in(&out(&folder)), expected);
     is_readable(text(&output.stdout));
     let json = read(&folder, "place.json");
     let report: PlaceReport = serde_json::from_str(&json).unwrap();

@@ -12,18 +12,20 @@ use std::time::{Duration, Instant};
 
 use sawflutter::figure;
 use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, SceneFile};
+use sawflutter::scene::SceneFile;
 use tempfile::TempDir;
+
+use super::program::{self, text};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_sawflutter");
 const STAGED: &str = ".sawflutter-";
 
-/// A scene that takes no time: the blade without guides, at draft accuracy.
+/// A scene that takes no time, by name.
 fn quick_scene(name: &str) -> SceneFile {
-    let mut file = crate::common::scene("free-blade").file;
-    file.accuracy = Accuracy::Draft;
-    file.name = name.to_owned();
-    file
+    SceneFile {
+        name: name.to_owned(),
+        ..program::quick_scene()
+    }
 }
 
 fn write_scene(folder: &Path, file: &SceneFile) -> PathBuf {
@@ -41,16 +43,10 @@ fn analyze(scene: &Path, out: &Path) -> Command {
     command
 }
 
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
 /// Names in a folder, without those of files that a killed run was still writing.
 fn names_in(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.map(|entry| entry.file_name().into_string().unwrap());
-    let mut names: Vec<String> = names.filter(|name| !name.starts_with(STAGED)).collect();
-    names.sort();
+    let mut names = program::names_in(folder);
+    names.retain(|name| !name.starts_with(STAGED));
     names
 }
 
@@ -135,11 +131,11 @@ fn a_disk_that_fills_up_leaves_the_old_files() {
     let [old, new] = ["old", "new"].map(|name| write_scene(folder.path(), &quick_scene(name)));
     assert!(analyze(&old, &out).status().unwrap().success());
     let output = in_shell("trap '' XFSZ; ulimit -f 40; exec \"$0\" \"$@\"", &new, &out);
-    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     assert!(
-        stderr(&output).contains("cannot write"),
+        text(&output.stderr).contains("cannot write"),
         "{}",
-        stderr(&output)
+        text(&output.stderr)
     );
     assert_eq!(assert_sound(&out).as_deref(), Some("old"));
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 4);
@@ -158,7 +154,7 @@ fn a_full_disk_is_an_error_that_names_the_file() {
         disk = out.display()
     );
     let output = in_shell(&line, &scene, &out);
-    let message = stderr(&output);
+    let message = text(&output.stderr);
     if output.status.code() == Some(77) || message.contains("unshare") {
         println!("not allowed to mount a small disk here: {message}");
         return;
@@ -181,9 +177,17 @@ fn a_full_standard_output_is_an_error() {
         // clap prints its help itself, and does not mind.
         if arguments[0] == "schema" {
             assert_eq!(output.status.code(), Some(2));
-            assert!(stderr(&output).contains("No space"), "{}", stderr(&output));
+            assert!(
+                text(&output.stderr).contains("No space"),
+                "{}",
+                text(&output.stderr)
+            );
         }
-        assert!(!stderr(&output).contains("panicked"), "{}", stderr(&output));
+        assert!(
+            !text(&output.stderr).contains("panicked"),
+            "{}",
+            text(&output.stderr)
+        );
     }
 }
 
@@ -213,7 +217,7 @@ fn a_read_only_folder_is_refused_before_the_computation() {
             .output()
             .unwrap(),
     };
-    let message = stderr(&output);
+    let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(
         message.contains("cannot write to the output folder"),
@@ -241,7 +245,7 @@ fn two_runs_to_one_folder_do_not_mix() {
             .collect();
         for run in runs {
             let output = run.wait_with_output().unwrap();
-            assert!(output.status.success(), "{}", stderr(&output));
+            assert!(output.status.success(), "{}", text(&output.stderr));
         }
         last.push(assert_sound(&out).expect("a report"));
     }

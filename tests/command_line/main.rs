@@ -10,5 +10,7 @@ mod design;
 mod explore;
 mod faults;
 mod membrane;
+mod program;
+mod refusals;
 mod scenes;
 mod study;

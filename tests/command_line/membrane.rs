@@ -1,8 +1,9 @@
 //! Goal: who heats or rolls a saw is told what it bears, in words, numbers and a picture, and a
 //! blade that buckles or a table out of balance is refused with the remedy.
 
-use assert_cmd::Command;
 use sawflutter::report::{Report, RunUpReport};
+
+use super::program::{sawflutter, text};
 
 fn analyze(
     scene: &serde_json::Value,
@@ -19,7 +20,7 @@ fn command(
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.json");
     std::fs::write(&path, scene.to_string()).unwrap();
-    let assert = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+    let assert = sawflutter()
         .arg(name)
         .arg(&path)
         .args(["--accuracy", "draft", "--out"])
@@ -34,14 +35,10 @@ fn tensioned() -> serde_json::Value {
     serde_json::from_str(&text.unwrap()).unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
 #[test]
 fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     let (folder, assert) = analyze(&tensioned(), &["--sensitivity"]);
-    let printed = text(&assert.success().get_output().stdout);
+    let printed = text(&assert.success().get_output().stdout).to_owned();
     for words in [
         "Heat, peak of the profile now +20.0 K",
         "brings the first critical speed down to the operating speed",
@@ -82,8 +79,7 @@ fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
     let mut scene = tensioned();
     scene["membrane"]["roll_tension"] = serde_json::json!([]);
     let (_folder, assert) = analyze(&scene, &["--json"]);
-    let report: Report =
-        serde_json::from_str(&text(&assert.success().get_output().stdout)).unwrap();
+    let report: Report = serde_json::from_str(text(&assert.success().get_output().stdout)).unwrap();
     assert!(report.critical_speeds[0].rpm < 3800.0);
     let limit = report
         .membrane
@@ -100,7 +96,7 @@ fn a_blade_that_buckles_is_refused_with_the_share_that_it_bears() {
     let mut scene = tensioned();
     scene["membrane"]["temperature"]["rim_rise_k"] = 400.into();
     let (folder, assert) = analyze(&scene, &[]);
-    let message = text(&assert.code(2).get_output().stderr);
+    let message = text(&assert.code(2).get_output().stderr).to_owned();
     assert!(message.contains("buckles at rest, in "), "{message}");
     assert!(message.contains("lower the temperature"), "{message}");
     assert!(!folder.path().join("out/report.json").exists());
@@ -147,7 +143,7 @@ fn refusals_name_key_value_and_remedy() {
         let mut scene = tensioned();
         scene["membrane"] = membrane;
         let (_folder, assert) = analyze(&scene, &[]);
-        let message = text(&assert.code(2).get_output().stderr);
+        let message = text(&assert.code(2).get_output().stderr).to_owned();
         assert!(
             message.contains(words) && message.contains("; "),
             "{words}: {message}"
@@ -163,12 +159,12 @@ fn a_table_out_of_balance_is_refused_with_the_number() {
     scene["membrane"] = serde_json::json!({ "residual_stress": [
         { "radius_m": 0.1, "hoop_pa": -10e6 }, { "radius_m": 0.355, "hoop_pa": 20e6 }] });
     let (_folder, assert) = analyze(&scene, &[]);
-    let message = text(&assert.code(2).get_output().stderr);
+    let message = text(&assert.code(2).get_output().stderr).to_owned();
     // (20 − 10)/2 over (10²/30 + 20²/30)/2: 5 of 8.33.
     assert!(message.contains("60.0 % of ∫|hoop_pa| dr"), "{message}");
     scene["membrane"]["residual_stress"][1]["hoop_pa"] = 10.2e6.into();
     let (_folder, assert) = analyze(&scene, &[]);
-    let printed = text(&assert.success().get_output().stdout);
+    let printed = text(&assert.success().get_output().stdout).to_owned();
     assert!(printed.contains("out of balance by"), "{printed}");
 }
 

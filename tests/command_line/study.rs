@@ -10,6 +10,8 @@ use sawflutter::scene::Accuracy;
 use sawflutter::study::StudyReport;
 use tempfile::TempDir;
 
+use super::program::text;
+
 /// Every file of a result; the log is not one of them.
 const RESULT: [&str; 5] = [
     "study.csv",
@@ -100,11 +102,7 @@ impl Bench {
 
 #[track_caller]
 fn assert_done(output: &Output) {
-    assert!(output.status.success(), "{}", stderr(output));
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
+    assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
 /// The saws of rows, each once.
@@ -132,7 +130,7 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     }
     let incomplete = bench.merge(&["parts"], "merged");
     assert_eq!(incomplete.status.code(), Some(2));
-    assert!(stderr(&incomplete).contains("30 of 90 saws are missing, saw 1 the first"));
+    assert!(text(&incomplete.stderr).contains("30 of 90 saws are missing, saw 1 the first"));
     let merged = bench.merge(&["elsewhere", "parts"], "merged");
     assert_done(&merged);
     bench.assert_same_result("whole", "merged");
@@ -220,7 +218,7 @@ fn a_log_of_another_study_is_refused_and_left_alone() {
     bench.write_study(21);
     let refused = bench.run("out", &[]);
     assert_eq!(refused.status.code(), Some(2));
-    let message = stderr(&refused);
+    let message = text(&refused.stderr);
     assert!(
         message.contains("study.saws is 20 there and 21 here"),
         "{message}"
@@ -231,11 +229,11 @@ fn a_log_of_another_study_is_refused_and_left_alone() {
     );
     bench.write_study(20);
     let refused = bench.run("out", &["--accuracy", "design"]);
-    assert!(stderr(&refused).contains(r#"scene.accuracy is "draft" there and "design" here"#));
+    assert!(text(&refused.stderr).contains(r#"scene.accuracy is "draft" there and "design" here"#));
     assert_eq!(std::fs::read(bench.path("out/study.log")).unwrap(), log);
     std::fs::write(bench.path("out/study-1-of-2.log"), "my notes\n").unwrap();
     let refused = bench.run("out", &["--shard", "1/2"]);
-    assert!(stderr(&refused).contains("study-1-of-2.log is no log of a study"));
+    assert!(text(&refused.stderr).contains("study-1-of-2.log is no log of a study"));
     assert_eq!(
         std::fs::read(bench.path("out/study-1-of-2.log")).unwrap(),
         b"my notes\n"
@@ -259,15 +257,15 @@ fn the_report_reads_back_and_bad_arguments_are_refused() {
     for part in ["0/3", "4/3", "1", "1/0", "a/b"] {
         let refused = bench.run("out", &["--shard", part]);
         assert_eq!(refused.status.code(), Some(2));
-        assert!(stderr(&refused).contains("must be k/n with k from 1 to n"));
+        assert!(text(&refused.stderr).contains("must be k/n with k from 1 to n"));
     }
     let nothing = bench.merge(&["out/.."], "merged");
     assert_eq!(nothing.status.code(), Some(2));
-    assert!(stderr(&nothing).contains("there is no log of a study in"));
+    assert!(text(&nothing.stderr).contains("there is no log of a study in"));
     std::fs::write(&bench.study, "{").unwrap();
     let refused = bench.run("other", &[]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("sawflutter schema --study"));
+    assert!(text(&refused.stderr).contains("sawflutter schema --study"));
     assert!(!bench.path("other").exists());
 }
 

@@ -30,9 +30,9 @@ fn a_chart_takes_no_more_work_than_it_took() {
     let work = report(Accuracy::Design).work;
     println!("{work:?}");
     assert!(work.full_solves <= 9, "{work:?}");
-    assert!(work.reduced_solves <= 73, "{work:?}");
-    assert!(work.refined_pairs <= 214, "{work:?}");
-    assert!(work.local_solves <= 400, "{work:?}");
+    assert!(work.reduced_solves <= 41, "{work:?}");
+    assert!(work.refined_pairs <= 178, "{work:?}");
+    assert!(work.local_solves <= 364, "{work:?}");
     assert!(work.full_solves > 0 && work.local_solves > 0, "{work:?}");
 }
 
@@ -56,7 +56,7 @@ fn a_slow_saw_takes_less_work() {
     println!("{work:?}");
     assert_eq!(work.refined_pairs, 0);
     assert!(
-        work.full_solves <= 9 && work.reduced_solves <= 73,
+        work.full_solves <= 6 && work.reduced_solves <= 10,
         "{work:?}"
     );
 }

@@ -315,7 +315,8 @@ fn charts_of_random_saws_miss_nothing() {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
-        prop_assert!(chart.certificate.speeds_checked >= 21);
+        // Those of the even speeds that are above the lowest critical one.
+        prop_assert!(chart.certificate.speeds_checked >= 7);
         prop_assert_eq!(chart.certificate.violations, Vec::<f64>::new());
         let first = model.critical[0].speed_rad_per_s;
         for band in &chart.instabilities {

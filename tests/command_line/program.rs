@@ -1,0 +1,50 @@
+//! The program as these tests run it, and what it leaves behind.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use sawflutter::scene::{Accuracy, SceneFile};
+use tempfile::TempDir;
+
+pub fn sawflutter() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+}
+
+/// Runs it with the folder's `out` to write into.
+pub fn run(arguments: &[&str], folder: &TempDir) -> Output {
+    let mut command = sawflutter();
+    let command = command.args(arguments);
+    command.arg("--out").arg(out(folder)).output().unwrap()
+}
+
+pub fn out(folder: &TempDir) -> PathBuf {
+    folder.path().join("out")
+}
+
+/// Names in a folder, ascending; none where there is no folder.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
+    let names = entries.map(|entry| name(entry).into_string().unwrap());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    names
+}
+
+pub fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// A scene that takes no time: the blade without guides, at draft accuracy.
+pub fn quick_scene() -> SceneFile {
+    let mut file = crate::common::scene("free-blade").file;
+    file.accuracy = Accuracy::Draft;
+    file
+}
+
+pub fn write_scene(folder: &TempDir, file: &SceneFile) -> PathBuf {
+    let path = folder.path().join("scene.json");
+    std::fs::write(&path, serde_json::to_string_pretty(file).unwrap()).unwrap();
+    path
+}

@@ -1,0 +1,261 @@
+//! Goal: what cannot be analysed is refused with one clear message that names the key and the
+//! remedy, exit code 2, and nothing written.
+//!
+//! Source: the scene keys and exit codes of the README and `--help`.
+
+use std::fs::File;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use assert_cmd::Command;
+use sawflutter::scene::Scene;
+use tempfile::TempDir;
+
+use super::program::{names_in, sawflutter, text};
+
+/// Runs a scene that must be refused: exit code 2, one message, nothing written.
+fn refused(scene: &Path) -> String {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().join("out");
+    let output = sawflutter()
+        .timeout(Duration::from_secs(20))
+        .arg("analyze")
+        .arg(scene)
+        .arg("--out")
+        .arg(&out)
+        .output()
+        .unwrap();
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(text(&output.stdout), "");
+    assert!(message.starts_with("error: "), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(!out.exists(), "{:?}", names_in(&out));
+    message.to_owned()
+}
+
+/// The same for the text of a scene.
+fn refused_text(text: &[u8]) -> String {
+    let folder = TempDir::new().unwrap();
+    let scene = folder.path().join("scene.json");
+    std::fs::write(&scene, text).unwrap();
+    refused(&scene)
+}
+
+/// The paper's scene with one line exchanged for another.
+fn paper_with(line: &str, instead: &str) -> String {
+    let text = std::fs::read_to_string(crate::common::path("scenes/paper.json")).unwrap();
+    assert_eq!(text.matches(line).count(), 1, "{line}");
+    text.replace(line, instead)
+}
+
+const THICKNESS: &str = "\"thickness_m\": 0.0028";
+
+/// Each message begins, after the name of the file, with the JSON path of the key.
+#[test]
+fn bad_values_are_refused_by_the_path_of_their_key() {
+    let cases = [
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": \"thin\""),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": null"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": [0.0028]"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": -0.0028"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": 0"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": NaN"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": 1e999"),
+        ("blade.thickness_m", THICKNESS, "\"thickness_m\": Infinity"),
+        ("blade.thicknes_m", THICKNESS, "\"thicknes_m\": 0.0028"),
+        (
+            "blade.inner_diameter_m",
+            "\"inner_diameter_m\": 0.200",
+            "\"inner_diameter_m\": 0.710",
+        ),
+        (
+            "blade.inner_diameter_m",
+            "\"inner_diameter_m\": 0.200",
+            "\"inner_diameter_m\": 0.9",
+        ),
+        (
+            "blade.material.poisson_ratio",
+            "\"poisson_ratio\": 0.29",
+            "\"poisson_ratio\": 0.5",
+        ),
+        (
+            "blade.material.poisson_ratio",
+            "\"poisson_ratio\": 0.29",
+            "\"poisson_ratio\": -1",
+        ),
+        (
+            "blade.material.density_kg_per_m3",
+            "\"density_kg_per_m3\": 7800",
+            "\"density_kg_per_m3\": \"steel\"",
+        ),
+        ("mount.kind", "\"kind\": \"spline\"", "\"kind\": \"glue\""),
+        (
+            "guides[0].radius_m",
+            "\"radius_m\": 0.200",
+            "\"radius_m\": 0.6",
+        ),
+        (
+            "guides[0].radius_m",
+            "\"radius_m\": 0.200",
+            "\"radius_m\": 0.0, \"unused\": 1",
+        ),
+        (
+            "guides[0].stiffness_n_per_m",
+            "\"stiffness_n_per_m\": 2.0e7",
+            "\"stiffness_n_per_m\": -2.0e7",
+        ),
+        ("sweep.to_rpm", "\"to_rpm\": 3000", "\"to_rpm\": 0"),
+        ("measured.rows[0].rpm", "\"rpm\": 0,", "\"rpm\": -1,"),
+        (
+            "accuracy",
+            "\"operating_rpm\": 1800,",
+            "\"accuracy\": \"perfect\",",
+        ),
+    ];
+    for (key, line, instead) in cases {
+        // A key that is also unknown is named instead of the one that would follow.
+        let key = if instead.contains("unused") {
+            "guides[0].unused"
+        } else {
+            key
+        };
+        let message = refused_text(paper_with(line, instead).as_bytes());
+        assert!(
+            message.contains(&format!("{key}: ")) || message.contains(&format!("{key} is ")),
+            "{instead} should be refused as {key}, not as: {message}"
+        );
+    }
+}
+
+/// A pad beside the blade, not touching it: inside the bore.
+#[test]
+fn a_pad_off_the_blade_is_refused_and_told_where_the_blade_is() {
+    let mut file = Scene::paper().file;
+    file.guides[0].radius_m = 0.01;
+    file.guides[0].radial_length_m = 0.02;
+    file.guides[0].tangential_length_m = 0.02;
+    let message = refused_text(serde_json::to_string(&file).unwrap().as_bytes());
+    for part in [
+        "guides[0].radius_m is 0.01",
+        "off the blade",
+        "0.1",
+        "0.355",
+    ] {
+        assert!(message.contains(part), "no {part:?} in {message}");
+    }
+}
+
+#[test]
+fn what_is_no_scene_at_all_is_refused() {
+    for (text, expected) in [
+        ("", "empty"),
+        ("  \n\t ", "empty"),
+        ("{", "EOF"),
+        ("[]", "the scene"),
+        ("{} {}", "name"),
+        ("radius,thickness\n1,2\n", "the scene"),
+    ] {
+        let message = refused_text(text.as_bytes());
+        assert!(message.contains(expected), "{text:?}: {message}");
+    }
+    let twice = format!("{0}{0}", paper_with(THICKNESS, THICKNESS));
+    let message = refused_text(twice.as_bytes());
+    assert!(message.contains("trailing"), "{message}");
+    let message = refused_text(b"{\"name\": \"\xff\xfe\"}");
+    assert!(message.contains("UTF-8"), "{message}");
+}
+
+#[test]
+fn a_directory_and_a_missing_file_are_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let message = refused(folder.path());
+    assert!(message.contains("is a directory"), "{message}");
+    let missing = folder.path().join("no-such-scene.json");
+    let message = refused(&missing);
+    assert!(message.contains("no-such-scene.json"), "{message}");
+}
+
+/// A sparse file of 1 GB of zeros, read in a process that may not hold half of it.
+#[test]
+fn a_huge_file_is_refused_fast_and_in_little_memory() {
+    let folder = TempDir::new().unwrap();
+    let huge = folder.path().join("huge.json");
+    File::create(&huge).unwrap().set_len(1_000_000_000).unwrap();
+    let begun = Instant::now();
+    let message = refused(&huge);
+    assert!(message.contains("larger than"), "{message}");
+    let took = begun.elapsed();
+    assert!(took < Duration::from_secs(5), "{took:?}");
+
+    #[cfg(target_os = "linux")]
+    {
+        let output = Command::new("sh")
+            .arg("-c")
+            .arg("ulimit -v 500000 && exec \"$0\" analyze \"$1\" --out \"$2\"")
+            .arg(env!("CARGO_BIN_EXE_sawflutter"))
+            .args([&huge, &folder.path().join("out")])
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+        assert_eq!(text(&output.stderr), message);
+    }
+}
+
+/// Refused before the computation, not after it.
+#[test]
+fn an_output_folder_that_cannot_be_written_is_refused_at_once() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("file");
+    std::fs::write(&file, "mine").unwrap();
+    let mut places = vec![file.clone(), file.join("below")];
+    if cfg!(target_os = "linux") {
+        // Not even root can make a folder there.
+        places.push("/proc/sawflutter-out".into());
+    }
+    let locked = folder.path().join("locked");
+    std::fs::create_dir(&locked).unwrap();
+    let mut permissions = std::fs::metadata(&locked).unwrap().permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&locked, permissions).unwrap();
+    // Root writes where it likes.
+    if File::create(locked.join("probe")).is_err() {
+        places.push(locked.clone());
+        places.push(locked.join("below"));
+    }
+    for place in places {
+        let begun = Instant::now();
+        let output = sawflutter()
+            .args(["analyze", "--accuracy", "reference", "--out"])
+            .arg(&place)
+            .output()
+            .unwrap();
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.contains(place.to_str().unwrap()), "{message}");
+        assert_eq!(text(&output.stdout), "");
+        let took = begun.elapsed();
+        assert!(took < Duration::from_secs(2), "{place:?}: {took:?}");
+    }
+    assert_eq!(std::fs::read(&file).unwrap(), b"mine");
+}
+
+#[test]
+fn unknown_commands_and_options_are_refused_with_exit_code_2() {
+    for arguments in [
+        vec!["analyse"],
+        vec!["analyze", "--accuracy", "perfect"],
+        vec!["analyze", "--no-such-option"],
+    ] {
+        let folder = TempDir::new().unwrap();
+        let output = sawflutter()
+            .current_dir(&folder)
+            .args(&arguments)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert_eq!(text(&output.stdout), "");
+        assert!(names_in(folder.path()).is_empty());
+    }
+}
