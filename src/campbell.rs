@@ -55,7 +55,7 @@ fn check_memory(model: &SpectralModel, speeds: &[f64]) -> Result<(), SpectrumErr
     let Some(&last) = speeds.last() else {
         return Ok(());
     };
-    let modes = model.modes(last)?.len();
+    let modes = model.drawn_modes(last)?.len();
     // A shape and, at most as long, its projected coordinates; a share of each harmonic.
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();

@@ -29,8 +29,11 @@ impl Report {
     /// [`SpectrumError`] when the modes at rest or the limits of heat cannot be computed.
     pub fn new(scene: &Scene, analysis: &Analysis) -> Result<Self, SpectrumError> {
         let model = &analysis.model;
-        let at_rest = model.describe(0.0, model.modes(0.0)?);
         let samples = &analysis.chart.campbell.samples;
+        let at_rest = match samples.first() {
+            Some(sample) if sample.speed_rad_per_s == 0.0 => sample.modes.clone(),
+            _ => model.describe(0.0, model.modes(0.0)?),
+        };
         let errors = samples
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
