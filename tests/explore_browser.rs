@@ -238,6 +238,58 @@ fn a_pad_is_moved_and_put_back_by_keyboard_alone() {
     });
 }
 
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_stretch_of_speeds_is_magnified_and_let_go_again() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let all = page.value("sawflutter.speeds()").await;
+        assert_eq!(all, json!([0, 3000]));
+        drag(&page, "#campbell .u-over", 20, (8, 0)).await;
+        let_go(&page).await;
+        let some = page.value("sawflutter.speeds()").await;
+        let [from, to] = [0, 1].map(|end| some[end].as_f64().unwrap());
+        assert!(0.0 < from && from < to && to < 3000.0, "{some}");
+        page.screenshot("1280-magnified.png").await;
+        let over = page.find("#campbell .u-over").await;
+        let twice = hand(&page).double_click_element(&over);
+        twice.perform().await.unwrap();
+        assert_eq!(page.value("sawflutter.speeds()").await, all);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn heat_is_set_by_its_field() {
+    run(async {
+        let scene = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/scenes/collar-400mm-tensioned.json"
+        );
+        let page = Page::open(&[scene]).await;
+        page.settle().await;
+        let before = page.text("#facts").await;
+        let opened =
+            "document.querySelectorAll('[data-path^=membrane]').forEach((d) => (d.open = true))";
+        page.script(opened).await;
+        page.enter("membrane.temperature.rim_rise_k", "30").await;
+        page.settle().await;
+        let after = page.text("#facts").await;
+        assert!(
+            before.contains("33.6 K") && after.contains(" → "),
+            "{before} {after}"
+        );
+        page.screenshot("1280-heat.png").await;
+        let out = page.command_line().await;
+        let report = std::fs::read(out.join("report.json")).unwrap();
+        let report: Value = serde_json::from_slice(&report).unwrap();
+        assert!(same(&page.value("sawflutter.report()").await, &report));
+        page.close().await;
+    });
+}
+
 /// Prints the times from a move of the pointer to the painted chart that has it in.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]

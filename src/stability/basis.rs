@@ -11,7 +11,7 @@ use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Stop};
 
 /// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
 /// polynomials lose digits on narrow rings.
-const LADDER: [(usize, usize); 9] = [
+pub(super) const LADDER: [(usize, usize); 9] = [
     (4, 3),
     (6, 4),
     (8, 5),

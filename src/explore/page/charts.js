@@ -8,14 +8,28 @@ import { shown } from "./words.js";
 const FONT = "12px Inter, Helvetica, Arial, sans-serif";
 const NEAR_PX = 14;
 
-function axis(label, size, value = (v) => v) {
-  const values = (_, splits) => splits.map((v) => shown(value(v), 4));
-  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: value(2) === 2 ? 50 : 24, ticks: { size: 4 }, values };
+function axis(label, size, splits) {
+  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4));
+  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
+}
+
+// Growth rates stand on a root scale. Round ones are marked, as far apart as can be read.
+const ROUND = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000];
+function roundGrowth(_, __, least, most) {
+  const marked = [0];
+  let last = 0;
+  for (const root of ROUND.map(Math.sqrt)) {
+    if (root - last < 0.16 * (most - least)) continue;
+    if (root <= most) marked.push(root);
+    if (-root >= least) marked.unshift(-root);
+    last = root;
+  }
+  return marked;
 }
 
 // uPlot wants a series to spread its axes over; the branches have speeds of their own and are
 // drawn by hand.
-function plot(place, { height, label, value, yRange, draw, room, xLabel }) {
+function plot(place, { height, label, splits, yRange, draw, room, xLabel }) {
   let range = null;
   const options = {
     width: 600,
@@ -24,7 +38,7 @@ function plot(place, { height, label, value, yRange, draw, room, xLabel }) {
     legend: { show: false },
     cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
     scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
-    axes: [axis(xLabel, 28), axis(label, 46, value)],
+    axes: [axis(xLabel, 28), axis(label, 46, splits)],
     series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
     hooks: { drawAxes: [draw] },
   };
@@ -68,7 +82,7 @@ export class Charts {
       draw: (u) => this.#drawCampbell(u, narrow()),
     });
     this.growth = plot(growthPlace, {
-      height: 170, label: "Re λ [1/s]", value: (v) => v * Math.abs(v), room: () => room(), xLabel: "Rotation speed [rpm]",
+      height: 170, label: "Re λ [1/s]", splits: roundGrowth, room: () => room(), xLabel: "Rotation speed [rpm]",
       yRange: () => this.#growthRange(),
       draw: (u) => this.#drawGrowth(u),
     });
@@ -104,10 +118,15 @@ export class Charts {
     this.redraw();
   }
 
+  // The speeds that are shown.
+  get speeds() {
+    const { from_rpm, to_rpm } = this.report.campbell;
+    return this.#zoom ?? [from_rpm, to_rpm];
+  }
+
   redraw() {
     if (!this.report) return;
-    const { from_rpm, to_rpm } = this.report.campbell;
-    for (const part of [this.campbell, this.growth]) part.setRange(this.#zoom ?? [from_rpm, to_rpm]);
+    for (const part of [this.campbell, this.growth]) part.setRange(this.speeds);
   }
 
   // Both panels show the same speeds: a stretch dragged out in one, all of them on a double click.

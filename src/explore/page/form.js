@@ -123,7 +123,8 @@ export class Form {
   #list(schema, path, key, value) {
     const items = this.#resolve(schema.items);
     if (items.type === "string") return this.#lines(path, key);
-    const one = key.replace(/s$/, "");
+    const title = key.replaceAll("_", " ");
+    const one = title.replace(/(?<!s)s$/, "");
     const parts = (value ?? []).map((item, i) => {
       const at = `${path}[${i}]`;
       const out = this.#switch(at, `${one} ${i + 1}`, true);
@@ -138,7 +139,7 @@ export class Form {
       };
       this.state.change(more, { structure: true });
     });
-    return this.#details(path, `${key} (${parts.length})`, schema.description, ...parts, add);
+    return this.#details(path, `${title} (${parts.length})`, schema.description, ...parts, add);
   }
 
   #beginning(schema) {

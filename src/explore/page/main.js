@@ -36,6 +36,7 @@ seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
 seen.settled = () => seen.painted === JSON.stringify(state.scene);
 seen.report = () => latest.report;
+seen.speeds = () => charts.speeds;
 
 function motionColours() {
   const numbers = (text) => text.match(/\d+/g).map(Number);

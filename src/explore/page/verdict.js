@@ -10,6 +10,13 @@ function node(tag, properties = {}, ...children) {
 
 const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
 
+// Rise at which the first critical speed is that of operation, or the blade buckles before.
+function heatBorne({ membrane }) {
+  const heat = membrane?.heat;
+  if (!heat || heat.past_critical_when_cold) return null;
+  return (heat.operating_limit ?? heat.buckling)?.rise_k ?? null;
+}
+
 export function verdict(place, report) {
   const { operating, flutter_speed_rpm, flutter_threshold_per_s, instabilities } = report;
   const band = operating && operating.inside_instability !== null ? instabilities[operating.inside_instability] : null;
@@ -36,10 +43,11 @@ export function facts(place, report, pinned) {
     ["Fastest growth", (r) => r.instabilities.reduce((top, band) => Math.max(top, band.peak_growth_per_s), 0), (v) => `${shown(v, 3)} 1/s`],
     ["Of critical", (r) => r.operating?.of_lowest_critical ?? null, (v) => (v === null ? "–" : `${(100 * v).toFixed(1)} %`)],
   ];
+  if (report.membrane?.heat) rows.push(["Heat borne", heatBorne, (v) => (v === null ? "–" : `${shown(v, 3)} K`)]);
   place.replaceChildren(...rows.map(([name, value, words]) => {
     const [before, now] = [words(value(pinned)), words(value(report))];
     const changed = before !== now;
-    const text = changed ? `${before.replace(/ (rpm|1\/s|%)$/, "")} → ${now}` : now;
+    const text = changed ? `${before.replace(/ (rpm|1\/s|%|K)$/, "")} → ${now}` : now;
     return node("div", { className: changed ? "fact changed" : "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
   }));
 }
