@@ -49,24 +49,20 @@ pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
 /// Memory that the modes of a chart may take. A saw needs a tenth of it at most.
 const MEMORY_BUDGET_MB: usize = 1024;
 
-/// What the modes of a chart will take, judged by their number at the last speed, where
+/// What the modes of a chart will take, judged by the number of modes at the last speed, where
 /// there are most.
-fn check_memory(model: &SpectralModel, speeds: &[f64]) -> Result<(), SpectrumError> {
-    let Some(&last) = speeds.last() else {
-        return Ok(());
-    };
-    let modes = model.drawn_modes(last)?.len();
+fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<(), SpectrumError> {
     // A shape and, at most as long, its projected coordinates; a share of each harmonic.
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
     let one = size_of::<DescribedMode>() + shape + shares;
-    let needed_mb = (speeds.len() * modes * one) >> 20;
+    let needed_mb = (speeds * modes * one) >> 20;
     if needed_mb > MEMORY_BUDGET_MB {
         return Err(SpectrumError::TooLarge {
             needed_mb,
             allowed_mb: MEMORY_BUDGET_MB,
             modes,
-            speeds: speeds.len(),
+            speeds,
         });
     }
     Ok(())
@@ -76,28 +72,30 @@ fn check_memory(model: &SpectralModel, speeds: &[f64]) -> Result<(), SpectrumErr
 /// every bit in it, is that of the speeds.
 ///
 /// # Errors
-/// [`SpectrumError`] of the lowest speed that fails; [`SpectrumError::TooLarge`].
+/// [`SpectrumError`] of the last speed or of the lowest that fails; [`SpectrumError::TooLarge`].
 pub fn sample(
     model: &SpectralModel,
     speeds: &[f64],
     progress: Progress<'_>,
 ) -> Result<Vec<SpeedSample>, SpectrumError> {
-    check_memory(model, speeds)?;
+    let Some((last, others)) = speeds.split_last() else {
+        return Ok(Vec::new());
+    };
     let done = std::sync::atomic::AtomicUsize::new(0);
-    let samples: Vec<Result<SpeedSample, SpectrumError>> = speeds
-        .par_iter()
-        .map(|&speed_rad_per_s| {
-            let modes = model.drawn_modes(speed_rad_per_s)?;
-            let modes = model.describe(speed_rad_per_s, modes);
-            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            progress(so_far, speeds.len());
-            Ok(SpeedSample {
-                speed_rad_per_s,
-                modes,
-            })
+    let sampled = |speed_rad_per_s: &f64| {
+        let modes = model.drawn_modes(*speed_rad_per_s)?;
+        let modes = model.describe(*speed_rad_per_s, modes);
+        let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+        progress(so_far, speeds.len());
+        Ok(SpeedSample {
+            speed_rad_per_s: *speed_rad_per_s,
+            modes,
         })
-        .collect();
-    samples.into_iter().collect()
+    };
+    let last = sampled(last)?;
+    check_memory(model, last.modes.len(), speeds.len())?;
+    let samples: Vec<Result<SpeedSample, SpectrumError>> = others.par_iter().map(sampled).collect();
+    samples.into_iter().chain([Ok(last)]).collect()
 }
 
 impl Campbell {

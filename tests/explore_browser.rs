@@ -9,36 +9,9 @@ mod browser;
 
 use std::time::{Duration, Instant};
 
-use browser::{PATIENCE, Page, drag, hand, let_go, run};
+use browser::{PATIENCE, Page, drag, hand, let_go, percentile, run, same};
 use serde_json::{Value, json};
 use thirtyfour::Key;
-
-fn percentile(times: &Value, share: f64) -> f64 {
-    let mut times: Vec<f64> = times
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter_map(Value::as_f64)
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[((times.len() - 1) as f64 * share).round() as usize]
-}
-
-/// Equal to the last bit; JavaScript writes 1.0 as 1.
-fn same(left: &Value, right: &Value) -> bool {
-    match (left, right) {
-        (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),
-        (Value::Array(x), Value::Array(y)) => {
-            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same(x, y))
-        }
-        (Value::Object(x), Value::Object(y)) => {
-            x.len() == y.len()
-                && x.iter()
-                    .all(|(key, x)| y.get(key).is_some_and(|y| same(x, y)))
-        }
-        _ => left == right,
-    }
-}
 
 const PAD: &str = "[data-path='guides[0]'] .body";
 

@@ -36,16 +36,16 @@ enum Coupling {
 impl Coupling {
     fn new(matrix: Mat<f64>) -> Self {
         let size = matrix.nrows();
-        let entries = (0..size).flat_map(|k| (0..size).map(move |i| (i, k)));
-        let entries: Vec<_> = entries
-            .map(|(i, k)| (i, k, matrix[(i, k)]))
-            .filter(|(_, _, value)| *value != 0.0)
-            .collect();
+        let entries = || {
+            let places = (0..size).flat_map(|k| (0..size).map(move |i| (i, k)));
+            let entries = places.map(|(i, k)| (i, k, matrix[(i, k)]));
+            entries.filter(|(_, _, value)| *value != 0.0)
+        };
         // A triple moves three times the memory of a number, and in no order.
-        match entries.len() > size * size / 8 {
-            true => Coupling::Dense(matrix),
-            false => Coupling::Sparse(entries),
+        if entries().count() <= size * size / 8 {
+            return Coupling::Sparse(entries().collect());
         }
+        Coupling::Dense(matrix)
     }
 
     fn add_product(&self, x: ColRef<'_, f64>, sum: &mut Col<f64>) {
@@ -93,12 +93,12 @@ impl ShiftedInverse {
 /// Relative residual at which a Krylov vector is good enough to span a mode.
 const TOLERANCE: f64 = 1e-10;
 /// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
-/// all steps before it: most saws need no second one. Steps at least from one look to the next;
-/// later looks cost more, and are further apart.
+/// all steps before it: most saws need no second one.
 const STEPS_BEYOND: usize = 44;
+/// Steps at least from one look to the next; later looks cost more, and are further apart.
 const MORE_STEPS: usize = 16;
 /// Steps for each eigenvalue wanted, at most. A soft blade on a stiff bed has a cluster of
-/// modes next to its lowest one, where three are not enough.
+/// modes next to its lowest one, where four are not enough.
 const STEPS_EACH: usize = 12;
 
 /// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,

@@ -8,7 +8,7 @@ use crate::spectrum::SpectrumError;
 
 /// Relative accuracy in speed to which onsets are bracketed.
 const SPEED_TOLERANCE: f64 = 1e-11;
-/// Relative distance within which few states show where two real λ meet.
+/// Relative distance within which few states show where a pair merges.
 const NARROW: f64 = 1e-6;
 /// Relative width below which a crossing is not halved any more.
 const ROUGH_TOLERANCE: f64 = 1e-5;
@@ -84,19 +84,15 @@ fn narrowed(
 ) -> Result<Option<[Station; 2]>, SpectrumError> {
     let near = |speed| finder.station(speed);
     let speed = false_position(&near, apart, merged, place, 0.1 * NARROW)?;
-    let step = NARROW * (merged.speed_rad_per_s - apart.speed_rad_per_s).signum() * speed;
-    let sides = [speed - step, speed + step];
-    let between = (speed - apart.speed_rad_per_s).abs() > step.abs()
-        && (speed - merged.speed_rad_per_s).abs() > step.abs();
-    if !between {
+    let room = [apart, merged].map(|end| (speed - end.speed_rad_per_s).abs());
+    if room.iter().any(|room| *room <= NARROW * speed) {
         return Ok(None);
     }
-    let sides = [
-        finder.exact_station(sides[0])?,
-        finder.exact_station(sides[1])?,
-    ];
-    let same = sides[0].word() == apart.word() && sides[1].word() == merged.word();
-    Ok(same.then_some(sides))
+    let step = (merged.speed_rad_per_s - speed).signum() * NARROW * speed;
+    let before = finder.exact_station(speed - step)?;
+    let after = finder.exact_station(speed + step)?;
+    let same = before.word() == apart.word() && after.word() == merged.word();
+    Ok(same.then_some([before, after]))
 }
 
 /// Whether the token at a place of the doubled list is a real λ.

@@ -221,3 +221,30 @@ pub async fn drag(page: &Page, selector: &str, steps: usize, step: (i64, i64)) {
 pub async fn let_go(page: &Page) {
     hand(page).release().perform().await.unwrap();
 }
+
+pub fn percentile(times: &Value, share: f64) -> f64 {
+    let mut times: Vec<f64> = times
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[((times.len() - 1) as f64 * share).round() as usize]
+}
+
+/// Equal to the last bit; JavaScript writes 1.0 as 1.
+pub fn same(left: &Value, right: &Value) -> bool {
+    match (left, right) {
+        (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same(x, y))
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            x.len() == y.len()
+                && x.iter()
+                    .all(|(key, x)| y.get(key).is_some_and(|y| same(x, y)))
+        }
+        _ => left == right,
+    }
+}

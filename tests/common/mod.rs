@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::scene::{Accuracy, Mount, Scene, SceneFile};
 use sawflutter::spectrum::{Mode, SpectralModel, Strategy};
 
 /// A file that comes with the crate.
@@ -75,6 +75,40 @@ impl Worst {
 /// Modes of one harmonic of an unguided blade, by frequency: there every n is a part.
 pub fn of_diameters(modes: &[Mode], n: usize) -> impl Iterator<Item = &Mode> {
     modes.iter().filter(move |mode| mode.part == n)
+}
+
+/// A saw with lengths × L, masses × M and times × T: pressure is × M/LT², density × M/L³,
+/// stiffness × M/T².
+pub fn in_units(file: &SceneFile, [length, mass, time]: [f64; 3]) -> SceneFile {
+    let mut file = file.clone();
+    let blade = &mut file.blade;
+    blade.outer_diameter_m *= length;
+    blade.inner_diameter_m *= length;
+    blade.thickness_m *= length;
+    blade.material.youngs_modulus_pa *= mass / (length * time * time);
+    blade.material.density_kg_per_m3 *= mass / length.powi(3);
+    if let Mount::Collar { diameter_m, .. } = &mut file.mount {
+        *diameter_m *= length;
+    }
+    for pad in &mut file.guides {
+        pad.radius_m *= length;
+        pad.radial_length_m *= length;
+        pad.tangential_length_m *= length;
+        pad.stiffness_n_per_m *= mass / (time * time);
+    }
+    file
+}
+
+/// A root of the Bessel determinant of the annulus: λ² = ωb²√(ρh/D) of the s-th mode of n
+/// diameters. FF: both edges free, CF: bore clamped.
+#[derive(Debug, serde::Deserialize)]
+pub struct AnnulusRoot {
+    pub bc: String,
+    pub nu: f64,
+    pub ratio: f64,
+    pub n: usize,
+    pub s: usize,
+    pub lambda2: f64,
 }
 
 /// The records of a reference table, without its comments.

@@ -8,9 +8,11 @@ use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::fit::{Fit, FitError, Measurement, Options, Row, Start};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SceneFile, rad_per_s};
+use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 use std::f64::consts::TAU;
+
+use super::numbers::{freed, with};
 
 const RADIUS: &str = "guides[0].radius_m";
 const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
@@ -20,22 +22,6 @@ const SMALL: Resolution = Resolution {
     radial_functions: 3,
 };
 
-fn with(scene: &Scene, numbers: &[(&str, f64)]) -> Scene {
-    let named: Vec<(Parameter, f64)> = numbers
-        .iter()
-        .map(|(path, value)| (Parameter::new(path), *value))
-        .collect();
-    let numbers: Vec<(&Parameter, f64)> = named.iter().map(|(p, v)| (p, *v)).collect();
-    scene.file.with(&numbers).unwrap()
-}
-
-fn freed(scene: &Scene, numbers: &[(&str, f64, f64)]) -> Vec<Freed> {
-    let freed = numbers
-        .iter()
-        .map(|(path, from, to)| Freed::new(&scene.file, path, *from, *to).unwrap());
-    freed.collect()
-}
-
 fn table_5(scene: &Scene) -> Measurement {
     Measurement::of_scene(scene.file.measured.as_ref().unwrap()).up_to(1250.0)
 }
@@ -43,8 +29,9 @@ fn table_5(scene: &Scene) -> Measurement {
 /// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24
 /// numbers, 0.987 Hz rms. The free optimum is 0.195 m and 1.8e7 N/m, 0.984 Hz: the minimum is
 /// so flat that the rounding costs 0.003 Hz, and the 95 % interval of the radius is 30 mm to
-/// either side. It is found from a pad at the rim that is a hundred times softer. The angle of a single pad turns
-/// the saw as a whole: the data say nothing about it, and it stays at the paper's −55°.
+/// either side. It is found from a pad at the rim that is a hundred times softer. The angle of a
+/// single pad turns the saw as a whole: the data say nothing about it, and it stays at the paper's
+/// −55°.
 #[test]
 fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
     // On the basis that `design` asks for, which takes a minute: 0.1940 m, 2.08e7 N/m, 0.983 Hz.

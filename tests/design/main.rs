@@ -4,5 +4,6 @@
 mod common;
 
 mod fit;
+mod numbers;
 mod place;
 mod study;

@@ -6,9 +6,11 @@ use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::place::{Demands, Goal, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
+use sawflutter::scene::{Freed, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
+
+use super::numbers::{freed, with};
 
 const RADIUS: &str = "guides[0].radius_m";
 const ANGLE: &str = "guides[0].angle_deg";
@@ -26,22 +28,6 @@ fn quick() -> Options {
         map: 0,
         resolution: Some(SMALL),
     }
-}
-
-fn freed(scene: &Scene, numbers: &[(&str, f64, f64)]) -> Vec<Freed> {
-    let freed = numbers
-        .iter()
-        .map(|(path, from, to)| Freed::new(&scene.file, path, *from, *to).unwrap());
-    freed.collect()
-}
-
-fn with(scene: &Scene, numbers: &[(&str, f64)]) -> Scene {
-    let named: Vec<(Parameter, f64)> = numbers
-        .iter()
-        .map(|(path, value)| (Parameter::new(path), *value))
-        .collect();
-    let numbers: Vec<(&Parameter, f64)> = named.iter().map(|(p, v)| (p, *v)).collect();
-    scene.file.with(&numbers).unwrap()
 }
 
 /// A saw of `scenes/`, swept as far as the small basis holds its waves.
@@ -100,17 +86,17 @@ fn guides_that_turn_together_are_the_same_saw() {
     }
 }
 
+fn held(found: &Placement) -> Vec<&str> {
+    let held = found.without_effect.iter();
+    held.map(|f| f.parameter.path()).collect()
+}
+
 #[test]
 fn an_angle_that_means_nothing_is_held_and_named() {
     let one = swept("paper");
     let free = freed(&one, &[(RADIUS, 0.19, 0.21), (ANGLE, -90.0, 0.0)]);
     let found = place(&one, &free, &Demands::default(), &quick());
-    let held: Vec<&str> = found
-        .without_effect
-        .iter()
-        .map(|f| f.parameter.path())
-        .collect();
-    assert_eq!(held, [ANGLE]);
+    assert_eq!(held(&found), [ANGLE]);
     assert_eq!(found.scene.file.guides[0].angle_deg, -55.0);
     let two = swept("two-pads");
     let both = freed(
@@ -118,12 +104,7 @@ fn an_angle_that_means_nothing_is_held_and_named() {
         &[(ANGLE, -90.0, 0.0), ("guides[1].angle_deg", 30.0, 90.0)],
     );
     let found = place(&two, &both, &Demands::default(), &quick());
-    let held: Vec<&str> = found
-        .without_effect
-        .iter()
-        .map(|f| f.parameter.path())
-        .collect();
-    assert_eq!(held, [ANGLE]);
+    assert_eq!(held(&found), [ANGLE]);
 }
 
 /// Turned by 40°, saw and bounds together, the best saw is the same one, turned by 40°.

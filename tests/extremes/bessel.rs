@@ -3,23 +3,12 @@
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{InPlane, Material, Mount, Scene, rad_per_s};
 use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
-use serde::Deserialize;
 
-use crate::common;
+use crate::common::{self, AnnulusRoot};
 use crate::row::Row;
 use crate::saws::{scene, unguided};
 
-#[derive(Deserialize)]
-struct Root {
-    bc: String,
-    nu: f64,
-    ratio: f64,
-    n: usize,
-    s: usize,
-    lambda2: f64,
-}
-
-fn annulus(root: &Root) -> Scene {
+fn annulus(root: &AnnulusRoot) -> Scene {
     let mut file = unguided();
     let blade = &mut file.blade;
     blade.outer_diameter_m = 0.8;
@@ -54,13 +43,13 @@ fn lowest_root(scene: &Scene, n: usize, radial_functions: usize) -> f64 {
     lowest.unwrap().frequency_rad_per_s() / specific.sqrt() * blade.outer_radius_m.powi(2)
 }
 
-fn bessel(mut row: Row, functions: usize, chosen: impl Fn(&Root) -> bool) -> Row {
-    let roots: Vec<Root> = common::table("annulus_extreme.csv");
+fn bessel(mut row: Row, functions: usize, chosen: impl Fn(&AnnulusRoot) -> bool) -> Row {
+    let roots: Vec<AnnulusRoot> = common::table("annulus_extreme.csv");
     let mut count = 0;
     for root in roots.iter().filter(|root| chosen(root)) {
         assert_eq!(root.s, 0);
         let found = lowest_root(&annulus(root), root.n, functions);
-        let Root {
+        let AnnulusRoot {
             bc, nu, ratio, n, ..
         } = root;
         let place = format!("{bc}, nu = {nu}, a/b = {ratio}, n = {n}");

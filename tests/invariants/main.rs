@@ -6,5 +6,7 @@ mod common;
 mod draw;
 
 mod certified_bands;
+mod charts;
+mod draws;
 mod fuzz;
 mod properties;

@@ -4,20 +4,9 @@
 //! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
 //! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6.
 
-use crate::common::{Worst, of_diameters, reference_model, relative_error};
+use crate::common::{AnnulusRoot, Worst, of_diameters, reference_model, relative_error};
 use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::ModeKind;
-use serde::Deserialize;
-
-#[derive(Deserialize)]
-struct Root {
-    bc: String,
-    nu: f64,
-    ratio: f64,
-    n: usize,
-    s: usize,
-    lambda2: f64,
-}
 
 fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
     let mut file: SceneFile = Scene::paper().file;
@@ -46,7 +35,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
 
 /// Largest relative error over all roots with one s. Every n ≥ 1 must come twice.
 fn worst_of(bc: &str, s: usize) -> Worst {
-    let roots: Vec<Root> = crate::common::table("annulus_exact.csv");
+    let roots: Vec<AnnulusRoot> = crate::common::table("annulus_exact.csv");
     let mut ratios: Vec<f64> = roots.iter().map(|root| root.ratio).collect();
     ratios.dedup();
     ratios.sort_by(f64::total_cmp);
@@ -60,7 +49,7 @@ fn worst_of(bc: &str, s: usize) -> Worst {
         let blade = &scene.blade;
         let unit = (blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()).sqrt()
             / blade.outer_radius_m.powi(2);
-        let here = |root: &&Root| root.bc == bc && root.ratio == ratio && root.s == s;
+        let here = |root: &&AnnulusRoot| root.bc == bc && root.ratio == ratio && root.s == s;
         for root in roots.iter().filter(here) {
             assert_eq!(root.nu, 0.3);
             let elastic: Vec<f64> = of_diameters(&modes, root.n)

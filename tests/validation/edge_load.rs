@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use faer::{Col, Mat, Side};
 use sawflutter::plate::{BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
-use sawflutter::scene::{Blade, Scene, rad_per_s};
-use sawflutter::spectrum::companion_eigenpairs;
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::scene::{Blade, Scene};
+
+use super::saws::{fastest, paper_cut};
 
 fn plate_of(blade: Blade, max_diameters: usize, radial_functions: usize) -> Plate {
     let scene = Scene {
@@ -194,27 +194,10 @@ fn turning_the_forces_turns_the_blade() {
     }
 }
 
-/// Four equal loads, one pitch of 42 teeth apart, around θ = 0.
-fn paper_cut(tangential_n: f64, radial_n: f64) -> [RimForce; 4] {
-    [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
-        angle_rad: pitches * TAU / 42.0,
-        radial_n: -radial_n,
-        tangential_n: -tangential_n,
-    })
-}
-
 /// The fastest growing eigenvalue of the paper's saw in the cut: (1/s, Hz).
-fn fastest_in_the_cut(plate: &Plate, [tangential_n, radial_n]: [f64; 2], rpm: f64) -> (f64, f64) {
-    let (_, edge) = stiffness_under(plate, &paper_cut(tangential_n, radial_n));
-    let mut system = GyroscopicSystem::of_plate(plate);
-    system.stiffness += &edge;
-    let lambda = companion_eigenpairs(&system, rad_per_s(rpm))
-        .unwrap()
-        .into_iter()
-        .map(|(lambda, _)| lambda)
-        .max_by(|x, y| x.re.total_cmp(&y.re))
-        .unwrap();
-    (lambda.re, lambda.im / TAU)
+fn fastest_in_the_cut(plate: &Plate, newtons: [f64; 2], rpm: f64) -> (f64, f64) {
+    let (_, edge) = stiffness_under(plate, &paper_cut(newtons));
+    fastest(plate, &edge, rpm)
 }
 
 fn paper_plate(max_diameters: usize, radial_functions: usize) -> Plate {
@@ -258,6 +241,6 @@ fn print_the_papers_cut() {
     }
     let plate = paper_plate(24, 12);
     let start = Instant::now();
-    let (_, edge) = stiffness_under(&plate, &paper_cut(1240.0, 88.0));
+    let (_, edge) = stiffness_under(&plate, &paper_cut([1240.0, 88.0]));
     println!("K_e of order {} in {:?}", edge.nrows(), start.elapsed());
 }

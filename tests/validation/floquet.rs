@@ -50,17 +50,19 @@ fn monodromy(plate: &Plate, system: &GyroscopicSystem, speed: f64, steps: usize)
     total
 }
 
-fn assert_same_multipliers(speed_rpm: f64, unstable: bool) {
+fn small_plate() -> Plate {
     let mut scene = Scene::paper();
     // Softer than the paper's pad: stiff guides on a coarse basis need too many steps.
     scene.guides[0].stiffness_n_per_m = 2.0e6;
-    let plate = Plate::new(
-        &scene,
-        Resolution {
-            max_diameters: 3,
-            radial_functions: 2,
-        },
-    );
+    let resolution = Resolution {
+        max_diameters: 3,
+        radial_functions: 2,
+    };
+    Plate::new(&scene, resolution)
+}
+
+fn assert_same_multipliers(speed_rpm: f64, unstable: bool) {
+    let plate = small_plate();
     let system = GyroscopicSystem::of_plate(&plate);
     let speed = rad_per_s(speed_rpm);
     let pairs = companion_eigenpairs(&system, speed).unwrap();
@@ -97,15 +99,7 @@ fn floquet_multipliers_at_an_unstable_speed() {
 
 /// The first divergence or flutter of the small saw, by looking every 2 rpm.
 fn unstable_speed() -> f64 {
-    let mut scene = Scene::paper();
-    scene.guides[0].stiffness_n_per_m = 2.0e6;
-    let plate = Plate::new(
-        &scene,
-        Resolution {
-            max_diameters: 3,
-            radial_functions: 2,
-        },
-    );
+    let plate = small_plate();
     let system = GyroscopicSystem::of_plate(&plate);
     let grows = |rpm: &f64| {
         let pairs = companion_eigenpairs(&system, rad_per_s(*rpm)).unwrap();

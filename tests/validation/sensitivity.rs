@@ -1,31 +1,19 @@
 //! Derivatives of eigenvalues, critical speeds and onsets against central differences
 //! of whole analyses, with the numbers of the scene really moved.
 
-use sawflutter::plate::{Plate, Resolution};
+use sawflutter::plate::Resolution;
 use sawflutter::scene::{GuideFile, Parameter, Scene, SceneFile, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, chart, sensitivities};
+use sawflutter::stability::{Analysis, sensitivities};
+
+use super::saws::dense_analysis;
 
 const RESOLUTION: Resolution = Resolution {
     max_diameters: 5,
     radial_functions: 4,
 };
 
-/// On the whole basis, so that no projection differs between two scenes.
 fn analysis_of(scene: &Scene) -> Analysis {
-    let range = (rad_per_s(300.0), rad_per_s(2350.0));
-    let plate = Plate::new(scene, RESOLUTION);
-    let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
-    let chart = chart(&model, range, 40, &|_, _| ()).unwrap();
-    Analysis {
-        model,
-        range,
-        chart,
-        flutter_speed: None,
-        first_merge: None,
-        root_loci: None,
-        estimated_relative_error: None,
-    }
+    dense_analysis(scene, RESOLUTION, [300.0, 2350.0], 40)
 }
 
 /// The scene with one number moved by a share of the change that a sensitivity speaks of.

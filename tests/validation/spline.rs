@@ -4,14 +4,13 @@
 //! gives neither number nor shape of the spline teeth: 20 teeth, with flanks along the
 //! radius and at 30° to it, bracket what splines are like.
 
-use std::f64::consts::TAU;
-
 use faer::{Mat, Side};
-use sawflutter::plate::{Plate, Resolution, RimForce};
+use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, Spline, rad_per_s};
-use sawflutter::spectrum::companion_eigenpairs;
 use sawflutter::spline::{ReactionEffect, Run, SplineRun, reaction_effect, simulate};
 use sawflutter::system::GyroscopicSystem;
+
+use super::saws::{fastest, paper_cut};
 
 /// K and C of the paper in millimetres, N/mm^{3/2} and N/(mm/s)^{3/2}, and in metres.
 const IN_MILLIMETRES: [f64; 2] = [6.957e9, 4743.0];
@@ -31,34 +30,12 @@ fn paper_on_spline(degrees: f64, [stiffness, damping]: [f64; 2]) -> Scene {
     scene
 }
 
-/// [tangential, radial] newtons a tooth, against the rotation and inwards.
-fn paper_cut([tangential_n, radial_n]: [f64; 2]) -> [RimForce; 4] {
-    [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
-        angle_rad: pitches * TAU / 42.0,
-        radial_n: -radial_n,
-        tangential_n: -tangential_n,
-    })
-}
-
 fn plate() -> Plate {
     let resolution = Resolution {
         max_diameters: 8,
         radial_functions: 6,
     };
     Plate::new(&Scene::paper(), resolution)
-}
-
-/// The fastest growing eigenvalue: (1/s, Hz).
-fn fastest(plate: &Plate, edge: &Mat<f64>, rpm: f64) -> (f64, f64) {
-    let mut system = GyroscopicSystem::of_plate(plate);
-    system.stiffness += edge;
-    let lambda = companion_eigenpairs(&system, rad_per_s(rpm))
-        .unwrap()
-        .into_iter()
-        .map(|(lambda, _)| lambda)
-        .max_by(|x, y| x.re.total_cmp(&y.re))
-        .unwrap();
-    (lambda.re, lambda.im.abs() / TAU)
 }
 
 /// The modes of the guided blade at rest that a verdict is about.

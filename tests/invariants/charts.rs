@@ -1,0 +1,190 @@
+//! Goal: what is known beforehand of the chart of a saw drawn at random: no band is missing, no
+//! branch is lost, and neither threads nor projection change it.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+use proptest::prelude::*;
+use sawflutter::campbell::{Campbell, even_speeds, sample};
+use sawflutter::plate::Plate;
+use sawflutter::report::Report;
+use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
+use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy as Solver};
+use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
+
+use super::draws::*;
+
+/// The chart finds every band: its own certificate, the same identity, never fails.
+#[test]
+fn charts_of_random_saws_miss_nothing() {
+    let bands = std::cell::Cell::new(0);
+    check(5, any_saw(), |file| {
+        let range = (0.0, 1.5 * lowest_critical(&file));
+        let plate = Plate::new(&scene(&file), SMALL);
+        let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
+        let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
+        // Those of the even speeds that are above the lowest critical one.
+        prop_assert!(chart.certificate.speeds_checked >= 7);
+        prop_assert_eq!(chart.certificate.violations, Vec::<f64>::new());
+        let first = model.critical[0].speed_rad_per_s;
+        for band in &chart.instabilities {
+            prop_assert!(band.from >= first * (1.0 - 1e-9), "{:?}", band);
+            prop_assert!(band.to > band.from && band.peak_growth_per_s > 0.0);
+            prop_assert!((band.from..=band.to).contains(&band.peak), "{:?}", band);
+        }
+        bands.set(bands.get() + chart.instabilities.len());
+        Ok(())
+    });
+    println!("bands: {}", bands.get());
+    assert!(bands.get() > 0);
+}
+
+/// The modes of the projection are those of the whole basis, where it says they are.
+#[test]
+fn projected_modes_are_those_of_the_whole_basis() {
+    check(8, (any_saw(), 0.0..1.6_f64), |(file, share)| {
+        let top = 1.6 * lowest_critical(&file);
+        let speed = share / 1.6 * top;
+        let plate = Plate::new(&scene(&file), SMALL);
+        let model = SpectralModel::new(plate, (0.0, top), Solver::Reduced).unwrap();
+        let lambdas = |modes: Vec<sawflutter::spectrum::Mode>| -> Vec<c64> {
+            modes.iter().map(|mode| mode.lambda).collect()
+        };
+        let reduced = lambdas(model.modes(speed).unwrap());
+        let mut whole = lambdas(dense_model(&file, top).all_modes(speed).unwrap());
+        prop_assert!(reduced.len() >= 6 && reduced.len() <= whole.len());
+        whole.truncate(reduced.len());
+        // Modes are found to 1e-6, the stated accuracy of the projection.
+        let off = distance(&whole, &reduced);
+        prop_assert!(off <= 1e-6, "{} of {} Hz", off, speed / TAU);
+        Ok(())
+    });
+}
+
+/// The paper's blade with `count` equal pads, evenly spaced.
+fn evenly_guided(count: usize, pad: GuideFile) -> SceneFile {
+    let mut file = Scene::paper().file;
+    file.sweep = None;
+    file.guides = (0..count)
+        .map(|k| GuideFile {
+            angle_deg: pad.angle_deg + 360.0 * k as f64 / count as f64,
+            ..pad
+        })
+        .collect();
+    file
+}
+
+/// With S equal, evenly spaced pads only waves whose nodal diameters differ by, or add up to,
+/// a multiple of S are coupled: others cross exactly, and each wave that flutters is made of
+/// one class.
+#[test]
+fn evenly_spaced_pads_merge_only_waves_of_one_class() {
+    let seen = std::cell::Cell::new([0_usize; 2]);
+    check(8, (3_usize..=5, any_pad(0.355)), |(count, pad)| {
+        let file = evenly_guided(count, pad);
+        let plate = Plate::new(&scene(&file), SMALL);
+        let range = (0.0, 1.7 * lowest_critical(&file));
+        let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
+        let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
+        prop_assert_eq!(certificate.violations, Vec::<f64>::new());
+        let class = |n: usize| (n % count).min(count - n % count);
+        for band in bands.iter().filter(|b| b.kind == InstabilityKind::Flutter) {
+            let modes = model.modes(band.peak).unwrap();
+            let growing = modes.into_iter().filter(|m| m.kind == ModeKind::Flutter);
+            for mode in model.describe(band.peak, growing.collect()) {
+                let harmonics = mode.name.harmonics.iter().filter(|h| h.share > 1e-9);
+                let mut classes: Vec<usize> = harmonics.map(|h| class(h.diameters)).collect();
+                classes.dedup();
+                classes.sort_unstable();
+                classes.dedup();
+                prop_assert_eq!(classes.len(), 1, "{} pads: {:?}", count, mode.name);
+                let [crossings, merged] = seen.get();
+                seen.set([crossings, merged + 1]);
+            }
+        }
+        // Pairs of signs + and − of different classes that stand in one order at the lowest
+        // speed and in the other at the highest have crossed: count those, to be sure that
+        // there was something not to merge.
+        let stable = model.modes(range.1).unwrap();
+        let reflected = stable
+            .iter()
+            .filter(|m| m.kind == ModeKind::Negative)
+            .count();
+        let [crossings, merged] = seen.get();
+        seen.set([crossings + reflected, merged]);
+        Ok(())
+    });
+    println!("reflected waves, fluttering waves: {:?}", seen.get());
+    assert!(
+        seen.get().iter().all(|count| *count > 0),
+        "{:?}",
+        seen.get()
+    );
+}
+
+/// Following permutes the modes of a speed among the branches: each is in one branch, none in
+/// two, a branch has no gap, and the order in which the speeds come does not matter.
+#[test]
+fn branches_are_permuted_and_never_lost() {
+    check(6, (any_saw(), 8_usize..40), |(file, count)| {
+        let range = (0.0, 1.6 * lowest_critical(&file));
+        let plate = Plate::new(&scene(&file), SMALL);
+        let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
+        let samples = sample(&model, &even_speeds(range, count), &|_, _| ()).unwrap();
+        let campbell = Campbell::track(samples.clone());
+        let mut met: Vec<Vec<usize>> = campbell
+            .samples
+            .iter()
+            .map(|s| vec![0; s.modes.len()])
+            .collect();
+        for branch in &campbell.branches {
+            for pair in branch.points.windows(2) {
+                prop_assert_eq!(pair[1].0, pair[0].0 + 1);
+            }
+            for &(speed, mode) in &branch.points {
+                met[speed][mode] += 1;
+            }
+        }
+        prop_assert!(met.iter().flatten().all(|times| *times == 1));
+        let backwards = Campbell::track(samples.into_iter().rev().collect());
+        for (x, y) in campbell.branches.iter().zip(&backwards.branches) {
+            prop_assert_eq!(&x.points, &y.points);
+        }
+        Ok(())
+    });
+}
+
+/// The number of threads decides when, not what: reports agree to the last byte, and so do
+/// two runs after each other.
+#[test]
+fn any_number_of_threads_writes_the_same_report() {
+    let mut file = Scene::paper().file;
+    // A critical pair, two narrow bands and what lies between them.
+    file.sweep = Some(SweepFile {
+        from_rpm: 1500.0,
+        to_rpm: 2300.0,
+    });
+    let scene = Scene {
+        accuracy: Accuracy::Draft,
+        ..scene(&file)
+    };
+    let report = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            assert_eq!(rayon::current_num_threads(), threads);
+            let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+            serde_json::to_string(&Report::new(&scene, &analysis).unwrap()).unwrap()
+        })
+    };
+    let one = report(1);
+    assert!(one.contains("\"flutter\""));
+    for threads in [1, 2, 8] {
+        assert!(
+            one == report(threads),
+            "the report of {threads} threads differs"
+        );
+    }
+}

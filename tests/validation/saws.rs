@@ -1,0 +1,76 @@
+//! Saws of these tests, and what is computed of them in one way for all.
+
+use std::f64::consts::TAU;
+
+use faer::Mat;
+use sawflutter::plate::{Plate, Resolution, RimForce};
+use sawflutter::scene::{MembraneFile, Scene, rad_per_s};
+use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
+use sawflutter::stability::{Analysis, chart};
+use sawflutter::system::GyroscopicSystem;
+
+pub fn scene_with(base: &Scene, membrane: serde_json::Value) -> Scene {
+    let membrane: MembraneFile = serde_json::from_value(membrane).unwrap();
+    let mut file = base.file.clone();
+    file.membrane = Some(membrane);
+    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+pub fn collar() -> Scene {
+    crate::common::scene("collar-400mm")
+}
+
+pub fn heated(base: &Scene, rise_k: f64) -> Scene {
+    let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "rim_rise_k": rise_k });
+    scene_with(base, serde_json::json!({ "temperature": temperature }))
+}
+
+pub fn rolled(base: &Scene, eigenstrain: f64) -> Scene {
+    let band = serde_json::json!({ "radius_m": 0.10, "width_m": 0.02, "eigenstrain": eigenstrain });
+    scene_with(base, serde_json::json!({ "roll_tension": [band] }))
+}
+
+/// Four equal loads, one pitch of 42 teeth apart, around θ = 0: [tangential, radial] newtons a
+/// tooth, against the rotation and inwards.
+pub fn paper_cut([tangential_n, radial_n]: [f64; 2]) -> [RimForce; 4] {
+    [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
+        angle_rad: pitches * TAU / 42.0,
+        radial_n: -radial_n,
+        tangential_n: -tangential_n,
+    })
+}
+
+/// The fastest growing eigenvalue: (1/s, Hz).
+pub fn fastest(plate: &Plate, edge: &Mat<f64>, rpm: f64) -> (f64, f64) {
+    let mut system = GyroscopicSystem::of_plate(plate);
+    system.stiffness += edge;
+    let lambda = companion_eigenpairs(&system, rad_per_s(rpm))
+        .unwrap()
+        .into_iter()
+        .map(|(lambda, _)| lambda)
+        .max_by(|x, y| x.re.total_cmp(&y.re))
+        .unwrap();
+    (lambda.re, lambda.im.abs() / TAU)
+}
+
+/// On the whole basis, so that no projection differs between two scenes.
+pub fn dense_analysis(
+    scene: &Scene,
+    resolution: Resolution,
+    range_rpm: [f64; 2],
+    speeds: usize,
+) -> Analysis {
+    let range = range_rpm.map(rad_per_s).into();
+    let plate = Plate::new(scene, resolution);
+    let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
+    let chart = chart(&model, range, speeds, &|_, _| ()).unwrap();
+    Analysis {
+        model,
+        range,
+        chart,
+        flutter_speed: None,
+        first_merge: None,
+        root_loci: None,
+        estimated_relative_error: None,
+    }
+}
