@@ -22,6 +22,8 @@
 
 pub mod campbell;
 pub mod check;
+#[cfg(feature = "cli")]
+pub mod cli;
 #[cfg(feature = "explore")]
 pub mod explore;
 pub mod figure;

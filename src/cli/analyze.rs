@@ -1,10 +1,10 @@
 //! `sawflutter analyze`.
 
+use crate::figure;
+use crate::report::{Report, SensitivityEntry};
+use crate::stability::{Analysis, sensitivities};
 use clap::Args;
 use rayon::prelude::*;
-use sawflutter::figure;
-use sawflutter::report::{Report, SensitivityEntry};
-use sawflutter::stability::{Analysis, sensitivities};
 
 use super::common::{Common, progress_bar, show};
 use super::summary::summary;

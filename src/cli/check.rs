@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::PathBuf;
 
+use crate::check::{Check, Limits};
+use crate::figure;
+use crate::report::CheckReport;
+use crate::scene::{Scene, rad_per_s};
 use anyhow::{Context, bail};
 use clap::Args;
-use sawflutter::check::{Check, Limits};
-use sawflutter::figure;
-use sawflutter::report::CheckReport;
-use sawflutter::scene::{Scene, rad_per_s};
 
 use super::common::Input;
 use super::output::OutputFolder;

@@ -3,10 +3,10 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
+use crate::scene::{Accuracy, Scene};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use sawflutter::scene::{Accuracy, Scene};
 
 use super::output::OutputFolder;
 

@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
+use crate::figure;
+use crate::report::{CutReport, CutRunEntry, Verdict};
+use crate::scene::CutRun;
+use crate::transient::Cutting;
 use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
-use sawflutter::figure;
-use sawflutter::report::{CutReport, CutRunEntry, Verdict};
-use sawflutter::scene::CutRun;
-use sawflutter::transient::Cutting;
 
 use super::common::{Common, NamedFile, progress_bar, show};
 use super::summary::wrapped;

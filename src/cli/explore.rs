@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
+use crate::explore::{Options, serve};
 use clap::Args;
-use sawflutter::explore::{Options, serve};
 
 use super::common::Input;
 

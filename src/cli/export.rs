@@ -1,11 +1,11 @@
 //! `sawflutter export`.
 
+use crate::plate::{Plate, Resolution};
+use crate::stability::ChosenBasis;
+use crate::system::GyroscopicSystem;
 use anyhow::bail;
 use clap::Args;
 use faer::Mat;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::stability::ChosenBasis;
-use sawflutter::system::GyroscopicSystem;
 use serde_json::json;
 
 use super::common::{Common, NamedFile};

@@ -4,12 +4,12 @@ use std::fmt::Write;
 use std::io::Read;
 use std::path::PathBuf;
 
+use crate::figure;
+use crate::fit::{Fit, Measurement, Options};
+use crate::report::{FitReport, ParameterEntry};
+use crate::scene::Scene;
 use anyhow::{Context, bail};
 use clap::Args;
-use sawflutter::figure;
-use sawflutter::fit::{Fit, Measurement, Options};
-use sawflutter::report::{FitReport, ParameterEntry};
-use sawflutter::scene::Scene;
 
 use super::common::{Common, progress_bar, show};
 use super::free::{freed, number};
@@ -208,7 +208,7 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
     residuals(text, report)?;
     writeln!(text)?;
-    let reached = |s: &&sawflutter::report::StartEntry| s.rms_hz.is_some();
+    let reached = |s: &&crate::report::StartEntry| s.rms_hz.is_some();
     let best = report
         .starts
         .iter()

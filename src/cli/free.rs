@@ -1,7 +1,7 @@
 //! Numbers of a scene that a command may move: `--free guides[0].radius_m=0.15..0.3`.
 
+use crate::scene::{Freed, Scene};
 use anyhow::{Context, bail};
-use sawflutter::scene::{Freed, Scene};
 
 /// More numbers than these at once are beyond what a search can tell.
 const MAX_FREED: usize = 12;

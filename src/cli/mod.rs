@@ -18,6 +18,8 @@ mod study_summary;
 mod summary;
 mod tradeoff;
 
+use std::ffi::OsString;
+
 use clap::{Parser, Subcommand};
 
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
@@ -78,10 +80,31 @@ Examples:
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
 
-/// Runs the command that the arguments name; without one, `analyze`. False is a check
-/// that was not passed.
-pub fn run() -> anyhow::Result<bool> {
-    match Arguments::parse().command {
+/// Runs the command that arguments ask for, the first being the program's name. The exit code:
+/// 0 done, 1 a check failed, 2 refused or failed.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        // Help and version are printed too, and are no failure.
+        Err(refusal) => {
+            let _ = refusal.print();
+            return if refusal.use_stderr() { 2 } else { 0 };
+        }
+    };
+    match command(arguments.command) {
+        Ok(true) => 0,
+        Ok(false) => 1,
+        Err(error) if is_closed_pipe(&error) => 0,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            2
+        }
+    }
+}
+
+/// Runs a command; without one, `analyze`. False is a check that was not passed.
+fn command(command: Option<Command>) -> anyhow::Result<bool> {
+    match command {
         None => analyze::run(&analyze::Arguments::default()),
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
@@ -100,7 +123,7 @@ pub fn run() -> anyhow::Result<bool> {
 }
 
 /// A reader that has seen enough, like `head`, is no failure.
-pub fn is_closed_pipe(error: &anyhow::Error) -> bool {
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()
         .filter_map(|cause| cause.downcast_ref::<std::io::Error>())

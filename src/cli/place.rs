@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
+use crate::figure;
+use crate::place::{Demands, Goal, Options, Placement};
+use crate::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
+use crate::scene::{Scene, rad_per_s};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
-use sawflutter::figure;
-use sawflutter::place::{Demands, Goal, Options, Placement};
-use sawflutter::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
-use sawflutter::scene::{Scene, rad_per_s};
 
 use super::common::{Common, progress_bar, show};
 use super::free::{freed, number};

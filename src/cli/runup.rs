@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
+use crate::figure;
+use crate::report::{InstabilityKind, RunUpReport};
+use crate::transient::RunningUp;
 use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
-use sawflutter::figure;
-use sawflutter::report::{InstabilityKind, RunUpReport};
-use sawflutter::transient::RunningUp;
 
 use super::common::{Common, NamedFile, progress_bar, show};
 use super::summary::wrapped;

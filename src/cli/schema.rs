@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
+use crate::{scene, study};
 use clap::Args;
-use sawflutter::{scene, study};
 
 #[derive(Args)]
 pub struct Arguments {

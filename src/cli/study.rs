@@ -4,14 +4,14 @@ use std::io::{IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use crate::figure;
+use crate::scene::MAX_SCENE_BYTES;
+use crate::study::{
+    self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, read_inputs, read_log,
+};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
-use sawflutter::figure;
-use sawflutter::scene::MAX_SCENE_BYTES;
-use sawflutter::study::{
-    self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, read_inputs, read_log,
-};
 
 use super::common::{Finely, NamedFile, Output, read_scene};
 use super::output::OutputFolder;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use sawflutter::study::{Group, Passing, SpeedEntry, StudyReport};
+use crate::study::{Group, Passing, SpeedEntry, StudyReport};
 
 use super::summary::shortened;
 

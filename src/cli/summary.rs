@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use sawflutter::report::{HeatLimitEntry, InstabilityEntry, InstabilityKind, Report};
-use sawflutter::spectrum::{Direction, in_words};
+use crate::report::{HeatLimitEntry, InstabilityEntry, InstabilityKind, Report};
+use crate::spectrum::{Direction, in_words};
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 12;

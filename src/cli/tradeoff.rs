@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::figure;
+use crate::stability::{Method, Setting, recommended, tradeoff};
 use clap::Args;
-use sawflutter::figure;
-use sawflutter::stability::{Method, Setting, recommended, tradeoff};
 
 use super::common::{Common, progress_bar, show};
 
