@@ -43,7 +43,7 @@ type Figure = (&'static str, Vec<u8>);
 
 /// The figures that a scene has something to show in.
 fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
-    if scene.spline.is_some() {
+    if scene.spline().is_some() {
         // Another scene's saw on its spline: only that is new.
         return Ok(vec![("orbit.png", orbit(scene)?)]);
     }
@@ -54,24 +54,24 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     ];
     figures.extend(figure::root_loci_png(&report)?.map(|png| ("root-loci.png", png)));
     figures.extend(figure::membrane_png(&report)?.map(|png| ("membrane.png", png)));
-    if scene.cut.is_some() {
+    if scene.cut().is_some() {
         let report = cut(scene)?;
         figures.push(("cut.png", figure::cut_png(&report)?));
         figures.push(("cut-map.png", figure::cut_map_png(&report)?));
     }
-    if let Some(runup) = &scene.runup {
+    if let Some(runup) = &scene.runup() {
         let found = RunningUp::new(scene, runup, &|_, _| ())?;
         let report = RunUpReport::new(scene, runup, &found)?;
         figures.push(("runup.png", figure::runup_png(&report)?));
         figures.push(("response-map.png", figure::response_map_png(&report)?));
     }
-    if scene.operating_rad_per_s.is_some() && scene.guides.len() == 1 {
+    if scene.operating_rad_per_s().is_some() && scene.guides().len() == 1 {
         figures.push(("check.png", figure::check_png(&check(scene)?)?));
     }
-    if scene.file.measured.is_some() {
+    if scene.file().measured.is_some() {
         figures.push(("fit.png", figure::fit_png(&fit(scene)?)?));
     }
-    if scene.guides.len() > 1 {
+    if scene.guides().len() > 1 {
         let png = figure::place_png(&place(scene)?)?.context("it has a map")?;
         figures.push(("place.png", png));
     }
@@ -80,7 +80,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
 
 /// `sawflutter cut`.
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
-    let cut = scene.cut.as_ref().context("it has a cut")?;
+    let cut = scene.cut().context("it has a cut")?;
     let cutting = Cutting::new(scene, cut, &cut.runs, &|_, _| ())?;
     Ok(CutReport::new(scene, &cutting))
 }
@@ -103,7 +103,7 @@ fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
 /// `sawflutter fit --to-rpm 1250`.
 fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     let to_rpm = 1250.0;
-    let own = scene.file.measured.as_ref().context("it is measured")?;
+    let own = scene.file().measured.as_ref().context("it is measured")?;
     let measurement = Measurement::of_scene(own);
     let freed = ["radius_m", "stiffness_n_per_m"]
         .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
@@ -127,8 +127,8 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
 
 /// `sawflutter place` with the pad's radius and angle free.
 fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
-    let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.2, 0.3)?;
-    let angle = Freed::new(&scene.file, "guides[0].angle_deg", -120.0, 0.0)?;
+    let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.2, 0.3)?;
+    let angle = Freed::new(scene.file(), "guides[0].angle_deg", -120.0, 0.0)?;
     let options = sawflutter::place::Options {
         map: 21,
         ..Default::default()

@@ -214,10 +214,7 @@ mod tests {
 
     #[test]
     fn branches_of_the_free_blade_are_straight_through_every_crossing() {
-        let scene = Scene {
-            guides: Vec::new(),
-            ..Scene::paper()
-        };
+        let scene = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
         let plate = Plate::new(
             &scene,
             Resolution {

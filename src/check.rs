@@ -4,24 +4,35 @@
 //! use sawflutter::check::{Check, Limits};
 //! use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 //!
-//! let scene = Scene { accuracy: Accuracy::Draft, ..Scene::paper() };
+//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
 //! let limits = Limits {
 //!     min_critical_rad_per_s: Some(rad_per_s(1500.0)),
 //!     ..Limits::at(rad_per_s(1250.0))
 //! };
 //! let check = Check::new(&scene, &limits)?;
 //! assert!(check.passed(), "{:?}", check.failures());
-//! # Ok::<(), sawflutter::spectrum::SpectrumError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use faer::Col;
 use faer::linalg::solvers::Solve;
 
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, SpeedRange, rpm};
+use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT};
 use crate::system::GyroscopicSystem;
+
+/// Why a saw could not be held against limits.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// No sweep reaches as far as the limits ask.
+    #[error("the limits were refused: {0}")]
+    Scene(#[from] SceneError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
 
 /// What a saw has to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,24 +111,21 @@ impl Check {
     /// Analyses a saw as far as the limits ask, and compares.
     ///
     /// # Errors
-    /// [`SpectrumError`] when the saw cannot be analysed that far.
-    pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, SpectrumError> {
-        let swept = Scene {
-            sweep: Some(SpeedRange {
-                from_rad_per_s: 0.0,
-                to_rad_per_s: limits.reach_rad_per_s(),
-            }),
-            ..scene.clone()
-        };
+    /// [`CheckError`] when the saw cannot be analysed that far.
+    pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, CheckError> {
+        let swept = scene.swept(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: limits.reach_rad_per_s(),
+        })?;
         let analysis = Analysis::new(&swept, &|_, _| ())?;
-        let angle = scene.cut.as_ref().map_or(0.0, |cut| cut.angle_rad);
+        let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
         Ok(Check {
             criteria: limits.criteria(
                 analysis.model.critical.first().map(|c| c.speed_rad_per_s),
                 analysis.flutter_speed,
                 &analysis.chart.instabilities,
-                scene.flutter_threshold_per_s,
+                scene.flutter_threshold_per_s(),
             ),
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
             rim_stiffness_n_per_m: rim_stiffness_n_per_m(plate, angle, limits.operating_rad_per_s),

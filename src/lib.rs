@@ -10,7 +10,7 @@
 //! ```
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
 //!
-//! let scene = Scene { accuracy: Accuracy::Draft, ..Scene::paper() };
+//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
 //! let analysis = Analysis::new(&scene, &|_, _| ())?;
 //! let lowest = rpm(analysis.model.critical[0].speed_rad_per_s);
 //! assert!(1500.0 < lowest && lowest < 1600.0);

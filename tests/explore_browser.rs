@@ -77,11 +77,9 @@ fn a_bad_value_is_refused_at_its_field_and_the_chart_stays() {
             .await;
 
         let told = page.text("[id='blade.thickness_m:fault']").await;
-        let mut scene = sawflutter::scene::Scene::paper().file;
-        scene.blade.thickness_m = -2.8e-3;
-        let words = sawflutter::scene::Scene::try_from(scene)
-            .unwrap_err()
-            .to_string();
+        let paper = sawflutter::scene::Scene::paper();
+        let refused = paper.edited(|saw| saw.blade.thickness_m = -2.8e-3);
+        let words = refused.unwrap_err().to_string();
         assert_eq!(told, words, "not the library's own words at the field");
         assert_eq!(
             page.text("#facts").await,

@@ -28,10 +28,7 @@ fn main() {
 }
 
 fn measured(repeats: usize) -> Result<serde_json::Value, SpectrumError> {
-    let scene = Scene {
-        tolerance: Some(1e-3),
-        ..Scene::paper()
-    };
+    let scene = Scene::paper();
     let full_chart = || Analysis::new(&scene, &|_, _| ()).map(|_| ());
     let (swept, frequencies) = (|| sweep().map(|_| ()), sweep()?);
     let mut by_size = Vec::new();

@@ -35,7 +35,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let mut report = Report::new(&scene, &analysis)?;
     if arguments.sensitivity {
-        let at = scene.operating_rad_per_s.unwrap_or(analysis.range.0);
+        let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
         let found = sensitivities(&scene, &analysis, at)?;
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }

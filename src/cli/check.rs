@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
 fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     let operating = match arguments.operating_rpm {
         Some(rpm) => rad_per_s(speed("--operating-rpm", rpm)?),
-        None => scene.operating_rad_per_s.context(
+        None => scene.operating_rad_per_s().context(
             "--operating-rpm is missing, but must say how fast the saw is run; give it, or operating_rpm in the scene",
         )?,
     };

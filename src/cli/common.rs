@@ -85,14 +85,11 @@ impl Finely {
                 AccuracyName::Design => Accuracy::Design,
                 AccuracyName::Reference => Accuracy::Reference,
             };
-            scene.accuracy = accuracy;
-            scene.file.accuracy = accuracy;
-            (scene.tolerance, scene.file.tolerance) = (None, None);
+            scene = scene.edited(|file| (file.accuracy, file.tolerance) = (accuracy, None))?;
         }
         if let Some(tolerance) = self.tolerance {
-            let mut file = scene.file;
-            file.tolerance = Some(tolerance);
-            scene = Scene::try_from(file).context("--tolerance was refused")?;
+            let edited = scene.edited(|file| file.tolerance = Some(tolerance));
+            scene = edited.context("--tolerance was refused")?;
         }
         Ok(scene)
     }

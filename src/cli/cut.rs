@@ -33,7 +33,7 @@ pub struct Arguments {
 /// Computes a cut, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let Some(cut) = &scene.cut else {
+    let Some(cut) = &scene.cut() else {
         bail!(
             "cut is missing, but must say which forces act on the teeth; add it to the scene: `sawflutter schema` prints its keys"
         );

@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         }
     }
     let about = json!({
-        "scene": scene.file.name,
+        "scene": scene.file().name,
         "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
         "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
         "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; mass matrix one",

@@ -123,7 +123,7 @@ fn options(arguments: &Arguments) -> anyhow::Result<Options> {
 
 fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measurement> {
     let Some(path) = &arguments.measured else {
-        let own = scene.file.measured.as_ref().context(
+        let own = scene.file().measured.as_ref().context(
             "measured is missing, but must say what was measured; give a table after the scene, or write it into the scene",
         )?;
         return Ok(Measurement::of_scene(own));
@@ -149,7 +149,7 @@ fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measureme
 /// What is hardly ever known of a saw: where the guides act and how stiff they are. Angles are
 /// seen only between guides. Without guides: density.
 fn usual_paths(scene: &Scene) -> Vec<String> {
-    let count = scene.file.guides.len();
+    let count = scene.file().guides.len();
     if count == 0 {
         return vec!["blade.material.density_kg_per_m3".into()];
     }

@@ -36,7 +36,7 @@ fn parse(scene: &Scene, text: &str) -> anyhow::Result<Freed> {
     let Some((Ok(from), Ok(to))) = bounds else {
         bail!("the range is {range:?}, but must be two numbers; write it like 0.15..0.3");
     };
-    Ok(Freed::new(&scene.file, path.trim(), from, to)?)
+    Ok(Freed::new(scene.file(), path.trim(), from, to)?)
 }
 
 /// A number of a range, its ends included.

@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         map: arguments.map,
         ..Options::default()
     };
-    let usual: Vec<String> = match scene.file.guides.first() {
+    let usual: Vec<String> = match scene.file().guides.first() {
         Some(_) => ["radius_m", "angle_deg", "stiffness_n_per_m"]
             .map(|name| format!("guides[0].{name}"))
             .to_vec(),
@@ -130,7 +130,7 @@ fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
     let goal = match arguments.goal {
         GoalName::Flutter => Goal::FlutterSpeed,
         GoalName::Window => Goal::StableWindow {
-            around_rad_per_s: scene.operating_rad_per_s.context(
+            around_rad_per_s: scene.operating_rad_per_s().context(
                 "operating_rpm is missing, but must say how fast the saw is run; write it into the scene",
             )?,
         },

@@ -29,7 +29,7 @@ pub struct Arguments {
 /// Computes a run-up, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let Some(runup) = &scene.runup else {
+    let Some(runup) = &scene.runup() else {
         bail!(
             "runup is missing, but must say from and to which speed, in which time and under which force; add it to the scene: `sawflutter schema` prints its keys"
         );

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::figure;
-use crate::scene::MAX_SCENE_BYTES;
+use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::study::{
     self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, read_inputs, read_log,
 };
@@ -76,7 +76,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = read_scene(scene.context("a scene is missing")?)?;
     let scene = arguments.finely.applied(scene)?;
     let study = read_study(file.context("a study is missing")?)?;
-    let study = Study::new(scene.file, study).context("the study was refused")?;
+    let study = Study::new(scene, study).context("the study was refused")?;
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     let mut finished = vec![None; study.count()];
@@ -112,8 +112,9 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
         );
     };
     let inputs = read_inputs(first)?;
-    let study = Study::new(inputs.scene, inputs.study)
-        .with_context(|| format!("the study of {} was refused", first.display()))?;
+    let refused = || format!("the study of {} was refused", first.display());
+    let scene = Scene::try_from(inputs.scene).with_context(refused)?;
+    let study = Study::new(scene, inputs.study).with_context(refused)?;
     let mut finished = vec![None; study.count()];
     for log in &logs {
         keep(&mut finished, read_log(log, &study)?);

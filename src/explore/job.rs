@@ -131,10 +131,10 @@ mod tests {
     /// error of its own and not with a chart.
     #[test]
     fn an_analysis_that_is_asked_to_stop_does_not_finish() {
-        let scene = Scene {
-            accuracy: Accuracy::Draft,
-            ..Scene::paper()
-        };
+        let paper = Scene::paper();
+        let scene = paper
+            .edited(|file| file.accuracy = Accuracy::Draft)
+            .unwrap();
         let started = Instant::now();
         Analysis::new(&scene, &|_, _| ()).unwrap();
         let whole = started.elapsed();

@@ -27,9 +27,9 @@ impl Start {
     /// For a scene.
     pub fn new(scene: &Scene) -> Self {
         Start {
-            scene: scene.file.clone(),
+            scene: scene.file().clone(),
             schema: json_schema(),
-            measured: Scene::paper().file.measured,
+            measured: Scene::paper().file().measured.clone(),
             colours: figure::PALETTE,
             version: env!("CARGO_PKG_VERSION"),
         }
@@ -125,7 +125,8 @@ impl Charts {
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
             Fidelity::Draft => {
-                (scene.accuracy, scene.tolerance) = (Accuracy::Draft, None);
+                scene = scene
+                    .edited(|file| (file.accuracy, file.tolerance) = (Accuracy::Draft, None))?;
                 Detail::Sketch
             }
             Fidelity::Scene => Detail::Full,
@@ -206,7 +207,7 @@ impl SavedFile {
     pub fn content(self, scene: &str, stop: &Stop) -> Result<Vec<u8>, Refusal> {
         let scene = Scene::from_json(scene)?;
         if self == SavedFile::Scene {
-            return pretty(&scene.file);
+            return pretty(scene.file());
         }
         let report = Report::new(
             &scene,

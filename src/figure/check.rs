@@ -168,10 +168,8 @@ mod tests {
 
     #[test]
     fn limits_that_are_kept_and_limits_that_are_not_are_told_apart() {
-        let scene = Scene {
-            accuracy: Accuracy::Draft,
-            ..Scene::paper()
-        };
+        let paper = Scene::paper();
+        let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
         let limits = Limits {
             min_flutter_rad_per_s: Some(rad_per_s(2800.0)),
             min_critical_rad_per_s: Some(rad_per_s(1500.0)),

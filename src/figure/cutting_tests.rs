@@ -8,18 +8,15 @@ use crate::transient::{Cutting, RunningUp};
 
 /// As many speeds as make two rows.
 fn cut_report(scene: &Scene) -> CutReport {
-    let cut = scene.cut.as_ref().unwrap();
+    let cut = scene.cut().unwrap();
     let runs = [1800.0, 2800.0, 2600.0].map(|rpm| cut.at_rpm(rpm).unwrap());
     let cutting = Cutting::new(scene, cut, &runs, &|_, _| ()).unwrap();
     CutReport::new(scene, &cutting)
 }
 
 fn draft() -> Scene {
-    let scene = include_str!("../../scenes/paper-spline.json");
-    Scene {
-        accuracy: Accuracy::Draft,
-        ..Scene::from_json(scene).unwrap()
-    }
+    let scene = Scene::from_json(include_str!("../../scenes/paper-spline.json")).unwrap();
+    scene.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap()
 }
 
 #[test]
@@ -43,7 +40,7 @@ fn the_figures_of_a_cut_are_tidy_and_say_the_verdict() {
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn without_a_lateral_force_the_figure_is_a_flat_line() {
     let scene = draft();
-    let cut = scene.cut.as_ref().unwrap();
+    let cut = scene.cut().unwrap();
     let run = CutRun {
         lateral_n: 0.0,
         ..cut.at_rpm(2800.0).unwrap()
@@ -63,17 +60,15 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_figures_of_a_run_up_are_tidy() {
-    let scene = Scene {
-        accuracy: Accuracy::Draft,
-        ..Scene::paper()
-    };
+    let paper = Scene::paper();
+    let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
     let runup = RunUp {
         speeds: SpeedRange {
             from_rad_per_s: 0.0,
             to_rad_per_s: rad_per_s(2000.0),
         },
         duration_s: 10.0,
-        ..scene.runup.unwrap()
+        ..*scene.runup().unwrap()
     };
     let found = RunningUp::new(&scene, &runup, &|_, _| ()).unwrap();
     let report = RunUpReport::new(&scene, &runup, &found).unwrap();

@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn nothing_is_cut_off_or_hidden() {
         let scene = Scene::paper();
-        let table = Measurement::of_scene(scene.file.measured.as_ref().unwrap());
+        let table = Measurement::of_scene(scene.file().measured.as_ref().unwrap());
         let freed = Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap();
         let options = Options {
             starts: 1,

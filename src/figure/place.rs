@@ -259,7 +259,7 @@ mod tests {
         let rows = if y_path.is_some() { 3 } else { 1 };
         PlaceReport {
             sawflutter: "0".into(),
-            scene: Scene::paper().file,
+            scene: Scene::paper().file().clone(),
             goal: GoalEntry::FlutterSpeed,
             min_critical_rpm: Some(1500.0),
             kept: true,

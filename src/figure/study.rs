@@ -222,7 +222,7 @@ mod tests {
     fn report(critical: impl Fn(f64) -> Option<f64>) -> StudyReport {
         let text = include_str!("../../scenes/studies/paper-tolerances.json");
         let file = StudyFile::from_json(text).unwrap();
-        let study = Study::new(Scene::paper().file, file).unwrap();
+        let study = Study::new(Scene::paper(), file).unwrap();
         let saw = |index: usize| {
             let share = (index as f64 + 0.5) / study.count() as f64;
             let lowest = critical(share);

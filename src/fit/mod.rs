@@ -12,9 +12,9 @@
 //! use sawflutter::scene::{Freed, Scene};
 //!
 //! let scene = Scene::paper();
-//! let measured = scene.file.measured.as_ref().expect("the paper's Table 5");
+//! let measured = scene.file().measured.as_ref().expect("the paper's Table 5");
 //! let measurement = Measurement::of_scene(measured).up_to(1250.0);
-//! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.1, 0.355)?;
+//! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.1, 0.355)?;
 //! let small = Resolution { max_diameters: 8, radial_functions: 4 };
 //! let options = Options { resolution: Some(small), ..Options::default() };
 //! let fit = Fit::new(&scene, &measurement, &[radius], &options, &|_, _| ())?;
@@ -32,7 +32,7 @@ use rayon::prelude::*;
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{
-    Freed, Scene, SceneError, SceneFile, SpeedRange, common_turn, rad_per_s, scene_at, spread,
+    Freed, Scene, SceneError, SpeedRange, common_turn, rad_per_s, scene_at, spread,
 };
 use crate::spectrum::{LowestModes, SpectrumError};
 use crate::stability::ChosenBasis;
@@ -150,7 +150,7 @@ impl Fit {
             return Err(FitError::TooFew { measured, free });
         }
         let model = |resolution| Model {
-            scene: &scene.file,
+            scene: scene.file(),
             freed: &freed,
             measurement,
             resolution,
@@ -163,7 +163,7 @@ impl Fit {
         let (resolution, estimated_relative_error) = match options.resolution {
             Some(resolution) => (resolution, None),
             None => {
-                let near = scene_at(&scene.file, &freed, &best.shares)?;
+                let near = scene_at(scene.file(), &freed, &best.shares)?;
                 let (resolution, error) = basis(&near, measurement, scene.tolerance())?;
                 (resolution, Some(error))
             }
@@ -175,7 +175,7 @@ impl Fit {
             .collect::<Result<_, _>>()?;
         let best = lowest(refined.into_iter().flatten()).unwrap_or_else(|| best.clone());
         let spread = statistics(&fine, &best.shares, options.confidence)?;
-        let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+        let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
         let before = fine.residuals_hz(&own)?;
         Ok(Fit {
             scene: calibrated(scene, measurement, &freed, &best)?,
@@ -234,16 +234,12 @@ fn basis(
     scene: &Scene,
     measurement: &Measurement,
     tolerance: f64,
-) -> Result<(Resolution, f64), SpectrumError> {
-    let sweep = SpeedRange {
+) -> Result<(Resolution, f64), FitError> {
+    let swept = scene.swept(SpeedRange {
         from_rad_per_s: 0.0,
         to_rad_per_s: rad_per_s(measurement.top_rpm()),
-    };
-    let scene = Scene {
-        sweep: Some(sweep),
-        ..scene.clone()
-    };
-    let chosen = ChosenBasis::new(&scene, tolerance)?;
+    })?;
+    let chosen = ChosenBasis::new(&swept, tolerance)?;
     Ok((chosen.plate.resolution, chosen.estimated_relative_error))
 }
 
@@ -257,12 +253,12 @@ fn effective(
     resolution: Resolution,
 ) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
     let model = Model {
-        scene: &scene.file,
+        scene: scene.file(),
         freed,
         measurement,
         resolution,
     };
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
     let held = common_turn(scene, freed);
     let moves = |k: usize| -> Result<bool, SpectrumError> {
         if held == Some(k) {
@@ -359,17 +355,18 @@ fn calibrated(
     freed: &[Freed],
     best: &Found,
 ) -> Result<Scene, SceneError> {
-    let mut file: SceneFile = scene_at(&scene.file, freed, &best.shares)?.file;
     let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
-    file.notes.push(format!(
+    let note = format!(
         "{}: fitted to {} measured frequencies ({}), {:.4} Hz rms",
         names.join(", "),
         measurement.count(),
         measurement.source,
         best.rms_hz
-    ));
-    if file.measured.is_none() {
-        file.measured = measurement.as_scene_block();
-    }
-    Scene::try_from(file)
+    );
+    scene_at(scene.file(), freed, &best.shares)?.edited(|file| {
+        file.notes.push(note);
+        if file.measured.is_none() {
+            file.measured = measurement.as_scene_block();
+        }
+    })
 }

@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn slopes_are_those_of_differences() {
-        let scene = Scene::paper().file;
+        let scene = Scene::paper().file().clone();
         let measurement = Measurement::of_scene(scene.measured.as_ref().unwrap()).up_to(1250.0);
         let freed = [
             ("guides[0].radius_m", 0.15, 0.3),

@@ -13,7 +13,7 @@
 //! use sawflutter::scene::{Freed, Scene};
 //!
 //! let scene = Scene::paper();
-//! let radius = Freed::new(&scene.file, "guides[0].radius_m", 0.18, 0.28)?;
+//! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.18, 0.28)?;
 //! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
 //! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0 };
 //! let found = Placement::new(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
@@ -203,25 +203,24 @@ impl Placement {
         if freed.is_empty() {
             return Err(PlaceError::NothingFree);
         }
-        let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+        let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
         let coarse = Search {
-            scene: &scene.file,
+            scene: scene.file(),
             freed: &freed,
             question: &question,
             evaluations: &evaluations,
         };
         let (candidate, map) = look_everywhere(&coarse, &own, options, progress)?;
         if options.resolution.is_none() {
-            let near = scene_at(&scene.file, &freed, &candidate.shares)?;
-            let sweep = Some(SpeedRange {
+            let near = scene_at(scene.file(), &freed, &candidate.shares)?;
+            let near = near.swept(SpeedRange {
                 from_rad_per_s: question.range.0,
                 to_rad_per_s: question.range.1,
-            });
-            let near = Scene { sweep, ..near };
+            })?;
             question.resolution = ChosenBasis::new(&near, scene.tolerance())?.plate.resolution;
         }
         let fine = Search {
-            scene: &scene.file,
+            scene: scene.file(),
             freed: &freed,
             question: &question,
             evaluations: &evaluations,
@@ -322,12 +321,12 @@ fn effective(
     evaluations: &AtomicUsize,
 ) -> (Vec<Freed>, Vec<Freed>) {
     let search = Search {
-        scene: &scene.file,
+        scene: scene.file(),
         freed,
         question,
         evaluations,
     };
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
     let held = common_turn(scene, freed);
     let speeds = |shares: &[f64]| -> Option<[f64; 3]> {
         let outcome = search.outcome(shares)?;
@@ -368,9 +367,7 @@ fn effective(
 
 /// The scene with what was found and a note of where it comes from.
 fn placed(scene: &Scene, freed: &[Freed], best: &Tried) -> Result<Scene, SceneError> {
-    let mut file = scene_at(&scene.file, freed, &best.shares)?.file;
     let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
-    file.notes
-        .push(format!("{}: placed by optimization", names.join(", ")));
-    Scene::try_from(file)
+    let note = format!("{}: placed by optimization", names.join(", "));
+    scene_at(scene.file(), freed, &best.shares)?.edited(|file| file.notes.push(note))
 }

@@ -53,7 +53,7 @@ impl Question {
             _ => 0.0,
         };
         let (bands, _) = search_bands(plate, critical, self.range)?;
-        let threshold = scene.flutter_threshold_per_s;
+        let threshold = scene.flutter_threshold_per_s();
         let (_, strong) = first_flutter(&bands, threshold);
         let flutter = strong.map(|band| band.from);
         let window = match self.goal {

@@ -86,7 +86,7 @@ mod tests {
     /// Before the exact zeros are written, quadrature alone must give them to rounding.
     #[test]
     fn rigid_motions_cost_nothing() {
-        let blade = Scene::paper().blade;
+        let blade = *Scene::paper().blade();
         let basis = RadialBasis::new(&blade, 8);
         let stress = CentrifugalStress::new(&blade);
         for (j, _) in [(0, ()), (3, ())] {

@@ -87,12 +87,12 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
 impl Plate {
     /// Assembles the matrices that the scene asks for.
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
-        let basis = RadialBasis::new(&scene.blade, resolution.radial_functions);
+        let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let mut harmonics: Vec<HarmonicBlock> = (0..=resolution.max_diameters)
-            .map(|n| HarmonicBlock::new(&scene.blade, &basis, n))
+            .map(|n| HarmonicBlock::new(scene.blade(), &basis, n))
             .collect();
-        let membrane = scene.membrane.as_ref();
-        let membrane = membrane.and_then(|named| MembraneStress::new(&scene.blade, named));
+        let membrane = scene.membrane();
+        let membrane = membrane.and_then(|named| MembraneStress::new(scene.blade(), named));
         if let Some(stress) = &membrane {
             let stiffness = membrane_stiffness(&basis, stress, resolution.max_diameters);
             for (harmonic, block) in harmonics.iter_mut().zip(stiffness) {
@@ -100,23 +100,23 @@ impl Plate {
             }
         }
         let samples = [0, 1].map(|n| {
-            sampled_radii(&scene.blade)
+            sampled_radii(scene.blade())
                 .map(|r| basis.evaluate(n, r).value)
                 .collect()
         });
         let mut plate = Plate {
-            blade: scene.blade,
+            blade: *scene.blade(),
             resolution,
             basis,
             harmonics,
             guide_stiffness: None,
             guide_damping: None,
             edge_stiffness: None,
-            damping: scene.damping,
+            damping: scene.damping(),
             membrane,
             samples,
         };
-        for guide in &scene.guides {
+        for guide in scene.guides() {
             plate.add_guide(guide);
         }
         plate
@@ -228,15 +228,12 @@ impl Plate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{BladeFile, SceneFile};
+    use crate::scene::GuideFile;
 
-    fn plate_with(guides: &[Guide]) -> Plate {
-        let scene = Scene {
-            guides: guides.to_vec(),
-            ..Scene::paper()
-        };
+    fn plate_with(guides: &[GuideFile]) -> Plate {
+        let scene = Scene::paper().edited(|saw| saw.guides = guides.to_vec());
         Plate::new(
-            &scene,
+            &scene.unwrap(),
             Resolution {
                 max_diameters: 5,
                 radial_functions: 4,
@@ -251,9 +248,9 @@ mod tests {
     /// The pad's integral by brute force: midpoint rule over the rectangle.
     #[test]
     fn a_clipped_pad_equals_its_midpoint_sum() {
-        let pad = Guide {
+        let pad = GuideFile {
             radius_m: 0.32,
-            angle_rad: -0.9,
+            angle_deg: -52.0,
             radial_length_m: 0.15,
             tangential_length_m: 0.30,
             stiffness_n_per_m: 2.0e7,
@@ -269,7 +266,7 @@ mod tests {
                 let y = -0.15 + (f64::from(k) + 0.5) * dy;
                 let (r, psi) = (x.hypot(y), y.atan2(x));
                 if (plate.blade.inner_radius_m..=plate.blade.outer_radius_m).contains(&r) {
-                    let f = plate.functions_at(r, psi + pad.angle_rad);
+                    let f = plate.functions_at(r, psi + pad.angle_deg.to_radians());
                     let f = faer::Col::from_fn(f.len(), |i| f[i]);
                     sum += faer::Scale(2.0e7 * dx * dy / (0.15 * 0.30)) * &f * f.transpose();
                 }
@@ -282,9 +279,9 @@ mod tests {
 
     #[test]
     fn a_pad_larger_than_the_blade_is_a_uniform_bed() {
-        let pad = Guide {
+        let pad = GuideFile {
             radius_m: 0.0,
-            angle_rad: 0.3,
+            angle_deg: 20.0,
             radial_length_m: 2.0,
             tangential_length_m: 2.0,
             stiffness_n_per_m: 4.0e6,
@@ -300,9 +297,9 @@ mod tests {
 
     #[test]
     fn a_small_pad_tends_to_a_point_spring() {
-        let pad = |size: f64| Guide {
+        let pad = |size: f64| GuideFile {
             radius_m: 0.2,
-            angle_rad: 1.1,
+            angle_deg: 63.0,
             radial_length_m: size,
             tangential_length_m: size,
             stiffness_n_per_m: 1.0e6,
@@ -323,10 +320,6 @@ mod tests {
     fn what_the_scene_does_not_name_is_not_assembled() {
         let plate = plate_with(&[]);
         assert!(plate.is_axisymmetric() && plate.damping.is_none());
-        let SceneFile {
-            blade: BladeFile { teeth, .. },
-            ..
-        } = Scene::paper().file;
-        assert_eq!(teeth, Some(42));
+        assert_eq!(Scene::paper().file().blade.teeth, Some(42));
     }
 }

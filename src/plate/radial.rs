@@ -211,7 +211,7 @@ mod tests {
     use crate::scene::Scene;
 
     fn paper_basis(functions: usize) -> RadialBasis {
-        RadialBasis::new(&Scene::paper().blade, functions)
+        RadialBasis::new(Scene::paper().blade(), functions)
     }
 
     #[test]

@@ -55,7 +55,7 @@ mod tests {
     fn blade(bore: Bore) -> Blade {
         Blade {
             bore,
-            ..Scene::paper().blade
+            ..*Scene::paper().blade()
         }
     }
 

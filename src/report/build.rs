@@ -41,7 +41,7 @@ impl Report {
         let resolution = model.plate.resolution;
         Ok(Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: scene.file.clone(),
+            scene: scene.file().clone(),
             terms: terms(&model.plate),
             modes_at_rest: at_rest.iter().map(|m| rest_mode(analysis, m)).collect(),
             critical_speeds: critical_speeds(analysis),
@@ -53,12 +53,12 @@ impl Report {
                 .collect(),
             flutter_speed_rpm: analysis.flutter_speed.map(rpm),
             first_merge_rpm: analysis.first_merge.map(rpm),
-            flutter_threshold_per_s: scene.flutter_threshold_per_s,
+            flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             operating: scene
-                .operating_rad_per_s
+                .operating_rad_per_s()
                 .map(|speed| operating(analysis, speed)),
             accuracy: AccuracyEntry {
-                name: scene.accuracy,
+                name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
                 radial_functions: resolution.radial_functions,
                 degrees_of_freedom: resolution.degrees_of_freedom(),

@@ -63,7 +63,7 @@ impl CheckReport {
         let bands = analysis.chart.instabilities.iter();
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: scene.file.clone(),
+            scene: scene.file().clone(),
             passed: check.passed(),
             criteria: check.criteria.iter().map(CriterionEntry::from).collect(),
             operating_rpm: rpm(limits.operating_rad_per_s),
@@ -74,7 +74,7 @@ impl CheckReport {
                 .map(rpm)
                 .collect(),
             instabilities: bands.map(InstabilityEntry::from).collect(),
-            flutter_threshold_per_s: scene.flutter_threshold_per_s,
+            flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
             rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,
             estimated_relative_error: analysis.estimated_relative_error,

@@ -146,12 +146,12 @@ impl CutReport {
             .iter()
             .map(|run| CutRunEntry::new(scene, run))
             .collect();
-        let thickness_m = scene.blade.thickness_m;
+        let thickness_m = scene.blade().thickness_m;
         CutReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: scene.file.clone(),
+            scene: scene.file().clone(),
             degrees_of_freedom: cutting.plate.degrees_of_freedom(),
-            flutter_threshold_per_s: scene.flutter_threshold_per_s,
+            flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             tooth_angles_deg: cutting
                 .cut
                 .tooth_angles_rad()
@@ -233,7 +233,7 @@ impl CutRunEntry {
 impl VerdictMapEntry {
     fn new(scene: &Scene, map: &VerdictMap) -> Self {
         let guide_deg = scene
-            .guides
+            .guides()
             .first()
             .map_or(0.0, |guide| guide.angle_rad.to_degrees());
         let angle = |turn: &f64| guide_deg + turn.to_degrees();
@@ -307,7 +307,7 @@ fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
 
 impl Verdict {
     pub(super) fn of(scene: &Scene, growth_per_s: f64) -> Self {
-        if growth_per_s >= scene.flutter_threshold_per_s && growth_per_s > 0.0 {
+        if growth_per_s >= scene.flutter_threshold_per_s() && growth_per_s > 0.0 {
             Verdict::Unstable
         } else {
             Verdict::Stable

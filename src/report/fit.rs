@@ -136,7 +136,7 @@ impl FitReport {
         let fitted = measurement.up_to(to_rpm);
         Ok(FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: fit.scene.file.clone(),
+            scene: fit.scene.file().clone(),
             source: measurement.source.clone(),
             confidence,
             parameters: fit.parameters.iter().map(ParameterEntry::from).collect(),

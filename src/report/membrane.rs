@@ -90,7 +90,7 @@ impl MembraneEntry {
             plate.blade.outer_radius_m,
         );
         let at = |r: &f64| stress.map(|stress| stress.at(*r)).unwrap_or_default();
-        let temperature = scene.membrane.as_ref().and_then(|m| m.temperature.as_ref());
+        let temperature = scene.membrane().and_then(|m| m.temperature.as_ref());
         let heat = heat
             .zip(temperature)
             .map(|(limits, temperature)| HeatEntry {

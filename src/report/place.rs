@@ -141,7 +141,7 @@ impl PlaceReport {
         let neighbours = &found.neighbours;
         PlaceReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: found.scene.file.clone(),
+            scene: found.scene.file().clone(),
             goal: match demands.goal {
                 Goal::FlutterSpeed => GoalEntry::FlutterSpeed,
                 Goal::StableWindow { .. } => GoalEntry::StableWindow,
@@ -150,7 +150,7 @@ impl PlaceReport {
             kept: found.best.is_kept(),
             from_rpm: rpm(found.range.0),
             to_rpm: rpm(found.range.1),
-            flutter_threshold_per_s: found.scene.flutter_threshold_per_s,
+            flutter_threshold_per_s: found.scene.flutter_threshold_per_s(),
             parameters: parameters(found),
             without_effect: found
                 .without_effect
@@ -264,7 +264,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     if !found.best.is_kept() {
         warnings.push("no saw between the bounds keeps the limit on the critical speed; this one comes nearest".into());
     }
-    if scene.cut.is_some() {
+    if scene.cut().is_some() {
         warnings.push(
             "the forces of the cut are left out; hold the result against `sawflutter cut`".into(),
         );

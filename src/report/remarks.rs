@@ -81,7 +81,7 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
 }
 
 fn uncalibrated(scene: &Scene) -> Option<String> {
-    let mut guides = scene.guides.iter();
+    let mut guides = scene.guides().iter();
     let stiff = guides.any(|guide| guide.stiffness_n_per_m > CALIBRATED_N_PER_M);
     stiff.then(|| {
         format!(
@@ -99,7 +99,7 @@ fn thick(blade: &Blade) -> Option<String> {
 }
 
 fn out_of_balance(scene: &Scene) -> Option<String> {
-    let residual = scene.membrane.as_ref()?.residual_stress.as_ref()?;
+    let residual = scene.membrane()?.residual_stress.as_ref()?;
     (residual.imbalance != 0.0).then(|| {
         format!(
             "the measured hoop stress is out of balance by {:.1} % of its size; its mean was \

@@ -62,7 +62,7 @@ impl SplineEntry {
             stiffness_change: found.stiffness_change,
             force_n: reaction.force_n,
             torque_n_m: reaction.torque_n_m,
-            clearance_m: scene.spline.map_or(0.0, |spline| spline.clearance_m),
+            clearance_m: scene.spline().map_or(0.0, |spline| spline.clearance_m),
             teeth_in_contact: teeth.in_contact,
             peak_tooth_n: teeth.peak_n,
             deepest_m: teeth.deepest_m,

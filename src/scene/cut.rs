@@ -287,7 +287,7 @@ mod tests {
     use crate::scene::Scene;
 
     fn with(change: impl FnOnce(&mut SceneFile, &mut CutFile)) -> Result<Cut, SceneError> {
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         let mut cut = file.cut.take().unwrap();
         change(&mut file, &mut cut);
         file.cut = Some(cut);

@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn bounds_that_no_saw_has_are_refused() {
-        let scene = Scene::paper().file;
+        let scene = Scene::paper().file().clone();
         for (path, from, to, expected) in [
             ("guides[0].radius_m", 0.3, 0.2, "the range of"),
             ("guides[0].radius_m", 0.2, 3.0, "guides[0].radius_m"),

@@ -14,6 +14,7 @@ mod residual;
 mod runup;
 mod spline;
 mod validate;
+mod validated;
 
 pub(crate) use check::MAX_RPM;
 pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
@@ -34,7 +35,7 @@ pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use residual::{ResidualStress, ResidualStressRow};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
-pub use validate::{Blade, Bore, Damping, Scene, SpeedRange};
+pub use validated::{Blade, Bore, Damping, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.
 pub fn rad_per_s(rpm: f64) -> f64 {

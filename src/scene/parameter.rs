@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_number_is_read_and_replaced_by_its_path() {
-        let paper = Scene::paper().file;
+        let paper = Scene::paper().file().clone();
         let radius = Parameter::new("guides[0].radius_m");
         let density = Parameter::new("blade.material.density_kg_per_m3");
         assert_eq!(radius.get(&paper).unwrap(), 0.2);
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn what_no_scene_has_is_refused_by_name() {
-        let paper = Scene::paper().file;
+        let paper = Scene::paper().file().clone();
         for path in ["guides[1].radius_m", "guides", "name", "", "blade..x", "]"] {
             let parameter = Parameter::new(path);
             let error = parameter.get(&paper).unwrap_err().to_string();

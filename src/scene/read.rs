@@ -76,7 +76,8 @@ impl Scene {
     ///
     /// # Errors
     /// [`SceneError`] with the JSON path of the offending key.
-    pub fn from_path(path: &Path) -> Result<Self, SceneError> {
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
         let unreadable = |source| SceneError::Read {
             path: path.to_owned(),
             source,

@@ -140,7 +140,7 @@ mod tests {
     use crate::scene::{InPlane, Scene};
 
     fn with(change: impl FnOnce(&mut SceneFile, &mut SplineFile)) -> Result<Scene, SceneError> {
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         let mut spline = SplineFile {
             teeth: 20,
             pressure_angle_deg: 30.0,

@@ -3,115 +3,14 @@
 
 use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
-use super::guide::{Guide, guide};
+use super::guide::guide;
 use super::membrane::Membrane;
 use super::runup::{Probe, RunUp};
-use super::{
-    Accuracy, DampingFile, InPlane, Material, Mount, SceneError, SceneFile, Spline, SweepFile,
-    rad_per_s,
-};
-
-/// A validated saw.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
-    /// What the user typed, for reports.
-    pub file: SceneFile,
-    /// The part of the blade that moves.
-    pub blade: Blade,
-    /// Guide pads with a stiffness or a damping.
-    pub guides: Vec<Guide>,
-    /// Damping, if any number of it is not zero.
-    pub damping: Option<Damping>,
-    /// Membrane stress from heat, roll tension or as measured.
-    pub membrane: Option<Membrane>,
-    /// Contact between bore and arbor, if its motion is asked for.
-    pub spline: Option<Spline>,
-    /// Speeds asked for; `None` leaves the choice to the program.
-    pub sweep: Option<SpeedRange>,
-    /// Speed at which the saw is run.
-    pub operating_rad_per_s: Option<f64>,
-    /// Speed for accuracy.
-    pub accuracy: Accuracy,
-    /// Relative error allowed instead of that of the name.
-    pub tolerance: Option<f64>,
-    /// Growth rate from which a band counts as flutter of the saw.
-    pub flutter_threshold_per_s: f64,
-    /// Forces of the wood on the teeth.
-    pub cut: Option<Cut>,
-    /// Run-up under a lateral force.
-    pub runup: Option<RunUp>,
-    /// Where the deflection is read.
-    pub probe: Probe,
-}
-
-/// The moving annulus a < r < b.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blade {
-    /// Inner radius a: the bore of a spline blade, the edge of a collar.
-    pub inner_radius_m: f64,
-    /// Outer radius b.
-    pub outer_radius_m: f64,
-    /// Thickness h.
-    pub thickness_m: f64,
-    /// Material.
-    pub material: Material,
-    /// What happens at r = a.
-    pub bore: Bore,
-}
-
-/// Condition at the inner radius, in bending and in plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bore {
-    /// Spline: free in bending and in plane.
-    Free,
-    /// Collar: clamped in bending, in plane as stated.
-    Clamped(InPlane),
-}
-
-/// Damping of the blade.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Damping {
-    /// Kelvin–Voigt retardation time η, in the body frame.
-    pub material_retardation_time_s: f64,
-    /// Air resistance per area, in the space-fixed frame.
-    pub air_n_s_per_m3: f64,
-}
-
-/// Range of rotation speeds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedRange {
-    /// First speed.
-    pub from_rad_per_s: f64,
-    /// Last speed.
-    pub to_rad_per_s: f64,
-}
+use super::validated::{Blade, Bore, Damping, Scene, SpeedRange};
+use super::{DampingFile, Material, Mount, SceneError, SceneFile, Spline, SweepFile, rad_per_s};
 
 /// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-6.
 const TOLERANCES: (f64, f64) = (1e-6, 0.1);
-
-impl Scene {
-    /// Relative error allowed of critical speeds and onsets.
-    pub fn tolerance(&self) -> f64 {
-        self.tolerance.unwrap_or(self.accuracy.tolerance())
-    }
-}
-
-impl Blade {
-    /// Bending stiffness D = E h³ / 12(1 − ν²), in N·m.
-    pub fn flexural_rigidity_n_m(&self) -> f64 {
-        let Material {
-            youngs_modulus_pa: e,
-            poisson_ratio: nu,
-            ..
-        } = self.material;
-        e * self.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu))
-    }
-
-    /// Mass per area ρh, in kg/m².
-    pub fn mass_per_area_kg_per_m2(&self) -> f64 {
-        self.material.density_kg_per_m3 * self.thickness_m
-    }
-}
 
 impl TryFrom<SceneFile> for Scene {
     type Error = SceneError;
@@ -155,11 +54,10 @@ impl TryFrom<SceneFile> for Scene {
                 .operating_rpm
                 .map(|rpm| within("operating_rpm", rpm, (0.0, MAX_RPM)).map(rad_per_s))
                 .transpose()?,
-            accuracy: file.accuracy,
-            tolerance: file
-                .tolerance
-                .map(|share| within("tolerance", share, TOLERANCES))
-                .transpose()?,
+            tolerance: match file.tolerance {
+                Some(share) => within("tolerance", share, TOLERANCES)?,
+                None => file.accuracy.tolerance(),
+            },
             flutter_threshold_per_s: within(
                 "flutter_threshold_per_s",
                 file.flutter_threshold_per_s,
@@ -284,9 +182,7 @@ mod tests {
     use super::*;
 
     fn with(change: impl FnOnce(&mut SceneFile)) -> Result<Scene, SceneError> {
-        let mut file = Scene::paper().file;
-        change(&mut file);
-        Scene::try_from(file)
+        Scene::paper().edited(change)
     }
 
     #[test]

@@ -72,10 +72,7 @@ mod tests {
             max_diameters: 8,
             radial_functions: 5,
         };
-        let free = Scene {
-            guides: Vec::new(),
-            ..Scene::paper()
-        };
+        let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
         for scene in [Scene::paper(), free] {
             let plate = Plate::new(&scene, resolution);
             let lowest = LowestModes::new(&plate);

@@ -249,11 +249,13 @@ mod tests {
     /// A ring of rubber on a stiff bed with a damper: every mode next to the lowest.
     #[test]
     fn a_cluster_of_modes_is_found() {
-        let mut scene = Scene::paper();
-        scene.blade.material.youngs_modulus_pa = 2e7;
-        let bed = &mut scene.guides[0];
-        bed.damping_n_s_per_m = 5.0;
-        (bed.radius_m, bed.radial_length_m, bed.tangential_length_m) = (0.0, 2.0, 2.0);
+        let scene = Scene::paper().edited(|saw| {
+            saw.blade.material.youngs_modulus_pa = 2e7;
+            let bed = &mut saw.guides[0];
+            bed.damping_n_s_per_m = 5.0;
+            (bed.radius_m, bed.radial_length_m, bed.tangential_length_m) = (0.0, 2.0, 2.0);
+        });
+        let scene = scene.unwrap();
         let resolution = Resolution {
             max_diameters: 16,
             radial_functions: 5,

@@ -13,9 +13,9 @@ use super::*;
 fn one_tooth_is_pressed_in_by_the_closed_form() {
     let scene = scene_with(|spline| {
         spline.teeth = 1;
-        spline.pressure_angle_rad = 0.0;
+        spline.pressure_angle_deg = 0.0;
     });
-    let contact = Contact::new(scene.spline.as_ref().unwrap());
+    let contact = Contact::new(scene.spline().unwrap());
     for force in [1e-3, 78.0, 4000.0] {
         // At θ = 0 along −y, with the torque that puts its line on the tooth.
         let seat = contact.seat(Vector3::new(0.0, -force, -force)).unwrap();
@@ -41,10 +41,10 @@ fn many_teeth_share_a_push_as_the_static_balance_says() {
         for clearance_m in [0.0, 0.25e-3] {
             let scene = scene_with(|spline| {
                 spline.teeth = teeth;
-                spline.pressure_angle_rad = f64::to_radians(degrees);
+                spline.pressure_angle_deg = degrees;
                 spline.clearance_m = clearance_m;
             });
-            let contact = Contact::new(scene.spline.as_ref().unwrap());
+            let contact = Contact::new(scene.spline().unwrap());
             let (sin, cos) = f64::to_radians(degrees).sin_cos();
             let resistance = |x: f64| {
                 let mut sum = 0.0;
@@ -87,7 +87,7 @@ proptest! {
             spline.contact_stiffness_n_per_m_3_2 = stiffness;
             spline.contact_damping_n_s_3_2_per_m_3_2 = damping;
         });
-        let contact = Contact::new(scene.spline.as_ref().unwrap());
+        let contact = Contact::new(scene.spline().unwrap());
         let [force, elastic] = contact.force(approach, speed);
         prop_assert!(force >= 0.0 && elastic >= 0.0);
         prop_assert!(approach > 0.0 || force == 0.0);
@@ -100,7 +100,7 @@ proptest! {
         speed in prop::array::uniform3(-5.0..5.0_f64),
     ) {
         let scene = scene_with(|_| ());
-        let contact = Contact::new(scene.spline.as_ref().unwrap());
+        let contact = Contact::new(scene.spline().unwrap());
         for touch in contact.touches(q.into(), speed.into()) {
             let [radial, _] = touch.radial_and_tangential_n();
             prop_assert!(touch.force_n >= 0.0 && radial >= 0.0);
@@ -112,7 +112,7 @@ proptest! {
     #[test]
     fn forces_follow_from_the_energy(q in prop::array::uniform3(-2e-3..2e-3_f64)) {
         let scene = scene_with(|_| ());
-        let contact = Contact::new(scene.spline.as_ref().unwrap());
+        let contact = Contact::new(scene.spline().unwrap());
         let q = Vector3::from(q);
         let force: Vector3<f64> = contact
             .touches(q, Vector3::zeros())

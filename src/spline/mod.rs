@@ -143,9 +143,9 @@ pub fn simulate(
     speed_rad_per_s: f64,
     run: &Run,
 ) -> Result<SplineRun, SplineError> {
-    let spline = scene.spline.as_ref().ok_or(SplineError::NotAsked)?;
-    let load = PlaneLoad::new(&scene.blade, loads, spline.weight_angle_rad);
-    let motion = InPlaneMotion::new(&scene.blade, spline, load, speed_rad_per_s)?;
+    let spline = scene.spline().ok_or(SplineError::NotAsked)?;
+    let load = PlaneLoad::new(scene.blade(), loads, spline.weight_angle_rad);
+    let motion = InPlaneMotion::new(scene.blade(), spline, load, speed_rad_per_s)?;
     motion.run(run)
 }
 

@@ -82,7 +82,7 @@ impl Analysis {
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
             (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, &[], progress)?,
         };
-        let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s);
+        let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s());
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
         let loci = model.is_conservative() && detail == Detail::Full;
         let followed = strong.or(first).filter(|_| loci);

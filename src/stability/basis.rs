@@ -63,8 +63,8 @@ impl ChosenBasis {
     /// # Errors
     /// Those of [`ChosenBasis::new`]; [`SpectrumError::Stopped`].
     pub fn stoppable(scene: &Scene, tolerance: f64, stop: &Stop) -> Result<Self, SpectrumError> {
-        let fastest = fastest_rad_per_s(&scene.blade);
-        if let Some(sweep) = scene.sweep.filter(|sweep| sweep.to_rad_per_s > fastest) {
+        let fastest = fastest_rad_per_s(scene.blade());
+        if let Some(sweep) = scene.sweep().filter(|sweep| sweep.to_rad_per_s > fastest) {
             return Err(SpectrumError::Overstretched {
                 to_rpm: rpm(sweep.to_rad_per_s),
                 limit_rpm: rpm(fastest),
@@ -81,7 +81,7 @@ impl ChosenBasis {
             };
             let plate = Plate::new(scene, resolution);
             let critical = SpectralModel::critical_speeds(&plate)?;
-            let range = match scene.sweep {
+            let range = match scene.sweep() {
                 Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
                 None => (0.0, default_top(&critical).min(fastest)),
             };
@@ -184,22 +184,24 @@ mod tests {
     /// Hoop strain ρ(Ωb)²/E of the paper's blade: a tenth at 43 400 rpm.
     #[test]
     fn no_sweep_goes_to_where_the_blade_would_be_torn() {
-        let mut scene = Scene::paper();
-        scene.sweep = Some(SpeedRange {
+        let torn = Scene::paper().swept(SpeedRange {
             from_rad_per_s: 0.0,
             to_rad_per_s: rad_per_s(43_500.0),
         });
-        match ChosenBasis::new(&scene, 1e-2) {
+        match ChosenBasis::new(&torn.unwrap(), 1e-2) {
             Err(SpectrumError::Overstretched { limit_rpm, .. }) => {
                 assert!((limit_rpm - 43_400.0).abs() < 50.0, "{limit_rpm}");
             }
             other => panic!("{other:?}"),
         }
         // A blade nearly as thick as wide would be torn before its first critical speed.
-        scene.sweep = None;
-        scene.blade.thickness_m = 0.25;
+        let thick = Scene::paper().edited(|saw| {
+            saw.sweep = None;
+            saw.blade.thickness_m = 0.25;
+        });
+        let scene = thick.unwrap();
         let chosen = ChosenBasis::new(&scene, 1e-2).unwrap();
-        assert_eq!(chosen.range.1, fastest_rad_per_s(&scene.blade));
+        assert_eq!(chosen.range.1, fastest_rad_per_s(scene.blade()));
         assert!(chosen.critical[0].speed_rad_per_s > chosen.range.1);
     }
 }

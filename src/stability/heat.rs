@@ -74,7 +74,7 @@ impl HeatLimits {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(scene: &Scene, model: &SpectralModel) -> Result<Option<Self>, SpectrumError> {
-        let membrane = scene.membrane.as_ref();
+        let membrane = scene.membrane();
         let Some(temperature) = membrane.and_then(|m| m.temperature.as_ref()) else {
             return Ok(None);
         };
@@ -83,13 +83,13 @@ impl HeatLimits {
         let buckling = heating.limit(0.0, now_k, hotter)?;
         let colder = heating.limit(0.0, now_k, -hotter)?;
         let flat_from = colder.filter(|limit| limit.rise_k * hotter > 0.0);
-        let (operating, past_critical) = match scene.operating_rad_per_s {
+        let (operating, past_critical) = match scene.operating_rad_per_s() {
             Some(speed) => heating.operating(speed)?,
             None => (None, false),
         };
         let before = |buckling: HeatLimit| {
             let later = |limit: HeatLimit| buckling.rise_k.abs() < limit.rise_k.abs();
-            scene.operating_rad_per_s.is_some() && !past_critical && operating.is_none_or(later)
+            scene.operating_rad_per_s().is_some() && !past_critical && operating.is_none_or(later)
         };
         let buckles_first = buckling.is_some_and(before);
         // At speed the rotation still holds flat what has buckled at rest.

@@ -50,7 +50,7 @@ impl Onsets {
             true if !is_damped => Default::default(),
             _ => search_bands(plate, critical, range)?,
         };
-        let (first, strong) = first_flutter(&instabilities, scene.flutter_threshold_per_s);
+        let (first, strong) = first_flutter(&instabilities, scene.flutter_threshold_per_s());
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
         Ok(Onsets {
             lowest_critical,

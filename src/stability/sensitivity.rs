@@ -124,7 +124,7 @@ fn parameters(scene: &Scene) -> Vec<Parameter> {
             &mut f.blade.material.density_kg_per_m3
         }),
     ];
-    for index in 0..scene.file.guides.len() {
+    for index in 0..scene.file().guides.len() {
         let mut add = |name: &str, words, shift: Shift| {
             parameters.push(Parameter {
                 path: format!("guides[{index}].{name}"),
@@ -147,7 +147,7 @@ fn parameters(scene: &Scene) -> Vec<Parameter> {
             move |f: &mut SceneFile, share| f.guides[index].stiffness_n_per_m *= percent(share);
         add("stiffness_n_per_m", "1 %", Box::new(stiffness));
     }
-    parameters.extend(of_membrane(&scene.file));
+    parameters.extend(of_membrane(scene.file()));
     parameters
 }
 
@@ -205,7 +205,7 @@ fn changed_parts(
     let stencil = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
     let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
     for (place, weight) in stencil {
-        let mut file = scene.file.clone();
+        let mut file = scene.file().clone();
         (parameter.shift)(&mut file, place * share);
         let scene = Scene::try_from(file)?;
         let parts = Part::of(&Plate::new(&scene, plate.resolution));

@@ -24,8 +24,8 @@ impl Inputs {
     pub fn of(study: &Study) -> Self {
         Inputs {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: study.scene.clone(),
-            study: study.file.clone(),
+            scene: study.scene().file().clone(),
+            study: study.file().clone(),
         }
     }
 
@@ -81,7 +81,7 @@ mod tests {
         let text = r#"{"name": "x", "parameters": []}"#;
         let one = Inputs {
             sawflutter: "1".into(),
-            scene: Scene::paper().file,
+            scene: Scene::paper().file().clone(),
             study: StudyFile::from_json(text).unwrap(),
         };
         let mut other = one.clone();

@@ -7,19 +7,20 @@
 //! use sawflutter::scene::{Accuracy, Scene};
 //! use sawflutter::study::{Study, StudyFile, StudyReport};
 //!
-//! let mut scene = Scene::paper();
-//! scene.file.accuracy = Accuracy::Draft;
-//! scene.file.guides.clear();
+//! let scene = Scene::paper().edited(|saw| {
+//!     saw.accuracy = Accuracy::Draft;
+//!     saw.guides.clear();
+//! })?;
 //! let study = StudyFile::from_json(
 //!     r#"{ "name": "Thickness", "saws": 8, "parameters": [{ "path": "blade.thickness_m",
 //!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
 //! )?;
-//! let study = Study::new(scene.file, study)?;
+//! let study = Study::new(scene, study)?;
 //! let saws: Vec<_> = (0..study.count()).map(|index| study.saw(index)).collect();
 //! let report = StudyReport::new(&study, &saws);
 //! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
-//! # Ok::<(), sawflutter::study::StudyError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod csv;

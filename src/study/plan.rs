@@ -28,14 +28,10 @@ const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
 /// A scene, what varies in it, and what it is held against.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The saw without deviations, as typed.
-    pub scene: SceneFile,
-    /// The study as typed.
-    pub file: StudyFile,
-    /// What every saw is held against.
-    pub limits: Option<Limits>,
-    /// Last speed looked at, the same for every saw.
-    pub to_rad_per_s: f64,
+    scene: Scene,
+    file: StudyFile,
+    limits: Option<Limits>,
+    to_rad_per_s: f64,
     /// The numbers that vary, in the order of the file.
     pub(super) varying: Vec<(Parameter, Distribution)>,
     /// Saws in each point of the grid.
@@ -67,19 +63,15 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError`] that names the key, what is allowed and what to do.
-    pub fn new(scene: SceneFile, file: StudyFile) -> Result<Self, StudyError> {
-        let nominal = Scene::try_from(scene.clone()).map_err(|source| StudyError::Scene {
-            key: "the scene".into(),
-            source,
-        })?;
-        let varying = varying(&scene, &file)?;
+    pub fn new(scene: Scene, file: StudyFile) -> Result<Self, StudyError> {
+        let varying = varying(scene.file(), &file)?;
         let (drawn, count) = counts(&file, &varying)?;
         check_statistics(&file)?;
-        let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
-        let end = match (file.to_rpm, nominal.sweep) {
+        let limits = file.limits.map(|l| limits(&l, scene.file())).transpose()?;
+        let end = match (file.to_rpm, scene.sweep()) {
             (Some(rpm), _) => rad_per_s(speed("to_rpm", rpm)?),
             (None, Some(sweep)) => sweep.to_rad_per_s,
-            (None, None) => ChosenBasis::new(&nominal, nominal.tolerance())?.range.1,
+            (None, None) => ChosenBasis::new(&scene, scene.tolerance())?.range.1,
         };
         let reach = limits.map_or(0.0, |limits| limits.reach_rad_per_s());
         Ok(Study {
@@ -91,6 +83,26 @@ impl Study {
             drawn,
             count,
         })
+    }
+
+    /// The saw without deviations.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The study as typed.
+    pub fn file(&self) -> &StudyFile {
+        &self.file
+    }
+
+    /// What every saw is held against.
+    pub fn limits(&self) -> Option<&Limits> {
+        self.limits.as_ref()
+    }
+
+    /// Last speed looked at, the same for every saw.
+    pub fn to_rad_per_s(&self) -> f64 {
+        self.to_rad_per_s
     }
 
     /// Number of saws.
@@ -129,13 +141,9 @@ impl Study {
     pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, crate::scene::SceneError> {
         let parameters = self.varying.iter().map(|(parameter, _)| parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
-        let scene = self.scene.with(&numbers)?;
-        Ok(Scene {
-            sweep: Some(SpeedRange {
-                from_rad_per_s: 0.0,
-                to_rad_per_s: self.to_rad_per_s,
-            }),
-            ..scene
+        self.scene.file().with(&numbers)?.swept(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: self.to_rad_per_s,
         })
     }
 
@@ -315,7 +323,7 @@ mod tests {
                    "distribution": {{ "kind": "uniform", "from": -60, "to": -50 }} }} ] }}"#
         );
         let file = StudyFile::from_json(&text).unwrap();
-        Study::new(Scene::paper().file, file).unwrap()
+        Study::new(Scene::paper(), file).unwrap()
     }
 
     /// Points of the unit square, as the saws of a study.

@@ -163,9 +163,9 @@ impl StudyReport {
         });
         StudyReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: study.scene.clone(),
-            study: study.file.clone(),
-            swept_to_rpm: rpm(study.to_rad_per_s),
+            scene: study.scene().file().clone(),
+            study: study.file().clone(),
+            swept_to_rpm: rpm(study.to_rad_per_s()),
             largest_estimated_relative_error: found()
                 .map(|f| f.estimated_relative_error)
                 .fold(0.0, f64::max),
@@ -200,7 +200,7 @@ fn group(study: &Study, saws: &[Saw], grid: Vec<GridEntry>) -> Group {
         failed: count(|outcome| matches!(outcome, Outcome::Failed(_))),
         lowest_critical: speed(study, saws, |found| found.lowest_critical_rpm),
         flutter: speed(study, saws, |found| found.flutter_rpm),
-        passing: study.limits.map(|_| passing(study, saws)),
+        passing: study.limits().map(|_| passing(study, saws)),
     }
 }
 
@@ -209,7 +209,7 @@ fn speed(study: &Study, saws: &[Saw], of: fn(&Found) -> Option<f64>) -> SpeedEnt
     let mut sorted: Vec<f64> = all.iter().copied().flatten().collect();
     sorted.sort_by(f64::total_cmp);
     let beyond = all.len() - sorted.len();
-    let shares = study.file.quantiles.iter();
+    let shares = study.file().quantiles.iter();
     SpeedEntry {
         saws: sorted.len(),
         beyond,
@@ -250,10 +250,10 @@ fn histogram(sorted: &[f64]) -> Option<Histogram> {
 fn passing(study: &Study, saws: &[Saw]) -> Passing {
     let found = || saws.iter().filter_map(Saw::found);
     let passed = found().filter(|f| f.passed() == Some(true)).count();
-    let confidence = study.file.confidence;
+    let confidence = study.file().confidence;
     // In several points of the grid the deviations are the same, so that saws are not
     // independent.
-    let is_drawn = study.file.saws.is_some() && saws.len() == study.drawn();
+    let is_drawn = study.file().saws.is_some() && saws.len() == study.drawn();
     let criteria = study.criteria_of_nothing().into_iter().enumerate();
     Passing {
         passed,

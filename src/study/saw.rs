@@ -87,12 +87,12 @@ impl Study {
 
     fn found(&self, scene: &Scene) -> Result<Found, SpectrumError> {
         let onsets = Onsets::new(scene)?;
-        let criteria = self.limits.map(|limits| {
+        let criteria = self.limits().map(|limits| {
             limits.criteria(
                 onsets.lowest_critical,
                 onsets.flutter_speed,
                 &onsets.instabilities,
-                scene.flutter_threshold_per_s,
+                scene.flutter_threshold_per_s(),
             )
         });
         Ok(Found {

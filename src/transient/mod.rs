@@ -32,12 +32,16 @@ pub use sinusoids::{Sinusoid, damped_sinusoids, fitted_growth};
 pub use teeth::{ToothPassing, tooth_passing};
 pub use verdict_map::{VerdictMap, verdict_map};
 
+use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::spline::SplineError;
 
 /// Why a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum TransientError {
+    /// No sweep reaches as far as the time history.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),

@@ -32,7 +32,7 @@ pub fn on_spline(
     cut: &Cut,
     run: &CutRun,
 ) -> Result<Option<OnSpline>, TransientError> {
-    if scene.spline.is_none() {
+    if scene.spline().is_none() {
         return Ok(None);
     }
     let speed_rad_per_s = run.speed_rad_per_s;

@@ -66,8 +66,8 @@ impl Cutting {
                 let of = |done: usize, _| progress(index * points + done, runs.len() * points);
                 let saw = SawInCut::new(&plate, cut, run);
                 Ok(CuttingRun {
-                    history: cut_history(&saw, &scene.probe)?,
-                    passing: tooth_passing(&saw, &scene.probe, STAGES)?,
+                    history: cut_history(&saw, scene.probe())?,
+                    passing: tooth_passing(&saw, scene.probe(), STAGES)?,
                     spline: on_spline(scene, &plate, cut, run)?,
                     map: verdict_map(&saw, (&turns, &levels), &of)?,
                 })
@@ -87,14 +87,11 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
         .iter()
         .map(|run| run.speed_rad_per_s)
         .fold(0.0, f64::max);
-    let to_rad_per_s = scene.sweep.map_or(0.0, |sweep| sweep.to_rad_per_s);
-    let swept = Scene {
-        sweep: Some(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: to_rad_per_s.max(fastest),
-        }),
-        ..scene.clone()
-    };
+    let to_rad_per_s = scene.sweep().map_or(0.0, |sweep| sweep.to_rad_per_s);
+    let swept = scene.swept(SpeedRange {
+        from_rad_per_s: 0.0,
+        to_rad_per_s: to_rad_per_s.max(fastest),
+    })?;
     Ok(ChosenBasis::new(&swept, scene.tolerance())?.plate)
 }
 
@@ -126,10 +123,7 @@ impl RunningUp {
         runup: &RunUp,
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
-        let swept = Scene {
-            sweep: Some(runup.speeds),
-            ..scene.clone()
-        };
+        let swept = scene.swept(runup.speeds)?;
         let analysis = Analysis::new(&swept, &|_, _| ())?;
         let model = &analysis.model;
         let modes = model.modes(runup.speeds.from_rad_per_s)?;
@@ -139,7 +133,7 @@ impl RunningUp {
             .take(SHOWN_MODES)
             .fold(0.0, f64::max);
         let plate = &model.plate;
-        let history = run_up(plate, runup, &scene.probe, highest, progress)?;
+        let history = run_up(plate, runup, scene.probe(), highest, progress)?;
         let rate = runup.acceleration_rad_per_s2();
         let growths = band_growths(model, &analysis.chart.instabilities, rate)?;
         let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
@@ -150,7 +144,7 @@ impl RunningUp {
         let frequencies: Vec<f64> = (0..MAP_SIZE.1)
             .map(|k| highest * share(k, MAP_SIZE.1))
             .collect();
-        let response = response_map(plate, runup, &scene.probe, (&speeds, &frequencies));
+        let response = response_map(plate, runup, scene.probe(), (&speeds, &frequencies));
         Ok(RunningUp {
             history,
             growths,

@@ -73,7 +73,7 @@ fn the_default_run_writes_its_files_and_no_other() {
 #[test]
 fn the_default_run_is_the_papers_saw() {
     let report = &default_run().report;
-    let mut scene = Scene::paper().file;
+    let mut scene = Scene::paper().file().clone();
     scene.accuracy = sawflutter::scene::Accuracy::Draft;
     assert_eq!(report.scene, scene);
     assert_eq!(report.sawflutter, env!("CARGO_PKG_VERSION"));

@@ -61,7 +61,7 @@ fn a_speed_of_ones_own_replaces_the_scenes() {
 #[test]
 fn a_run_up_tells_of_every_band_it_passes() {
     let folder = TempDir::new().unwrap();
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.runup = Some(RunUpFile {
         from_rpm: 1000.0,
         to_rpm: 2000.0,
@@ -110,7 +110,7 @@ fn a_scene_without_the_forces_is_refused() {
     ];
     for (arguments, expected, change) in cases {
         let folder = TempDir::new().unwrap();
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         change(&mut file);
         let scene = write_scene(&folder, &file);
         let mut arguments = arguments.to_vec();

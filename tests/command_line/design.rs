@@ -112,8 +112,8 @@ fn a_table_is_fitted_and_the_scene_it_gives_can_be_used() {
         .sum();
     assert!(((squares / 11.0).sqrt() - report.rms_hz).abs() < 1e-6);
     let fitted = Scene::from_json(&read(&folder, "fitted-scene.json")).unwrap();
-    assert_eq!(fitted.file, report.scene);
-    assert_eq!(fitted.file.guides[0].radius_m, report.parameters[0].value);
+    assert_eq!(*fitted.file(), report.scene);
+    assert_eq!(fitted.file().guides[0].radius_m, report.parameters[0].value);
 }
 
 #[test]
@@ -185,7 +185,7 @@ fn a_place_is_found_and_written() {
     assert!(report.kept && report.best.goal_rpm >= report.before.goal_rpm);
     assert_eq!(report.best.flutter_rpm, Some(report.best.goal_rpm));
     let placed = Scene::from_json(&read(&folder, "placed-scene.json")).unwrap();
-    assert_eq!(placed.file.guides[0].radius_m, report.parameters[0].value);
+    assert_eq!(placed.file().guides[0].radius_m, report.parameters[0].value);
 }
 
 #[test]

@@ -92,7 +92,7 @@ impl Server {
 }
 
 fn paper() -> String {
-    serde_json::to_string(&Scene::paper().file).unwrap()
+    serde_json::to_string(Scene::paper().file()).unwrap()
 }
 
 #[test]
@@ -101,10 +101,10 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     let answer = server.ask("POST /chart/draft", &[], &paper());
     assert_eq!(answer.status, 200);
     let mut found = answer.json();
-    let scene = Scene {
-        accuracy: Accuracy::Draft,
-        ..Scene::paper()
-    };
+    let paper_saw = Scene::paper();
+    let scene = paper_saw
+        .edited(|saw| saw.accuracy = Accuracy::Draft)
+        .unwrap();
     let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
     let report: Report = serde_json::from_value(found["report"].take()).unwrap();
     // Drawn at fewer speeds, but found by the same search on the same basis.

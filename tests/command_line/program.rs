@@ -38,7 +38,7 @@ pub fn text(bytes: &[u8]) -> &str {
 
 /// A scene that takes no time: the blade without guides, at draft accuracy.
 pub fn quick_scene() -> SceneFile {
-    let mut file = crate::common::scene("free-blade").file;
+    let mut file = crate::common::scene("free-blade").file().clone();
     file.accuracy = Accuracy::Draft;
     file
 }

@@ -131,7 +131,7 @@ fn bad_values_are_refused_by_the_path_of_their_key() {
 /// A pad beside the blade, not touching it: inside the bore.
 #[test]
 fn a_pad_off_the_blade_is_refused_and_told_where_the_blade_is() {
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.guides[0].radius_m = 0.01;
     file.guides[0].radial_length_m = 0.02;
     file.guides[0].tangential_length_m = 0.02;

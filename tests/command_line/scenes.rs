@@ -40,7 +40,7 @@ fn every_scene_satisfies_the_schema() {
 fn the_schema_refuses_what_the_program_refuses() {
     let schema = json_schema();
     let validator = jsonschema::validator_for(&schema).unwrap();
-    let paper = serde_json::to_value(Scene::paper().file).unwrap();
+    let paper = serde_json::to_value(Scene::paper().file()).unwrap();
     assert!(validator.is_valid(&paper));
     let with = |pointer: &str, key: &str, value: serde_json::Value| {
         let mut scene = paper.clone();
@@ -66,10 +66,10 @@ fn the_schema_refuses_what_the_program_refuses() {
 fn every_scene_loads_says_where_it_comes_from_and_round_trips() {
     for path in scene_paths() {
         let scene = Scene::from_path(&path).unwrap_or_else(|error| panic!("{error}"));
-        assert!(!scene.file.notes.is_empty(), "{}", path.display());
-        let written = serde_json::to_string_pretty(&scene.file).unwrap();
+        assert!(!scene.file().notes.is_empty(), "{}", path.display());
+        let written = serde_json::to_string_pretty(scene.file()).unwrap();
         let file: SceneFile = serde_json::from_str(&written).unwrap();
-        assert_eq!(file, scene.file, "{}", path.display());
+        assert_eq!(file, *scene.file(), "{}", path.display());
         let again = Scene::from_json(&written).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(again, scene, "{}", path.display());
     }
@@ -107,7 +107,7 @@ fn every_study_suits_its_scene_and_the_schema() {
             stem.starts_with(&format!("{name}-"))
         });
         let scene = Scene::from_path(&scene.expect("a scene of this name")).unwrap();
-        let study = Study::new(scene.file, file).unwrap_or_else(|error| panic!("{error}"));
+        let study = Study::new(scene, file).unwrap_or_else(|error| panic!("{error}"));
         assert!(study.count() > 1);
     }
     for bad in [
@@ -134,7 +134,7 @@ fn the_stored_report_is_of_the_sample_study_and_the_papers_saw() {
     let study = StudyFile::from_json(&read("scenes/studies/paper-tolerances.json")).unwrap();
     assert_eq!(report.study, study);
     // By --tolerance, as the README says.
-    let mut paper = Scene::paper().file;
+    let mut paper = Scene::paper().file().clone();
     paper.tolerance = Some(6e-3);
     assert_eq!(report.scene, paper);
     assert_eq!(report.sawflutter, env!("CARGO_PKG_VERSION"));

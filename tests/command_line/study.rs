@@ -34,7 +34,7 @@ impl Bench {
     /// Free blades of random thickness and material, some of which none can be of.
     fn new() -> Self {
         let folder = TempDir::new().unwrap();
-        let mut file = crate::common::scene("free-blade").file;
+        let mut file = crate::common::scene("free-blade").file().clone();
         file.accuracy = Accuracy::Draft;
         let scene = folder.path().join("scene.json");
         std::fs::write(&scene, serde_json::to_string(&file).unwrap()).unwrap();

@@ -77,7 +77,7 @@ fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
 
 /// A scene; most are valid, some only nearly.
 pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.measured = None;
     // What belongs to the paper's own blade.
     (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);

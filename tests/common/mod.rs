@@ -14,7 +14,7 @@ pub fn path(inside: &str) -> PathBuf {
 
 /// A scene from `scenes/`.
 pub fn scene(name: &str) -> Scene {
-    Scene::from_path(&path(&format!("scenes/{name}.json"))).unwrap_or_else(|e| panic!("{e}"))
+    Scene::from_path(path(&format!("scenes/{name}.json"))).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// The modes of a saw from rest to a speed, at reference accuracy.

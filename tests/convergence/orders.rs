@@ -27,9 +27,8 @@ fn critical_rpm(scene: &Scene, (max_diameters, radial_functions): (usize, usize)
 }
 
 fn with_stiffness(newtons_per_m: f64) -> Scene {
-    let mut scene = Scene::paper();
-    scene.guides[0].stiffness_n_per_m = newtons_per_m;
-    scene
+    let scene = Scene::paper().edited(|saw| saw.guides[0].stiffness_n_per_m = newtons_per_m);
+    scene.unwrap()
 }
 
 /// Largest relative difference.

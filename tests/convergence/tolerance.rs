@@ -7,7 +7,7 @@
 use crate::common::Worst;
 use rayon::prelude::*;
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, GuideFile, Scene};
+use sawflutter::scene::{GuideFile, Scene};
 use sawflutter::spectrum::SpectralModel;
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind};
 
@@ -25,7 +25,7 @@ fn saws() -> Vec<Saw> {
     let mut saws = Vec::new();
     for (i, stiffness_n_per_m) in [1e4, 1e5, 1e6, 1e7, 1e8, 1e9].into_iter().enumerate() {
         for (k, bore) in [0.1, 0.28, 0.45, 0.6, 0.8].into_iter().enumerate() {
-            let mut file = Scene::paper().file;
+            let mut file = Scene::paper().file().clone();
             let rim_m = 0.5 * file.blade.outer_diameter_m;
             let width_m = rim_m * (1.0 - bore);
             // Irrational multiples spread places and sizes.
@@ -62,7 +62,7 @@ fn other_saws() -> Vec<Saw> {
         let spread = |prime: f64, low: f64, high: f64| {
             low + (high - low) * ((k + 1) as f64 * prime.sqrt()).fract()
         };
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         let rim_m = spread(2.0, 0.1, 0.6);
         let bore = spread(3.0, 0.1, 0.8);
         let width_m = rim_m * (1.0 - bore);
@@ -157,12 +157,8 @@ fn assert_promises(saws: &[Saw], reached: usize) {
 #[test]
 fn onsets_keep_the_tolerance() {
     let onsets = |tolerance: f64| -> Vec<f64> {
-        let scene = Scene {
-            tolerance: Some(tolerance),
-            accuracy: Accuracy::Design,
-            ..Scene::paper()
-        };
-        let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+        let scene = Scene::paper().edited(|saw| saw.tolerance = Some(tolerance));
+        let analysis = Analysis::new(&scene.unwrap(), &|_, _| ()).unwrap();
         let bands = analysis.chart.instabilities.into_iter();
         bands
             .filter(|b| b.kind == InstabilityKind::Flutter)

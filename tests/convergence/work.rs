@@ -4,18 +4,16 @@
 //! The bounds are what the chart of the paper's saw took when they were written, and a fifth.
 
 use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Scene, SpeedRange, rad_per_s};
+use sawflutter::scene::{Accuracy, Scene, SweepFile};
 use sawflutter::stability::Analysis;
 
 fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
-    let scene = Scene {
-        accuracy,
-        sweep: Some(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(to_rpm),
-        }),
-        ..Scene::paper()
-    };
+    let scene = Scene::paper().edited(|saw| {
+        saw.accuracy = accuracy;
+        let from_rpm = 0.0;
+        saw.sweep = Some(SweepFile { from_rpm, to_rpm });
+    });
+    let scene = scene.unwrap();
     let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
     (scene, analysis)
 }

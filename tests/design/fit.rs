@@ -8,7 +8,7 @@ use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::fit::{Fit, FitError, Measurement, Options, Row, Start};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s};
+use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ const SMALL: Resolution = Resolution {
 };
 
 fn table_5(scene: &Scene) -> Measurement {
-    Measurement::of_scene(scene.file.measured.as_ref().unwrap()).up_to(1250.0)
+    Measurement::of_scene(scene.file().measured.as_ref().unwrap()).up_to(1250.0)
 }
 
 /// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24
@@ -35,11 +35,8 @@ fn table_5(scene: &Scene) -> Measurement {
 #[test]
 fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
     // On the basis that `design` asks for, which takes a minute: 0.1940 m, 2.08e7 N/m, 0.983 Hz.
-    let calibrated = Scene::try_from(SceneFile {
-        accuracy: Accuracy::Draft,
-        ..scene("paper").file
-    })
-    .unwrap();
+    let calibrated = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
+    let calibrated = calibrated.unwrap();
     let far = with(&calibrated, &[(RADIUS, 0.33), (STIFFNESS, 2e5)]);
     let free = freed(
         &far,
@@ -65,7 +62,7 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
     );
     assert_eq!(fit.parameters.len(), 2);
     assert_eq!(fit.without_effect[0].parameter.path(), ANGLE);
-    assert_eq!(fit.scene.file.guides[0].angle_deg, -55.0);
+    assert_eq!(fit.scene.file().guides[0].angle_deg, -55.0);
     assert!(fit.rms_before_hz > 3.0, "{}", fit.rms_before_hz);
     assert!(fit.rms_hz < 0.9875, "{}", fit.rms_hz);
     // The rounded calibration lies within the intervals.
@@ -239,7 +236,7 @@ fn numbers_that_the_data_do_not_tell_apart_have_no_interval() {
         fit.parameters
     );
     let ratio = fit.parameters[0].value / fit.parameters[1].value;
-    let material = saw.blade.material;
+    let material = saw.blade().material;
     let before = material.youngs_modulus_pa / material.density_kg_per_m3;
     assert_close("E/ρ", ratio, 1.01_f64.powi(2) * before, 1e-6);
 }

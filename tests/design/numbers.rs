@@ -8,12 +8,12 @@ pub fn with(scene: &Scene, numbers: &[(&str, f64)]) -> Scene {
         .map(|(path, value)| (Parameter::new(path), *value))
         .collect();
     let numbers: Vec<(&Parameter, f64)> = named.iter().map(|(p, v)| (p, *v)).collect();
-    scene.file.with(&numbers).unwrap()
+    scene.file().with(&numbers).unwrap()
 }
 
 pub fn freed(scene: &Scene, numbers: &[(&str, f64, f64)]) -> Vec<Freed> {
     let freed = numbers
         .iter()
-        .map(|(path, from, to)| Freed::new(&scene.file, path, *from, *to).unwrap());
+        .map(|(path, from, to)| Freed::new(scene.file(), path, *from, *to).unwrap());
     freed.collect()
 }

@@ -44,7 +44,7 @@ fn bands(scene: &Scene) -> Vec<Instability> {
     let SpeedRange {
         from_rad_per_s: from,
         to_rad_per_s: to,
-    } = scene.sweep.unwrap();
+    } = scene.sweep().unwrap();
     let plate = Plate::new(scene, SMALL);
     let model = SpectralModel::new(plate, (from, to), Strategy::Reduced).unwrap();
     undamped_bands(&model, (from, to), 40).unwrap().0
@@ -52,7 +52,7 @@ fn bands(scene: &Scene) -> Vec<Instability> {
 
 fn flutter_rpm(scene: &Scene) -> f64 {
     let strong = |b: &&Instability| {
-        b.kind == InstabilityKind::Flutter && b.peak_growth_per_s >= scene.flutter_threshold_per_s
+        b.kind == InstabilityKind::Flutter && b.peak_growth_per_s >= scene.flutter_threshold_per_s()
     };
     bands(scene)
         .iter()
@@ -97,7 +97,7 @@ fn an_angle_that_means_nothing_is_held_and_named() {
     let free = freed(&one, &[(RADIUS, 0.19, 0.21), (ANGLE, -90.0, 0.0)]);
     let found = place(&one, &free, &Demands::default(), &quick());
     assert_eq!(held(&found), [ANGLE]);
-    assert_eq!(found.scene.file.guides[0].angle_deg, -55.0);
+    assert_eq!(found.scene.file().guides[0].angle_deg, -55.0);
     let two = swept("two-pads");
     let both = freed(
         &two,
@@ -141,10 +141,7 @@ fn brute_force_finds_nothing_better() {
     let best = rpm(found.best.value_rad_per_s);
     assert_close(
         "its own saw",
-        flutter_rpm(&Scene {
-            sweep: saw.sweep,
-            ..found.scene.clone()
-        }),
+        flutter_rpm(&found.scene.swept(saw.sweep().unwrap()).unwrap()),
         best,
         1e-6,
     );
@@ -216,7 +213,7 @@ fn the_window_is_free_of_bands_and_wider_than_before() {
     let (from, to) = found.best.window.unwrap();
     assert!(from < around_rad_per_s && around_rad_per_s < to);
     assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
-    let threshold = saw.flutter_threshold_per_s;
+    let threshold = saw.flutter_threshold_per_s();
     for band in &found.best.bands {
         let counts =
             band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold;

@@ -6,17 +6,16 @@
 
 use crate::common::{assert_close, scene};
 use sawflutter::check::{Check, Limits};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
+use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
 use sawflutter::study::{Outcome, Saw, Study, StudyError, StudyFile, StudyReport};
 
-fn free_blade() -> SceneFile {
-    let mut file = scene("free-blade").file;
-    file.accuracy = Accuracy::Draft;
-    file
+fn free_blade() -> Scene {
+    let free = scene("free-blade");
+    free.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap()
 }
 
-fn study(scene: SceneFile, json: &str) -> Result<Study, StudyError> {
+fn study(scene: Scene, json: &str) -> Result<Study, StudyError> {
     Study::new(scene, StudyFile::from_json(json)?)
 }
 
@@ -27,10 +26,11 @@ fn all(study: &Study) -> Vec<Saw> {
 const THICKNESS: f64 = 0.0028;
 
 fn nominal_critical_rpm() -> f64 {
-    let mut file = free_blade();
-    file.sweep.as_mut().unwrap().to_rpm = 1000.0;
-    let nominal = Scene::try_from(file).unwrap();
-    rpm(Onsets::new(&nominal).unwrap().lowest_critical.unwrap())
+    let nominal = free_blade().edited(|saw| saw.sweep.as_mut().unwrap().to_rpm = 1000.0);
+    rpm(Onsets::new(&nominal.unwrap())
+        .unwrap()
+        .lowest_critical
+        .unwrap())
 }
 
 #[test]
@@ -98,27 +98,26 @@ fn the_probability_of_passing_is_that_of_the_distribution() {
 /// Of the paper's saw, at the value of its scene and at another.
 #[test]
 fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
-    let mut paper = Scene::paper().file;
-    paper.accuracy = Accuracy::Draft;
+    let paper = Scene::paper();
+    let paper = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
     let text = r#"{ "name": "pads", "to_rpm": 2400,
         "parameters": [{ "path": "guides[0].angle_deg",
                          "distribution": { "kind": "grid", "values": [-55, -80] } }],
         "limits": { "operating_rpm": 1800, "min_flutter_rpm": 2300 } }"#;
     let study = study(paper.clone(), text).unwrap();
     for saw in all(&study) {
-        let mut file = paper.clone();
-        file.guides[0].angle_deg = saw.values[0];
         let limits = Limits {
             min_flutter_rad_per_s: Some(rad_per_s(2300.0)),
             ..Limits::at(rad_per_s(1800.0))
         };
-        let mut own = Scene::try_from(file).unwrap();
+        let own = paper.edited(|own| own.guides[0].angle_deg = saw.values[0]);
+        let own = own.unwrap();
         let found = saw.found().unwrap();
         let check = Check::new(&own, &limits).unwrap();
         let passed: Vec<bool> = check.criteria.iter().map(|c| c.passed).collect();
         assert_eq!(found.kept, passed);
-        own.sweep.as_mut().unwrap().to_rad_per_s = rad_per_s(2400.0);
-        let analysis = Analysis::new(&own, &|_, _| ()).unwrap();
+        let own = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
+        let analysis = Analysis::new(&own.unwrap(), &|_, _| ()).unwrap();
         assert!(analysis.flutter_speed.is_some());
         // Bands are searched on fewer modes than are charted, each right to 1e-8.
         for (one, other) in [

@@ -38,7 +38,7 @@ fn lowest_root(scene: &Scene, n: usize, radial_functions: usize) -> f64 {
     let model = SpectralModel::new(plate, (0.0, rad_per_s(100.0)), Strategy::Reduced).unwrap();
     let modes = model.all_modes(0.0).unwrap();
     let lowest = common::of_diameters(&modes, n).find(|mode| mode.kind != ModeKind::Rigid);
-    let blade = &scene.blade;
+    let blade = scene.blade();
     let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
     lowest.unwrap().frequency_rad_per_s() / specific.sqrt() * blade.outer_radius_m.powi(2)
 }

@@ -15,7 +15,7 @@ pub fn scene(file: &SceneFile) -> Scene {
 }
 
 pub fn paper() -> SceneFile {
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.sweep = None;
     file.measured = None;
     file.operating_rpm = None;

@@ -85,7 +85,7 @@ fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
 }
 
 fn drawn_saw(draw: [f64; 9]) -> SceneFile {
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.blade.inner_diameter_m = (0.15 + 0.4 * draw[0]) * file.blade.outer_diameter_m;
     file.blade.thickness_m *= 0.5 + draw[1];
     let pad = |radius: f64, angle: f64, stiffness: f64, size: f64| GuideFile {

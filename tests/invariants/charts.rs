@@ -63,7 +63,7 @@ fn projected_modes_are_those_of_the_whole_basis() {
 
 /// The paper's blade with `count` equal pads, evenly spaced.
 fn evenly_guided(count: usize, pad: GuideFile) -> SceneFile {
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     file.sweep = None;
     file.guides = (0..count)
         .map(|k| GuideFile {
@@ -158,16 +158,15 @@ fn branches_are_permuted_and_never_lost() {
 /// two runs after each other.
 #[test]
 fn any_number_of_threads_writes_the_same_report() {
-    let mut file = Scene::paper().file;
-    // A critical pair, two narrow bands and what lies between them.
-    file.sweep = Some(SweepFile {
-        from_rpm: 1500.0,
-        to_rpm: 2300.0,
+    let scene = Scene::paper().edited(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        // A critical pair, two narrow bands and what lies between them.
+        saw.sweep = Some(SweepFile {
+            from_rpm: 1500.0,
+            to_rpm: 2300.0,
+        });
     });
-    let scene = Scene {
-        accuracy: Accuracy::Draft,
-        ..scene(&file)
-    };
+    let scene = scene.unwrap();
     let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -66,7 +66,7 @@ prop_compose! {
         guides in prop::collection::vec(any_pad(outer_radius_m), 1..=3),
         outer_radius_m in Just(outer_radius_m),
     ) -> SceneFile {
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         file.sweep = None;
         file.measured = None;
         // What belongs to the paper's own blade.

@@ -42,7 +42,7 @@ fn assert_survives(scene: &Scene, survives: impl Fn(&Scene)) {
     if catch_unwind(AssertUnwindSafe(|| survives(scene))).is_err() {
         panic!(
             "brought down by {}",
-            serde_json::to_string(&scene.file).unwrap()
+            serde_json::to_string(scene.file()).unwrap()
         );
     }
 }
@@ -130,8 +130,8 @@ fn damaged_scene_files_are_read_or_refused() {
             read += 1;
             // What was read can be written and read again.
             let again: SceneFile =
-                serde_json::from_str(&serde_json::to_string(&scene.file).unwrap()).unwrap();
-            assert_eq!(again, scene.file);
+                serde_json::from_str(&serde_json::to_string(scene.file()).unwrap()).unwrap();
+            assert_eq!(again, *scene.file());
         }
     }
     println!("{read} of 30000 are still scenes");

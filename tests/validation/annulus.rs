@@ -9,7 +9,7 @@ use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::ModeKind;
 
 fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
-    let mut file: SceneFile = Scene::paper().file;
+    let mut file: SceneFile = Scene::paper().file().clone();
     file.guides.clear();
     file.sweep = None;
     let blade = &mut file.blade;
@@ -46,7 +46,7 @@ fn worst_of(bc: &str, s: usize) -> Worst {
         let scene = annulus(bc, 0.3, ratio);
         let model = reference_model(&scene, rad_per_s(1000.0));
         let modes = model.all_modes(0.0).unwrap();
-        let blade = &scene.blade;
+        let blade = scene.blade();
         let unit = (blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()).sqrt()
             / blade.outer_radius_m.powi(2);
         let here = |root: &&AnnulusRoot| root.bc == bc && root.ratio == ratio && root.s == s;

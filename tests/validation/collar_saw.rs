@@ -50,18 +50,18 @@ fn reference() -> Reference {
 
 /// The saw of `scenes/`, which is the reference's.
 fn saw(in_plane: InPlane) -> Scene {
-    let mut file = crate::common::scene("collar-400mm").file;
-    file.mount = Mount::Collar {
+    let mount = Mount::Collar {
         diameter_m: 0.120,
         in_plane,
     };
-    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+    let saw = crate::common::scene("collar-400mm").edited(|saw| saw.mount = mount);
+    saw.unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn the_scene_is_the_reference_blade() {
     let expected = reference().blade;
-    let blade = saw(InPlane::Fixed).blade;
+    let blade = *saw(InPlane::Fixed).blade();
     let pairs = [
         (blade.outer_radius_m, expected.outer_radius_m),
         (blade.inner_radius_m, expected.collar_radius_m),

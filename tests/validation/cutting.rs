@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use faer::{Col, Mat, Scale};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Cut, CutRun, Guide, RunUp, Scene, SpeedRange, rad_per_s, rpm};
+use sawflutter::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{fastest_growing_of, lowest_eigenpairs, orthonormal, split};
 use sawflutter::system::GyroscopicSystem;
 use sawflutter::transient::{
@@ -28,7 +28,8 @@ fn paper_plate(resolution: Resolution) -> Plate {
 }
 
 fn paper_cut() -> Cut {
-    Scene::paper().cut.expect("the paper's scene has a cut")
+    let paper = Scene::paper();
+    paper.cut().expect("the paper's scene has a cut").clone()
 }
 
 fn run_at(rpm: f64) -> CutRun {
@@ -137,7 +138,7 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 #[test]
 fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let plate = paper_plate(DESIGN);
-    let probe = Scene::paper().probe;
+    let probe = *Scene::paper().probe();
     let quiet = cut_history(
         &SawInCut::new(&plate, &paper_cut(), &run_at(1800.0)),
         &probe,
@@ -176,7 +177,7 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
 fn few_motions_make_the_record_of_the_whole_basis() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
-    let probe = Scene::paper().probe;
+    let probe = *Scene::paper().probe();
     let history = cut_history(&SawInCut::new(&plate, &cut, &run), &probe).unwrap();
     let system = GyroscopicSystem::of_plate(&in_cut_plate(&plate, &cut, &run));
     let point = |radius, angle| {
@@ -207,7 +208,7 @@ fn few_motions_make_the_record_of_the_whole_basis() {
 #[test]
 fn passing_teeth_act_like_their_mean() {
     let plate = paper_plate(DESIGN);
-    let probe = Scene::paper().probe;
+    let probe = *Scene::paper().probe();
     let passing = tooth_passing(
         &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)),
         &probe,
@@ -251,16 +252,12 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     .unwrap();
     for (column, turn) in turns.iter().enumerate().take(4).skip(1) {
         for (row, level) in levels.iter().enumerate() {
-            let mut scene = Scene::paper();
-            scene.guides = scene
-                .guides
-                .iter()
-                .map(|guide| Guide {
-                    angle_rad: guide.angle_rad + turn,
-                    ..*guide
-                })
-                .collect();
-            let moved = Plate::new(&scene, DESIGN);
+            let scene = Scene::paper().edited(|saw| {
+                for guide in &mut saw.guides {
+                    guide.angle_deg += turn.to_degrees();
+                }
+            });
+            let moved = Plate::new(&scene.unwrap(), DESIGN);
             let scaled = CutRun {
                 tangential_n: level * run.tangential_n,
                 radial_n: level * run.radial_n,
@@ -284,7 +281,7 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
 #[test]
 fn a_run_up_converges_and_is_static_when_slow() {
     let plate = paper_plate(SMALL);
-    let probe = Scene::paper().probe;
+    let probe = *Scene::paper().probe();
     let runup = RunUp {
         speeds: SpeedRange {
             from_rad_per_s: 0.0,

@@ -15,7 +15,7 @@ const AIR: f64 = 6.3;
 const MATERIAL: f64 = 1e-6;
 
 fn free_blade(damping: DampingFile) -> Scene {
-    let mut file: SceneFile = Scene::paper().file;
+    let mut file: SceneFile = Scene::paper().file().clone();
     file.guides.clear();
     file.accuracy = Accuracy::Draft;
     file.damping = Some(damping);
@@ -129,12 +129,13 @@ fn with_both_the_onset_agrees_with_its_closed_form() {
 #[test]
 fn the_undamped_limit_is_continuous() {
     let eigenvalues = |share: f64| {
-        let mut scene = Scene::paper();
-        scene.damping = (share > 0.0).then_some(sawflutter::scene::Damping {
-            material_retardation_time_s: 1e-6 * share,
-            air_n_s_per_m3: 5.0 * share,
+        let scene = Scene::paper().edited(|saw| {
+            saw.damping = Some(DampingFile {
+                material_retardation_time_s: 1e-6 * share,
+                air_n_s_per_m3: 5.0 * share,
+            });
         });
-        let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
+        let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
         let model = SpectralModel::new(plate, (0.0, rad_per_s(2000.0)), Strategy::Dense).unwrap();
         let modes = model.all_modes(rad_per_s(1800.0)).unwrap();
         modes.iter().take(8).map(|m| m.lambda).collect::<Vec<_>>()

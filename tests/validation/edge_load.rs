@@ -9,29 +9,23 @@ use sawflutter::scene::{Blade, Scene};
 
 use super::saws::{fastest, paper_cut};
 
-fn plate_of(blade: Blade, max_diameters: usize, radial_functions: usize) -> Plate {
-    let scene = Scene {
-        blade,
-        guides: Vec::new(),
-        ..Scene::paper()
-    };
+/// The paper's blade with another bore, without guides.
+fn with_bore(ratio: f64, max_diameters: usize, radial_functions: usize) -> Plate {
+    let scene = Scene::paper().edited(|saw| {
+        saw.blade.inner_diameter_m = ratio * saw.blade.outer_diameter_m;
+        saw.guides.clear();
+    });
     let resolution = Resolution {
         max_diameters,
         radial_functions,
     };
-    Plate::new(&scene, resolution)
+    Plate::new(&scene.unwrap(), resolution)
 }
 
 fn stiffness_under(plate: &Plate, loads: &[RimForce]) -> (EdgeStress, Mat<f64>) {
     let stress = EdgeStress::new(&plate.blade, loads, 2 * plate.max_diameters());
     let stiffness = edge_stiffness(plate, &stress);
     (stress, stiffness)
-}
-
-fn with_bore(ratio: f64) -> Blade {
-    let mut blade = Scene::paper().blade;
-    blade.inner_radius_m = ratio * blade.outer_radius_m;
-    blade
 }
 
 const UNEVEN: [RimForce; 3] = [
@@ -98,7 +92,7 @@ fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], toleranc
 #[test]
 fn tilts_feel_the_virial_of_the_forces_and_heave_nothing() {
     for ratio in [200.0 / 710.0, 0.02, 0.9, 0.95] {
-        let plate = plate_of(with_bore(ratio), 6, 6);
+        let plate = with_bore(ratio, 6, 6);
         let (_, stiffness) = stiffness_under(&plate, &UNEVEN);
         assert_virial(&plate, &stiffness, virial(&plate.blade, &UNEVEN), 1e-10);
     }
@@ -119,7 +113,7 @@ fn tilts_feel_the_virial_of_forces_at_the_bore_too() {
         tangential_n: force.tangential_n,
     });
     for ratio in [200.0 / 710.0, 0.02, 0.9, 0.95] {
-        let plate = plate_of(with_bore(ratio), 6, 6);
+        let plate = with_bore(ratio, 6, 6);
         let stress = EdgeStress::with_reaction(&plate.blade, &UNEVEN, &reaction, 12);
         let at_rim = virial(&plate.blade, &UNEVEN);
         let at_bore = virial(&plate.blade, &as_rim_forces).map(|moment| ratio * moment);
@@ -151,7 +145,7 @@ fn gradient(plate: &Plate, q: &Col<f64>, r: f64, angle: f64) -> [f64; 2] {
 /// midpoint rule is exact around the circle; radially 60 Gauss points are.
 #[test]
 fn a_quadratic_form_agrees_with_the_surface_integral() {
-    let plate = plate_of(with_bore(0.3), 5, 5);
+    let plate = with_bore(0.3, 5, 5);
     let (stress, stiffness) = stiffness_under(&plate, &UNEVEN);
     let q = Col::from_fn(plate.degrees_of_freedom(), |i| (1.7 * i as f64 + 0.3).sin());
     let (a, b) = (plate.blade.inner_radius_m, plate.blade.outer_radius_m);
@@ -178,7 +172,7 @@ fn a_quadratic_form_agrees_with_the_surface_integral() {
 /// Turning all forces turns the field and leaves the eigenvalues of K_e.
 #[test]
 fn turning_the_forces_turns_the_blade() {
-    let plate = plate_of(with_bore(0.3), 6, 5);
+    let plate = with_bore(0.3, 6, 5);
     let spectrum = |turn: f64| {
         let loads = UNEVEN.map(|load| RimForce {
             angle_rad: load.angle_rad + turn,

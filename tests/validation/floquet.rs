@@ -51,14 +51,13 @@ fn monodromy(plate: &Plate, system: &GyroscopicSystem, speed: f64, steps: usize)
 }
 
 fn small_plate() -> Plate {
-    let mut scene = Scene::paper();
     // Softer than the paper's pad: stiff guides on a coarse basis need too many steps.
-    scene.guides[0].stiffness_n_per_m = 2.0e6;
+    let scene = Scene::paper().edited(|saw| saw.guides[0].stiffness_n_per_m = 2.0e6);
     let resolution = Resolution {
         max_diameters: 3,
         radial_functions: 2,
     };
-    Plate::new(&scene, resolution)
+    Plate::new(&scene.unwrap(), resolution)
 }
 
 fn assert_same_multipliers(speed_rpm: f64, unstable: bool) {

@@ -16,9 +16,9 @@ const SMALL: Resolution = Resolution {
 
 /// The paper's saw, guided, at a speed below its first critical one; and the collar saw.
 fn saws() -> [(Scene, f64); 2] {
-    let mut paper = Scene::paper().file;
+    let mut paper = Scene::paper().file().clone();
     paper.operating_rpm = Some(1200.0);
-    let mut collar = collar().file;
+    let mut collar = collar().file().clone();
     collar.operating_rpm = Some(3800.0);
     [paper, collar].map(|file| {
         let speed = file.operating_rpm.unwrap();
@@ -115,9 +115,10 @@ fn a_cold_rim_has_a_limit_of_its_own() {
 #[test]
 fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
     let both = |rise_k: f64| {
-        let mut membrane = heated(&collar(), rise_k).file.membrane.unwrap();
-        membrane.roll_tension = rolled(&collar(), 3e-3).file.membrane.unwrap().roll_tension;
-        scene_with(&collar(), serde_json::to_value(membrane).unwrap())
+        let membrane = |saw: Scene| saw.file().membrane.clone().unwrap();
+        let mut both = membrane(heated(&collar(), rise_k));
+        both.roll_tension = membrane(rolled(&collar(), 3e-3)).roll_tension;
+        scene_with(&collar(), serde_json::to_value(both).unwrap())
     };
     let flat =
         |rise_k: f64| SpectralModel::critical_speeds(&Plate::new(&both(rise_k), SMALL)).is_ok();
@@ -131,8 +132,7 @@ fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
 /// Past its critical speed no heat has to bring the saw there.
 #[test]
 fn a_saw_past_its_critical_speed_is_said_to_be() {
-    let mut file = heated(&collar(), 3.0).file;
-    file.operating_rpm = Some(6000.0);
-    let found = limits(&Scene::try_from(file).unwrap());
+    let fast = heated(&collar(), 3.0).edited(|saw| saw.operating_rpm = Some(6000.0));
+    let found = limits(&fast.unwrap());
     assert!(found.past_critical && found.operating.is_none());
 }

@@ -68,12 +68,16 @@ fn a_rolled_band_and_a_kinked_temperature() {
         { "radius_m": 0.20, "rise_k": 30.0 }
     ]);
     let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "table": table });
-    let mut free = collar();
-    free.file.mount = Mount::Collar {
-        diameter_m: 0.12,
-        in_plane: InPlane::Free,
-    };
-    let kinked = scene_with(&free, serde_json::json!({ "temperature": temperature }));
+    let free = collar().edited(|saw| {
+        saw.mount = Mount::Collar {
+            diameter_m: 0.12,
+            in_plane: InPlane::Free,
+        };
+    });
+    let kinked = scene_with(
+        &free.unwrap(),
+        serde_json::json!({ "temperature": temperature }),
+    );
     compare(
         name,
         "table_4_6_30_k_at_60_150_200_mm_free_hz",
@@ -140,10 +144,10 @@ fn the_krein_index_holds_under_membrane_stress() {
         "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": 3.0, "exponent": 1.5 },
         "roll_tension": [{ "radius_m": 0.25, "width_m": 0.03, "eigenstrain": 5e-5 }]
     });
-    let mut file = scene_with(&Scene::paper(), membrane).file;
-    file.tolerance = Some(1e-2);
+    let stressed = scene_with(&Scene::paper(), membrane);
+    let draft = stressed.edited(|saw| saw.tolerance = Some(1e-2)).unwrap();
     let plain = Analysis::new(&Scene::paper(), &|_, _| ()).unwrap();
-    let analysis = Analysis::new(&Scene::try_from(file).unwrap(), &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&draft, &|_, _| ()).unwrap();
     let certificate = &analysis.chart.certificate;
     assert!(certificate.speeds_checked > 20 && certificate.violations.is_empty());
     let lowest = |a: &Analysis| rpm(a.model.critical[0].speed_rad_per_s);
@@ -168,14 +172,14 @@ fn sensitivities_to_heat_and_tension() {
     assert_eq!(of_membrane.len(), 4);
     for sensitivity in of_membrane {
         let parameter = Parameter::new(&sensitivity.parameter);
-        let value = parameter.get(&scene.file).unwrap();
+        let value = parameter.get(scene.file()).unwrap();
         let change = match sensitivity.change {
             "1 %" => 0.01 * value,
             "1 K" => 1.0,
             other => panic!("{other}"),
         };
         let lowest = |share: f64| {
-            let moved = scene.file.with(&[(&parameter, value + share * change)]);
+            let moved = scene.file().with(&[(&parameter, value + share * change)]);
             let plate = Plate::new(&moved.unwrap(), SMALL);
             SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s
         };
@@ -193,7 +197,7 @@ fn sensitivities_to_heat_and_tension() {
 }
 
 fn spline_blade(bore: f64, rises: &[f64], shift: f64) -> Scene {
-    let mut file: SceneFile = crate::common::scene("free-blade").file;
+    let mut file: SceneFile = crate::common::scene("free-blade").file().clone();
     let outer = file.blade.outer_diameter_m;
     file.blade.inner_diameter_m = bore * outer;
     let radius = |k: usize| 0.5 * outer * (bore + (1.0 - bore) * k as f64 / 4.0);
@@ -246,7 +250,7 @@ proptest! {
         eigenstrain in -8e-4..8e-4f64,
         guided in any::<bool>(),
     ) {
-        let mut file = collar().file;
+        let mut file = collar().file().clone();
         let radius = 0.06 + 0.14 * place;
         file.membrane = Some(serde_json::from_value(serde_json::json!({
             "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": rise_k, "exponent": exponent },
@@ -254,7 +258,7 @@ proptest! {
         })).unwrap());
         file.tolerance = Some(0.05);
         if guided {
-            file.guides = crate::common::scene("two-pads").file.guides;
+            file.guides = crate::common::scene("two-pads").file().guides.clone();
             file.guides.truncate(1);
             file.guides[0].radius_m = 0.17;
             file.guides[0].radial_length_m = 0.03;
@@ -263,10 +267,11 @@ proptest! {
         let mut scene = Scene::try_from(file).unwrap();
         // A sweep past many critical speeds has many bands, and takes as long.
         if let Ok(critical) = SpectralModel::critical_speeds(&Plate::new(&scene, SMALL)) {
-            scene.sweep = Some(SpeedRange {
+            let swept = scene.swept(SpeedRange {
                 from_rad_per_s: 0.0,
                 to_rad_per_s: 1.1 * critical[0].speed_rad_per_s,
             });
+            scene = swept.unwrap();
         }
         match Analysis::new(&scene, &|_, _| ()) {
             Ok(analysis) => {

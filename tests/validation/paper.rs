@@ -181,11 +181,8 @@ fn the_free_blade_is_never_unstable() {
 fn guided() -> &'static Analysis {
     static ANALYSIS: OnceLock<Analysis> = OnceLock::new();
     ANALYSIS.get_or_init(|| {
-        let scene = Scene {
-            accuracy: Accuracy::Reference,
-            ..Scene::paper()
-        };
-        Analysis::new(&scene, &|_, _| ()).unwrap()
+        let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Reference);
+        Analysis::new(&scene.unwrap(), &|_, _| ()).unwrap()
     })
 }
 
@@ -272,7 +269,8 @@ fn table_5_from_rest_to_1250_rpm() {
 /// What the figure shows as the paper's points is the paper's table.
 #[test]
 fn the_scene_carries_table_5() {
-    let rows = Scene::paper().file.measured.expect("measured").rows;
+    let paper = Scene::paper();
+    let rows = &paper.file().measured.as_ref().expect("measured").rows;
     let table: Vec<TableRow> = crate::common::table("table5.csv");
     assert_eq!(rows.len(), table.len());
     for (row, printed) in rows.iter().zip(&table) {

@@ -20,7 +20,7 @@ const RESOLUTION: Resolution = Resolution {
 
 /// The paper's blade on point springs.
 fn scene(springs: &[(f64, f64)]) -> Scene {
-    let mut file: SceneFile = Scene::paper().file;
+    let mut file: SceneFile = Scene::paper().file().clone();
     let spring = |&(radius_m, angle_deg): &(f64, f64)| GuideFile {
         radius_m,
         angle_deg,

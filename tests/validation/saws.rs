@@ -11,9 +11,8 @@ use sawflutter::system::GyroscopicSystem;
 
 pub fn scene_with(base: &Scene, membrane: serde_json::Value) -> Scene {
     let membrane: MembraneFile = serde_json::from_value(membrane).unwrap();
-    let mut file = base.file.clone();
-    file.membrane = Some(membrane);
-    Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
+    let stressed = base.edited(|saw| saw.membrane = Some(membrane));
+    stressed.unwrap_or_else(|error| panic!("{error}"))
 }
 
 pub fn collar() -> Scene {

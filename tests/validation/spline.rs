@@ -6,7 +6,7 @@
 
 use faer::{Mat, Side};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, Spline, rad_per_s};
+use sawflutter::scene::{Scene, SplineFile, rad_per_s};
 use sawflutter::spline::{ReactionEffect, Run, SplineRun, reaction_effect, simulate};
 use sawflutter::system::GyroscopicSystem;
 
@@ -17,17 +17,17 @@ const IN_MILLIMETRES: [f64; 2] = [6.957e9, 4743.0];
 const IN_METRES: [f64; 2] = [2.2e5, 0.15];
 
 fn paper_on_spline(degrees: f64, [stiffness, damping]: [f64; 2]) -> Scene {
-    let mut scene = Scene::paper();
-    scene.spline = Some(Spline {
+    let spline = SplineFile {
         teeth: 20,
-        pressure_angle_rad: degrees.to_radians(),
+        pressure_angle_deg: degrees,
         contact_stiffness_n_per_m_3_2: stiffness,
         contact_damping_n_s_3_2_per_m_3_2: damping,
         clearance_m: 0.25e-3,
-        pitch_radius_m: scene.blade.inner_radius_m,
-        weight_angle_rad: None,
-    });
-    scene
+        pitch_radius_m: None,
+        weight_angle_deg: None,
+    };
+    let scene = Scene::paper().edited(|saw| saw.spline = Some(spline));
+    scene.unwrap()
 }
 
 fn plate() -> Plate {

@@ -84,7 +84,7 @@ fn two_solvers_agree_on_every_scene() {
         let scene = crate::common::scene(name);
         for rpm in SPEEDS_RPM {
             let speed = rad_per_s(rpm);
-            for (part, system) in systems(&scene, Resolution::of(scene.accuracy))
+            for (part, system) in systems(&scene, Resolution::of(scene.accuracy()))
                 .iter()
                 .enumerate()
             {

@@ -4,18 +4,18 @@ use std::f64::consts::TAU;
 
 use faer::{Mat, Side};
 
-use super::tests::{LOADS, blade_with};
+use super::tests::LOADS;
 use super::*;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 
 /// n ≤ 5, without guides.
 fn free_plate(radial_functions: usize) -> Plate {
-    let scene = Scene {
-        blade: blade_with(0.3),
-        guides: Vec::new(),
-        ..Scene::paper()
-    };
+    let scene = Scene::paper().edited(|saw| {
+        saw.blade.inner_diameter_m = 0.3 * saw.blade.outer_diameter_m;
+        saw.guides.clear();
+    });
+    let scene = scene.unwrap();
     let resolution = Resolution {
         max_diameters: 5,
         radial_functions,
@@ -138,7 +138,7 @@ fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
 
 #[test]
 fn a_torque_is_pure_shear() {
-    let blade = Scene::paper().blade;
+    let blade = *Scene::paper().blade();
     let stress = EdgeStress::new(&blade, &LOADS, 12);
     let torque = blade.outer_radius_m * LOADS.iter().map(|load| load.tangential_n).sum::<f64>();
     for r in [blade.inner_radius_m, 0.2, blade.outer_radius_m] {

@@ -184,7 +184,7 @@ impl Sample {
 mod tests {
     use super::*;
     use crate::plate::{BoreForce, Resolution, RimForce};
-    use crate::scene::{Bore, InPlane, Scene};
+    use crate::scene::{Bore, InPlane, Mount, Scene};
 
     /// Twice the points change no integral of the largest basis.
     #[test]
@@ -195,9 +195,19 @@ mod tests {
             (0.01, Bore::Free),
             (0.52, Bore::Clamped(InPlane::Fixed)),
         ] {
-            let mut scene = Scene::paper();
-            scene.blade.inner_radius_m = ratio * scene.blade.outer_radius_m;
-            scene.blade.bore = bore;
+            let scene = Scene::paper().edited(|saw| {
+                let diameter_m = ratio * saw.blade.outer_diameter_m;
+                saw.blade.inner_diameter_m = diameter_m;
+                saw.mount = match bore {
+                    Bore::Free => Mount::Spline {},
+                    Bore::Clamped(in_plane) => Mount::Collar {
+                        diameter_m,
+                        in_plane,
+                    },
+                };
+                saw.guides.clear();
+            });
+            let scene = scene.unwrap();
             let resolution = Resolution {
                 max_diameters: 24,
                 radial_functions: 12,

@@ -39,7 +39,7 @@ const REACTION: [BoreForce; 2] = [
 const ORDERS: [usize; 8] = [0, 1, 2, 3, 5, 12, 31, 48];
 
 pub fn blade_with(ratio: f64) -> Blade {
-    let mut blade = Scene::paper().blade;
+    let mut blade = *Scene::paper().blade();
     blade.inner_radius_m = ratio * blade.outer_radius_m;
     blade
 }

@@ -11,17 +11,18 @@ const BORES: [Bore; 3] = [
 ];
 
 fn paper_with(membrane: &str, bore: Bore) -> (Blade, Membrane) {
-    let mut file = Scene::paper().file;
-    file.membrane = Some(serde_json::from_str(membrane).unwrap());
-    if let Bore::Clamped(in_plane) = bore {
-        let diameter_m = file.blade.inner_diameter_m;
-        file.mount = Mount::Collar {
-            diameter_m,
-            in_plane,
-        };
-    }
-    let scene = Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"));
-    (scene.blade, scene.membrane.unwrap())
+    let scene = Scene::paper().edited(|file| {
+        file.membrane = Some(serde_json::from_str(membrane).unwrap());
+        if let Bore::Clamped(in_plane) = bore {
+            let diameter_m = file.blade.inner_diameter_m;
+            file.mount = Mount::Collar {
+                diameter_m,
+                in_plane,
+            };
+        }
+    });
+    let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+    (*scene.blade(), scene.membrane().unwrap().clone())
 }
 
 fn stress_of(membrane: &str, bore: Bore) -> MembraneStress {

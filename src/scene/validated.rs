@@ -1,0 +1,193 @@
+//! A [`Scene`]: a saw whose numbers have all been checked, in SI units and radians.
+
+use super::{
+    Accuracy, Cut, Guide, InPlane, Material, Membrane, Probe, RunUp, SceneError, SceneFile, Spline,
+    SweepFile, rpm,
+};
+
+/// A validated saw. It holds the scene as typed and the numbers made from it, which is why it
+/// cannot be changed: [`Scene::edited`] makes another one.
+///
+/// ```compile_fail
+/// let mut saw = sawflutter::scene::Scene::paper();
+/// saw.guides.clear();
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    pub(super) file: SceneFile,
+    pub(super) blade: Blade,
+    pub(super) guides: Vec<Guide>,
+    pub(super) damping: Option<Damping>,
+    pub(super) membrane: Option<Membrane>,
+    pub(super) spline: Option<Spline>,
+    pub(super) sweep: Option<SpeedRange>,
+    pub(super) operating_rad_per_s: Option<f64>,
+    pub(super) tolerance: f64,
+    pub(super) flutter_threshold_per_s: f64,
+    pub(super) cut: Option<Cut>,
+    pub(super) runup: Option<RunUp>,
+    pub(super) probe: Probe,
+}
+
+/// The moving annulus a < r < b.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blade {
+    /// Inner radius a: the bore of a spline blade, the edge of a collar.
+    pub inner_radius_m: f64,
+    /// Outer radius b.
+    pub outer_radius_m: f64,
+    /// Thickness h.
+    pub thickness_m: f64,
+    /// Material.
+    pub material: Material,
+    /// What happens at r = a.
+    pub bore: Bore,
+}
+
+/// Condition at the inner radius, in bending and in plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bore {
+    /// Spline: free in bending and in plane.
+    Free,
+    /// Collar: clamped in bending, in plane as stated.
+    Clamped(InPlane),
+}
+
+/// Damping of the blade.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damping {
+    /// Kelvin–Voigt retardation time η, in the body frame.
+    pub material_retardation_time_s: f64,
+    /// Air resistance per area, in the space-fixed frame.
+    pub air_n_s_per_m3: f64,
+}
+
+/// Range of rotation speeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedRange {
+    /// First speed.
+    pub from_rad_per_s: f64,
+    /// Last speed.
+    pub to_rad_per_s: f64,
+}
+
+impl Scene {
+    /// The same saw with changes to what the user typed, validated again.
+    ///
+    /// ```
+    /// use sawflutter::scene::Scene;
+    ///
+    /// let saw = Scene::paper().edited(|file| file.guides[0].radius_m = 0.22)?;
+    /// assert_eq!(saw.guides()[0].radius_m, 0.22);
+    /// assert!(saw.edited(|file| file.blade.thickness_m = -1.0).is_err());
+    /// # Ok::<(), sawflutter::scene::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError`] with the JSON path of the offending key.
+    pub fn edited(&self, change: impl FnOnce(&mut SceneFile)) -> Result<Scene, SceneError> {
+        let mut file = self.file.clone();
+        change(&mut file);
+        Scene::try_from(file)
+    }
+
+    /// The same saw, looked at over other speeds.
+    ///
+    /// # Errors
+    /// [`SceneError`] where no sweep may have this range.
+    pub fn swept(&self, range: SpeedRange) -> Result<Scene, SceneError> {
+        self.edited(|file| {
+            file.sweep = Some(SweepFile {
+                from_rpm: rpm(range.from_rad_per_s),
+                to_rpm: rpm(range.to_rad_per_s),
+            });
+        })
+    }
+
+    /// What the user typed.
+    pub fn file(&self) -> &SceneFile {
+        &self.file
+    }
+
+    /// The part of the blade that moves.
+    pub fn blade(&self) -> &Blade {
+        &self.blade
+    }
+
+    /// Guide pads with a stiffness or a damping.
+    pub fn guides(&self) -> &[Guide] {
+        &self.guides
+    }
+
+    /// Damping, if any number of it is not zero.
+    pub fn damping(&self) -> Option<Damping> {
+        self.damping
+    }
+
+    /// Membrane stress from heat, roll tension or as measured.
+    pub fn membrane(&self) -> Option<&Membrane> {
+        self.membrane.as_ref()
+    }
+
+    /// Contact between bore and arbor, if its motion is asked for.
+    pub fn spline(&self) -> Option<&Spline> {
+        self.spline.as_ref()
+    }
+
+    /// Speeds asked for; `None` leaves the choice to the program.
+    pub fn sweep(&self) -> Option<SpeedRange> {
+        self.sweep
+    }
+
+    /// Speed at which the saw is run.
+    pub fn operating_rad_per_s(&self) -> Option<f64> {
+        self.operating_rad_per_s
+    }
+
+    /// Speed for accuracy, by its name.
+    pub fn accuracy(&self) -> Accuracy {
+        self.file.accuracy
+    }
+
+    /// Relative error allowed of critical speeds and onsets: that given, or that of the name.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Growth rate from which a band counts as flutter of the saw.
+    pub fn flutter_threshold_per_s(&self) -> f64 {
+        self.flutter_threshold_per_s
+    }
+
+    /// Forces of the wood on the teeth.
+    pub fn cut(&self) -> Option<&Cut> {
+        self.cut.as_ref()
+    }
+
+    /// Run-up under a lateral force.
+    pub fn runup(&self) -> Option<&RunUp> {
+        self.runup.as_ref()
+    }
+
+    /// Where the deflection is read.
+    pub fn probe(&self) -> &Probe {
+        &self.probe
+    }
+}
+
+impl Blade {
+    /// Bending stiffness D = E h³ / 12(1 − ν²), in N·m.
+    pub fn flexural_rigidity_n_m(&self) -> f64 {
+        let Material {
+            youngs_modulus_pa: e,
+            poisson_ratio: nu,
+            ..
+        } = self.material;
+        e * self.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu))
+    }
+
+    /// Mass per area ρh, in kg/m².
+    pub fn mass_per_area_kg_per_m2(&self) -> f64 {
+        self.material.density_kg_per_m3 * self.thickness_m
+    }
+}
