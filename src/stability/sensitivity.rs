@@ -205,9 +205,7 @@ fn changed_parts(
     let stencil = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
     let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
     for (place, weight) in stencil {
-        let mut file = scene.file().clone();
-        (parameter.shift)(&mut file, place * share);
-        let scene = Scene::try_from(file)?;
+        let scene = scene.edited(|file| (parameter.shift)(file, place * share))?;
         let parts = Part::of(&Plate::new(&scene, plate.resolution));
         moved.resize_with(parts.len(), Vec::new);
         for (terms, part) in moved.iter_mut().zip(parts) {

@@ -80,7 +80,7 @@ fn every_scene_loads_says_where_it_comes_from_and_round_trips() {
 fn the_built_in_saw_is_the_papers() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/paper.json");
     assert_eq!(
-        Scene::from_path(path.as_ref()).unwrap_or_else(|error| panic!("{error}")),
+        Scene::from_path(path).unwrap_or_else(|error| panic!("{error}")),
         Scene::paper()
     );
 }
