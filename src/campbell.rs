@@ -5,10 +5,17 @@
 //! wave then passes through its critical speed without changing its shape, and
 //! modes of opposite sign can never be mistaken for each other.
 
-use faer::{Col, c64};
+mod assignment;
+mod matching;
+mod refine;
+
+use faer::c64;
 use rayon::prelude::*;
 
 use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError};
+
+pub(crate) use matching::{Sighted, match_modes};
+pub(crate) use refine::{Closeness, refined};
 
 /// Told how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
@@ -99,18 +106,24 @@ pub fn sample(
 }
 
 impl Campbell {
-    /// Follows the modes of samples at ascending speeds.
-    pub fn track(mut samples: Vec<SpeedSample>) -> Self {
+    /// Follows the modes of samples up to the height of their chart: a branch begins and ends
+    /// at the first and the last speed or at that height.
+    pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         let mut branches: Vec<Branch> = Vec::new();
         // Branch that each mode of the previous sample belongs to.
         let mut current: Vec<usize> = Vec::new();
         for index in 0..samples.len() {
             let previous = index.checked_sub(1).map(|i| &samples[i]);
-            let matches = previous.map_or(Vec::new(), |p| match_modes(p, &samples[index]));
+            let matches = previous.map_or(Vec::new(), |before| {
+                let after = &samples[index];
+                let seen = [before, after].map(|sample| Sighted::of_described(&sample.modes));
+                let step = after.speed_rad_per_s - before.speed_rad_per_s;
+                match_modes([&seen[0], &seen[1]], step, height_rad_per_s)
+            });
             let mut next = vec![usize::MAX; samples[index].modes.len()];
-            for (before, after) in matches {
-                next[after] = current[before];
+            for found in matches {
+                next[found.after] = current[found.before];
             }
             for (mode, branch) in next.iter_mut().enumerate() {
                 if *branch == usize::MAX {
@@ -128,81 +141,6 @@ impl Campbell {
     pub fn mode(&self, (sample, mode): (usize, usize)) -> &DescribedMode {
         &self.samples[sample].modes[mode]
     }
-}
-
-/// A mode brought to positive action.
-struct Carrier<'a> {
-    frequency: f64,
-    slope: f64,
-    part: usize,
-    shape: &'a Col<c64>,
-    conjugated: bool,
-}
-
-impl<'a> Carrier<'a> {
-    fn new(described: &'a DescribedMode) -> Self {
-        let mode = &described.mode;
-        let conjugated = mode.action < 0;
-        let sign = if conjugated { -1.0 } else { 1.0 };
-        Carrier {
-            frequency: sign * mode.lambda.im,
-            slope: sign * mode.frequency_slope,
-            part: mode.part,
-            shape: &described.shape,
-            conjugated,
-        }
-    }
-
-    /// |xᴴy|², 1 for the same shape.
-    fn likeness(&self, other: &Carrier<'_>) -> f64 {
-        if self.part != other.part {
-            return 0.0;
-        }
-        let mut product = c64::new(0.0, 0.0);
-        for (x, y) in self.shape.iter().zip(other.shape.iter()) {
-            let left = if self.conjugated { *x } else { x.conj() };
-            let right = if other.conjugated { y.conj() } else { *y };
-            product += left * right;
-        }
-        product.norm_sqr()
-    }
-}
-
-/// Shapes less alike than this are not taken for the same mode, unless nothing better is left.
-const LEAST_LIKENESS: f64 = 0.2;
-
-/// Pairs (mode before, mode after): the most alike first, each mode once. Shape
-/// decides; how far the frequency is from where its slope leads breaks near ties.
-fn match_modes(before: &SpeedSample, after: &SpeedSample) -> Vec<(usize, usize)> {
-    let step = after.speed_rad_per_s - before.speed_rad_per_s;
-    let old: Vec<Carrier<'_>> = before.modes.iter().map(Carrier::new).collect();
-    let new: Vec<Carrier<'_>> = after.modes.iter().map(Carrier::new).collect();
-    let height = old
-        .iter()
-        .chain(&new)
-        .fold(f64::MIN_POSITIVE, |top, c| top.max(c.frequency.abs()));
-    let mut candidates = Vec::new();
-    for (i, x) in old.iter().enumerate() {
-        for (k, y) in new.iter().enumerate() {
-            let likeness = x.likeness(y);
-            let miss = x.frequency + 0.5 * (x.slope + y.slope) * step - y.frequency;
-            let score = likeness - miss.abs() / height;
-            if likeness >= LEAST_LIKENESS || miss.abs() < 0.02 * height {
-                candidates.push((score, i, k));
-            }
-        }
-    }
-    candidates.sort_by(|x, y| y.0.total_cmp(&x.0));
-    let mut free = (vec![true; old.len()], vec![true; new.len()]);
-    let mut pairs = Vec::new();
-    for (_, i, k) in candidates {
-        if free.0[i] && free.1[k] {
-            free.0[i] = false;
-            free.1[k] = false;
-            pairs.push((i, k));
-        }
-    }
-    pairs
 }
 
 #[cfg(test)]
@@ -225,7 +163,7 @@ mod tests {
         let range = (0.0, rad_per_s(3000.0));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
-        let campbell = Campbell::track(samples);
+        let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
         // The others leave the chart at its top.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);
         let mut followed = 0;
@@ -234,7 +172,7 @@ mod tests {
                 .iter()
                 .map(|&p| {
                     let name = &campbell.mode(p).name;
-                    (name.diameters, name.circles, name.direction_on_blade())
+                    (name.diameters, name.circles, name.direction.on_blade())
                 })
                 .collect();
             assert!(names.windows(2).all(|pair| pair[0] == pair[1]), "{names:?}");

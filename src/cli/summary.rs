@@ -39,9 +39,18 @@ fn header(text: &mut String, report: &Report) -> std::fmt::Result {
 fn modes(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(text, "\nModes at rest [Hz]")?;
     for mode in report.modes_at_rest.iter().take(8) {
-        writeln!(text, "  {:>9.2}  {}", mode.frequency_hz, mode.name)?;
+        let name = numbered(mode.branch, &mode.name);
+        writeln!(text, "  {:>9.2}  {name}", mode.frequency_hz)?;
     }
     Ok(())
+}
+
+/// Number and name of a branch, as at the lines of the Campbell diagram.
+fn numbered(branch: Option<usize>, name: &str) -> String {
+    match branch {
+        Some(number) => format!("{number}: {name}"),
+        None => name.to_owned(),
+    }
 }
 
 fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
@@ -55,11 +64,7 @@ fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
     }
     writeln!(text, "\nCritical speeds [rpm]")?;
     for critical in speeds.iter().take(ROWS) {
-        let name = in_words(
-            critical.nodal_diameters,
-            critical.nodal_circles,
-            Direction::Standing,
-        );
+        let name = numbered(critical.branch, &critical.name);
         writeln!(text, "  {:>9.1}  {name}", critical.rpm)?;
     }
     more(text, speeds.len())

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::reply::{Charts, Refusal};
 use crate::plate::Plate;
 use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, Direction, in_words};
+use crate::spectrum::{DescribedMode, Direction};
 use crate::stability::Analysis;
 
 /// Which mode.
@@ -92,7 +92,7 @@ fn reply(plate: &Plate, speed_rad_per_s: f64, described: &DescribedMode) -> Mode
     let (mode, name) = (&described.mode, &described.name);
     let seen = name.harmonics.iter().filter(|h| h.share >= LEAST_SHARE);
     ModeReply {
-        name: in_words(name.diameters, name.circles, name.direction),
+        name: name.in_shares(),
         direction: name.direction,
         rpm: rpm(speed_rad_per_s),
         frequency_hz: mode.frequency_rad_per_s() / TAU,

@@ -3,6 +3,7 @@
 mod band_labels;
 mod certificate;
 mod growth;
+mod legend;
 mod speeds;
 mod waves;
 
@@ -13,9 +14,7 @@ use band_labels::BandLabels;
 use super::FigureError;
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::style::{
-    AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten,
-};
+use super::style::{AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, MARGIN, QUIET};
 use super::{bands, heading, render};
 use crate::report::{InstabilityKind, Report};
 
@@ -23,14 +22,15 @@ const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 900;
 const PLOT_LEFT: f64 = 92.0;
 const PLOT_TOP: f64 = 122.0;
-const PLOT_BOTTOM: f64 = 802.0;
+const PLOT_BOTTOM: f64 = 788.0;
 const BETWEEN_PANELS: f64 = 16.0;
 const GROWTH_HEIGHT: f64 = 236.0;
 /// Height of the lower panel when there is nothing to see in it.
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
 
-/// Baselines of the two lines at the foot.
-const NOTES_ABOVE_FOOT: f64 = 34.0;
+/// Baselines of the lines at the foot.
+const LEGEND_ABOVE_FOOT: f64 = 52.0;
+const NOTES_ABOVE_FOOT: f64 = 33.0;
 const CERTIFICATE_ABOVE_FOOT: f64 = 14.0;
 
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
@@ -78,7 +78,7 @@ fn campbell(report: &Report) -> Sheet {
     labels.draw(&mut sheet);
     waves::label_branches(&mut sheet, &chart);
     speeds::label_operating(&mut sheet, &chart);
-    draw_notes(&mut sheet, &chart);
+    legend::draw(&mut sheet, &chart, &labels);
     certificate::draw(&mut sheet, report);
     sheet
 }
@@ -131,7 +131,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
     let middle = (chart.upper.left + chart.upper.right) / 2.0;
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
     let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, PLOT_BOTTOM + 40.0], letters, name);
+    sheet.text([middle, PLOT_BOTTOM + 37.0], letters, name);
 }
 
 fn key_facts(report: &Report) -> String {
@@ -179,45 +179,6 @@ fn count(number: usize, one: &str, many: &str) -> String {
         1 => format!("1 {one}"),
         _ => format!("{number} {many}"),
     }
-}
-
-/// One line at the foot that explains the marks that are not labelled in place.
-fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let baseline = f64::from(HEIGHT) - NOTES_ABOVE_FOOT;
-    let mut x = PLOT_LEFT;
-    let shown = waves::marks_shown(chart);
-    if let Some(source) = shown.measured {
-        waves::draw_measured_mark(sheet, [x + 4.0, baseline - 4.0]);
-        x += 14.0;
-        let text = shorten(source, LABEL_SIZE, Weight::Regular, 420.0);
-        sheet.text([x, baseline], letters, &text);
-        x += super::style::text_width(&text, LABEL_SIZE, Weight::Regular) + 24.0;
-    }
-    let explained = [
-        (
-            shown.reflected,
-            "dashed: reflected, a backward wave past its critical speed",
-        ),
-        (shown.unstable, "thick: unstable"),
-        (
-            growth::hides_decay(chart.report),
-            "each growing mode has a decaying mirror image, not shown",
-        ),
-    ];
-    let notes: Vec<_> = explained
-        .iter()
-        .filter(|(shown, _)| *shown)
-        .map(|(_, note)| *note)
-        .collect();
-    let room = f64::from(WIDTH) - MARGIN - x;
-    let notes = shorten(
-        &notes.join(BETWEEN_FACTS),
-        LABEL_SIZE,
-        Weight::Regular,
-        room,
-    );
-    sheet.text([x, baseline], letters, &notes);
 }
 
 #[cfg(test)]

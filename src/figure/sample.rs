@@ -101,10 +101,12 @@ fn branch(
     };
     let seen: Vec<f64> = rpm.iter().map(|r| body(r) + sign * n * r / 60.0).collect();
     BranchEntry {
+        branch: 0,
         name: String::new(),
+        label: format!("{diameters} {direction:?}").to_lowercase(),
         nodal_diameters: diameters,
         nodal_circles: 0,
-        direction,
+        direction: vec![direction; rpm.len()],
         rpm: rpm.to_vec(),
         frequency_hz: seen.iter().map(|hz| hz.abs()).collect(),
         body_frequency_hz: rpm.iter().map(body).collect(),
@@ -126,6 +128,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         peak_rpm: (from + to) / 2.0,
         peak_growth_per_s: growth,
         frequency_hz: hz,
+        branches: Vec::new(),
         modes: Vec::new(),
     }
 }
@@ -140,6 +143,8 @@ pub fn busy_report() -> Report {
         .filter(|band| band.frequency_hz == 0.0);
     let critical = |(i, rpm)| CriticalSpeedEntry {
         rpm,
+        branch: None,
+        name: String::new(),
         nodal_diameters: 2 + i / 2,
         nodal_circles: 0,
     };

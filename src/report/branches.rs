@@ -1,78 +1,222 @@
-//! Branches of the Campbell diagram as the report has them.
+//! Branches of the Campbell diagram as the report has them, each with one number and one name
+//! wherever it is met.
 
 use std::f64::consts::TAU;
 
-use super::BranchEntry;
-use crate::campbell::Branch;
-use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, Direction, in_words};
-use crate::stability::Analysis;
+use faer::{Col, c64};
 
-/// By frequency at their lowest speed.
-pub fn branches(analysis: &Analysis) -> Vec<BranchEntry> {
-    let mut entries: Vec<BranchEntry> = analysis
-        .chart
-        .campbell
-        .branches
-        .iter()
-        .map(|branch| branch_entry(analysis, branch))
-        .collect();
-    let start = |e: &BranchEntry| (e.rpm[0], e.frequency_hz[0]);
-    entries.sort_by(|x, y| {
-        let (x, y) = (start(x), start(y));
-        x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1))
-    });
-    entries
+use super::BranchEntry;
+use crate::campbell::{Branch, Campbell, SpeedSample};
+use crate::scene::rpm;
+use crate::spectrum::{
+    DescribedMode, Direction, ModeKind, NamedCriticalSpeed, SpectralModel, in_words,
+};
+use crate::stability::{Analysis, Instability, InstabilityKind};
+
+/// Shapes less alike than this are not taken for the same wave: half is what a wave that
+/// travels has of one that stands.
+const LEAST_LIKENESS: f64 = 0.4;
+
+/// The branches of an analysis by their numbers, which are their places and one.
+pub struct Numbered<'a> {
+    analysis: &'a Analysis,
+    /// Place of each branch of the chart.
+    place: Vec<usize>,
+    names: Vec<BranchName>,
 }
 
-fn branch_entry(analysis: &Analysis, branch: &Branch) -> BranchEntry {
-    let campbell = &analysis.chart.campbell;
-    let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
-    let ((nodal_diameters, nodal_circles), direction) = branch_name(&modes);
-    let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
-    BranchEntry {
-        name: in_words(nodal_diameters, nodal_circles, direction),
-        nodal_diameters,
-        nodal_circles,
-        direction,
-        rpm: branch
-            .points
+#[derive(Clone)]
+struct BranchName {
+    words: String,
+    short: String,
+}
+
+impl<'a> Numbered<'a> {
+    /// Numbers the branches by their first speeds, those of one speed by frequency.
+    pub fn new(analysis: &'a Analysis) -> Self {
+        let campbell = &analysis.chart.campbell;
+        let start = |b: usize| {
+            let first = campbell.branches[b].points[0];
+            (first.0, campbell.mode(first).mode.frequency_rad_per_s())
+        };
+        let mut order: Vec<usize> = (0..campbell.branches.len()).collect();
+        order.sort_by(|x, y| {
+            let (x, y) = (start(*x), start(*y));
+            x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
+        });
+        let mut place = vec![0; order.len()];
+        for (at, branch) in order.iter().enumerate() {
+            place[*branch] = at;
+        }
+        let named = order
             .iter()
-            .map(|&(s, _)| rpm(campbell.samples[s].speed_rad_per_s))
-            .collect(),
-        frequency_hz: list(|m| m.mode.frequency_rad_per_s() / TAU),
-        body_frequency_hz: list(|m| m.name.body_frequency_rad_per_s / TAU),
-        growth_per_s: list(|m| m.mode.growth_per_s()),
-        krein_sign: modes.iter().map(|m| m.mode.krein_sign()).collect(),
-        dominant_harmonics: modes
-            .iter()
-            .map(|m| {
-                let diameters =
-                    |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
-                [diameters(0), diameters(1)]
-            })
-            .collect(),
+            .map(|b| BranchName::new(analysis, &campbell.branches[*b]));
+        Numbered {
+            analysis,
+            place,
+            names: named.collect(),
+        }
+    }
+
+    /// The name of a number.
+    pub fn name(&self, number: usize) -> String {
+        self.names[number - 1].words.clone()
+    }
+
+    /// The branches as they are reported.
+    pub fn entries(&self) -> Vec<BranchEntry> {
+        let branches = self.campbell().branches.iter().zip(&self.place);
+        let mut entries: Vec<BranchEntry> = branches
+            .map(|(branch, place)| self.entry(branch, *place))
+            .collect();
+        entries.sort_by_key(|entry| entry.branch);
+        entries
+    }
+
+    /// The branch that begins with a mode at rest.
+    pub fn of_mode_at_rest(&self, index: usize) -> Option<usize> {
+        let first = self.campbell().samples.first();
+        first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
+        self.at((0, index))
+    }
+
+    /// The growing branch of a band and its mirror image, read off the speed of its peak.
+    pub fn of_band(&self, band: &Instability) -> Vec<usize> {
+        let Some(index) = self.nearest_sample(band.peak) else {
+            return Vec::new();
+        };
+        let sample = &self.campbell().samples[index];
+        let wanted = c64::new(band.peak_growth_per_s, band.frequency);
+        let kinds = match band.kind {
+            InstabilityKind::Divergence => vec![ModeKind::Divergent],
+            InstabilityKind::Flutter => vec![ModeKind::Flutter, ModeKind::Decaying],
+        };
+        let damped = |m: &DescribedMode| m.mode.kind == ModeKind::Damped && m.mode.lambda.re > 0.0;
+        let conservative = self.analysis.model.is_conservative();
+        let kinds = if conservative {
+            kinds
+        } else {
+            vec![ModeKind::Damped]
+        };
+        let found = kinds.into_iter().filter_map(|kind| {
+            let modes = sample.modes.iter().enumerate();
+            let same = modes.filter(|(_, m)| m.mode.kind == kind && (conservative || damped(m)));
+            let off = |m: &DescribedMode| {
+                let lambda = m.mode.lambda;
+                (c64::new(lambda.re.abs(), lambda.im) - wanted).norm()
+            };
+            let nearest = same.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));
+            self.at((index, nearest?.0))
+        });
+        found.collect()
+    }
+
+    /// The branch that stands still at a critical speed.
+    pub fn of_critical(&self, critical: &NamedCriticalSpeed) -> Option<usize> {
+        let samples = &self.campbell().samples;
+        let above = samples.partition_point(|s| s.speed_rad_per_s < critical.speed_rad_per_s);
+        let model = &self.analysis.model;
+        let beside = [above.checked_sub(1), Some(above)].into_iter().flatten();
+        let beside = beside.filter(|index| *index < samples.len());
+        let candidates = beside.flat_map(|index| {
+            let modes = samples[index].modes.iter().enumerate();
+            let own = modes.filter(|(_, m)| m.mode.part == critical.part);
+            own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), (index, k)))
+        });
+        let best = candidates.max_by(|x, y| x.0.total_cmp(&y.0))?;
+        self.at(best.1).filter(|_| best.0 >= LEAST_LIKENESS)
+    }
+
+    fn campbell(&self) -> &'a Campbell {
+        &self.analysis.chart.campbell
+    }
+
+    /// Number of the branch through a point.
+    fn at(&self, point: (usize, usize)) -> Option<usize> {
+        let branches = &self.campbell().branches;
+        let through = |branch: &Branch| branch.points.binary_search_by_key(&point.0, |p| p.0);
+        let is_through = |b: &Branch| through(b).is_ok_and(|at| b.points[at] == point);
+        let branch = branches.iter().position(is_through)?;
+        Some(self.place[branch] + 1)
+    }
+
+    fn nearest_sample(&self, speed_rad_per_s: f64) -> Option<usize> {
+        let samples = &self.campbell().samples;
+        let off = |s: &SpeedSample| (s.speed_rad_per_s - speed_rad_per_s).abs();
+        (0..samples.len()).min_by(|x, y| off(&samples[*x]).total_cmp(&off(&samples[*y])))
+    }
+
+    fn entry(&self, branch: &Branch, place: usize) -> BranchEntry {
+        let campbell = self.campbell();
+        let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
+        let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
+        let speed = |&(s, _): &(usize, usize)| rpm(campbell.samples[s].speed_rad_per_s);
+        let harmonics = |m: &&DescribedMode| {
+            let diameters = |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
+            [diameters(0), diameters(1)]
+        };
+        let named = &modes[naming_point(self.analysis, branch)].name;
+        let name = &self.names[place];
+        BranchEntry {
+            branch: place + 1,
+            name: name.words.clone(),
+            label: format!("{}: {}", place + 1, name.short),
+            nodal_diameters: named.diameters,
+            nodal_circles: named.circles,
+            direction: modes.iter().map(|m| m.name.direction.on_blade()).collect(),
+            rpm: branch.points.iter().map(speed).collect(),
+            frequency_hz: list(|m| m.mode.frequency_rad_per_s() / TAU),
+            body_frequency_hz: list(|m| m.name.body_frequency_rad_per_s / TAU),
+            growth_per_s: list(|m| m.mode.growth_per_s()),
+            krein_sign: modes.iter().map(|m| m.mode.krein_sign()).collect(),
+            dominant_harmonics: modes.iter().map(harmonics).collect(),
+        }
     }
 }
 
-/// What most points of a branch are called; at rest waves stand, which names no direction.
-fn branch_name(modes: &[&DescribedMode]) -> ((usize, usize), Direction) {
-    let commonest = |names: Vec<(usize, usize, Direction)>| {
-        let count = |name: &(usize, usize, Direction)| names.iter().filter(|n| *n == name).count();
-        names.iter().copied().rev().max_by_key(count)
-    };
-    let named = |m: &&DescribedMode| {
-        (
-            m.name.diameters,
-            m.name.circles,
-            m.name.direction_on_blade(),
-        )
-    };
-    let names = modes
-        .iter()
-        .skip(usize::from(modes.len() > 1))
-        .map(named)
-        .collect();
-    let (diameters, circles, direction) = commonest(names).unwrap_or((0, 0, Direction::Standing));
-    ((diameters, circles), direction)
+/// Index of the point that a branch is named by: the first, or of a blade without guides the
+/// second, for the two waves of a harmonic cannot be told apart at rest.
+fn naming_point(analysis: &Analysis, branch: &Branch) -> usize {
+    usize::from(analysis.model.plate.is_axisymmetric() && branch.points.len() > 1)
+}
+
+impl BranchName {
+    fn new(analysis: &Analysis, branch: &Branch) -> Self {
+        let campbell = &analysis.chart.campbell;
+        let point = branch.points[naming_point(analysis, branch)];
+        let name = &campbell.mode(point).name;
+        // Guides let waves stand at rest.
+        let at_rest = campbell.samples[point.0].speed_rad_per_s == 0.0;
+        let direction = match name.direction.on_blade() {
+            _ if at_rest => None,
+            Direction::Forward => Some("forward"),
+            Direction::Backward => Some("backward"),
+            Direction::Standing | Direction::Reflected => None,
+        };
+        let of = |name: String, between: &str| match direction {
+            Some(direction) => format!("{name}{between}{direction}"),
+            None => name,
+        };
+        BranchName {
+            words: of(name.in_shares(), ", "),
+            short: of(name.in_short(), " "),
+        }
+    }
+}
+
+/// |xᵀq|² of a wave that stands and a mode, both of length one.
+fn standing_likeness(
+    model: &SpectralModel,
+    critical: &NamedCriticalSpeed,
+    shape: &Col<c64>,
+) -> f64 {
+    let part = &model.parts[critical.part];
+    let own = part.coordinates(shape);
+    let product: c64 = (0..own.nrows()).map(|i| own[i] * critical.shape[i]).sum();
+    product.norm_sqr()
+}
+
+/// Name of a wave that stands, where no branch is known that it belongs to.
+pub fn standing(critical: &NamedCriticalSpeed) -> String {
+    in_words(critical.diameters, critical.circles, Direction::Standing)
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use super::branches::branches;
+use super::branches::{Numbered, standing};
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::{DescribedMode, Direction, SpectrumError, WorkCounters, in_words};
+use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
@@ -38,18 +38,24 @@ impl Report {
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
         let certificate = &analysis.chart.certificate;
+        let branches = Numbered::new(analysis);
         let resolution = model.plate.resolution;
         Ok(Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
             terms: terms(&model.plate),
-            modes_at_rest: at_rest.iter().map(|m| rest_mode(analysis, m)).collect(),
-            critical_speeds: critical_speeds(analysis),
+            modes_at_rest: (at_rest.iter().enumerate())
+                .map(|(i, mode)| RestMode {
+                    branch: branches.of_mode_at_rest(i),
+                    ..rest_mode(analysis, mode)
+                })
+                .collect(),
+            critical_speeds: critical_speeds(analysis, &branches),
             instabilities: analysis
                 .chart
                 .instabilities
                 .iter()
-                .map(InstabilityEntry::from)
+                .map(|band| InstabilityEntry::in_chart(band, &branches))
                 .collect(),
             flutter_speed_rpm: analysis.flutter_speed.map(rpm),
             first_merge_rpm: analysis.first_merge.map(rpm),
@@ -77,9 +83,9 @@ impl Report {
                 from_rpm: rpm(analysis.range.0),
                 to_rpm: rpm(analysis.range.1),
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
-                branches: branches(analysis),
+                branches: branches.entries(),
             },
-            root_loci: root_loci(analysis),
+            root_loci: root_loci(analysis, &branches),
             membrane: MembraneEntry::new(scene, analysis)?,
             sensitivities: Vec::new(),
             warnings: warnings(scene, analysis, &at_rest),
@@ -87,7 +93,7 @@ impl Report {
     }
 }
 
-fn root_loci(analysis: &Analysis) -> Option<RootLociEntry> {
+fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEntry> {
     let loci = analysis.root_loci.as_ref()?;
     let onset = analysis.flutter_speed.or(analysis.first_merge)?;
     let band = analysis
@@ -95,16 +101,15 @@ fn root_loci(analysis: &Analysis) -> Option<RootLociEntry> {
         .instabilities
         .iter()
         .find(|b| b.from == onset)?;
-    let paths = loci
-        .names
-        .iter()
-        .zip(&loci.paths)
-        .map(|(name, path)| RootPathEntry {
-            name: name.clone(),
-            growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
-            frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),
-            krein_sign: path.iter().map(|(_, sign)| *sign).collect(),
-        });
+    let names = branches.of_band(band).into_iter();
+    let names = names.map(|number| branches.name(number));
+    let names = names.chain(std::iter::repeat(String::new()));
+    let paths = names.zip(&loci.paths).map(|(name, path)| RootPathEntry {
+        name,
+        growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
+        frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),
+        krein_sign: path.iter().map(|(_, sign)| *sign).collect(),
+    });
     Some(RootLociEntry {
         onset_rpm: rpm(onset),
         end_rpm: rpm(band.to),
@@ -133,7 +138,8 @@ fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
         frequency_hz: described.mode.frequency_rad_per_s() / TAU,
         nodal_diameters: name.diameters,
         nodal_circles: name.circles,
-        name: in_words(name.diameters, name.circles, Direction::Standing),
+        name: name.in_shares(),
+        branch: None,
         backward_error: described.backward_error,
         harmonics: name
             .harmonics
@@ -199,7 +205,7 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
 }
 
 /// Critical speeds up to the end of the sweep; the double ones of a free blade once.
-fn critical_speeds(analysis: &Analysis) -> Vec<CriticalSpeedEntry> {
+fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<CriticalSpeedEntry> {
     let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
     for critical in &analysis.model.critical {
         if critical.speed_rad_per_s > analysis.range.1 {
@@ -212,8 +218,11 @@ fn critical_speeds(analysis: &Analysis) -> Vec<CriticalSpeedEntry> {
                 && (speed / e.rpm - 1.0).abs() < DOUBLE
         };
         if !entries.iter().any(double) {
+            let branch = branches.of_critical(critical);
             entries.push(CriticalSpeedEntry {
                 rpm: speed,
+                branch,
+                name: branch.map_or_else(|| standing(critical), |number| branches.name(number)),
                 nodal_diameters: critical.diameters,
                 nodal_circles: critical.circles,
             });
@@ -232,7 +241,23 @@ impl From<&Instability> for InstabilityEntry {
             peak_rpm: rpm(band.peak),
             peak_growth_per_s: band.peak_growth_per_s,
             frequency_hz: band.frequency / TAU,
-            modes: band.modes.clone(),
+            branches: Vec::new(),
+            modes: Vec::new(),
+        }
+    }
+}
+
+impl InstabilityEntry {
+    /// The band with the names of its branches.
+    pub(super) fn in_chart(band: &Instability, branches: &Numbered<'_>) -> Self {
+        let numbers = branches.of_band(band);
+        InstabilityEntry {
+            modes: numbers
+                .iter()
+                .map(|number| branches.name(*number))
+                .collect(),
+            branches: numbers,
+            ..Self::from(band)
         }
     }
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
+use super::branches::Numbered;
 use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm};
 
@@ -61,6 +62,7 @@ impl CheckReport {
         let to_rad_per_s = analysis.range.1;
         let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
         let bands = analysis.chart.instabilities.iter();
+        let branches = Numbered::new(analysis);
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
@@ -73,7 +75,9 @@ impl CheckReport {
                 .take_while(|speed| *speed <= to_rad_per_s)
                 .map(rpm)
                 .collect(),
-            instabilities: bands.map(InstabilityEntry::from).collect(),
+            instabilities: bands
+                .map(|band| InstabilityEntry::in_chart(band, &branches))
+                .collect(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
             rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,

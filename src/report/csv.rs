@@ -18,10 +18,10 @@ impl Report {
             "growth_per_s",
             "krein_sign",
         ])?;
-        for (index, branch) in self.campbell.branches.iter().enumerate() {
+        for branch in &self.campbell.branches {
             for k in 0..branch.rpm.len() {
                 writer.write_record([
-                    index.to_string(),
+                    branch.branch.to_string(),
                     branch.name.clone(),
                     branch.rpm[k].to_string(),
                     branch.frequency_hz[k].to_string(),

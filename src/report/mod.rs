@@ -83,8 +83,11 @@ pub struct RestMode {
     pub nodal_diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub nodal_circles: usize,
-    /// In words.
+    /// In words; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45 %)".
     pub name: String,
+    /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
+    /// rest.
+    pub branch: Option<usize>,
     /// ‖L(λ)q‖ relative to the size of its terms.
     pub backward_error: f64,
     /// Share of each harmonic in the kinetic energy, largest first.
@@ -123,9 +126,13 @@ pub struct ShapeEntry {
 pub struct CriticalSpeedEntry {
     /// Rotation speed.
     pub rpm: f64,
-    /// Nodal diameters of the dominant harmonic.
+    /// Number of the branch that stands still, where the chart shows which.
+    pub branch: Option<usize>,
+    /// Name of that branch, or of the wave that stands still where the branch is not known.
+    pub name: String,
+    /// Nodal diameters of the dominant harmonic of the wave that stands still.
     pub nodal_diameters: usize,
-    /// Nodal circles of the dominant harmonic.
+    /// Nodal circles of that harmonic.
     pub nodal_circles: usize,
 }
 
@@ -147,7 +154,9 @@ pub struct InstabilityEntry {
     pub peak_growth_per_s: f64,
     /// Frequency at the peak.
     pub frequency_hz: f64,
-    /// Names of the modes that meet.
+    /// Numbers of the branches that meet; none where no chart was drawn.
+    pub branches: Vec<usize>,
+    /// Their names.
     pub modes: Vec<String>,
 }
 
@@ -233,14 +242,20 @@ pub struct CampbellEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BranchEntry {
-    /// In words: "2 diameters, backward".
+    /// 1, 2, 3 … in the order of the list.
+    pub branch: usize,
+    /// What the branch is called wherever it is met, by its mode at the first of its speeds: of
+    /// a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters",
+    /// or shares of harmonics where none dominates.
     pub name: String,
-    /// Nodal diameters along most of the branch.
+    /// Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45 %)".
+    pub label: String,
+    /// Nodal diameters of the dominant harmonic at the first of its speeds.
     pub nodal_diameters: usize,
-    /// Nodal circles along most of the branch.
+    /// Nodal circles of that harmonic.
     pub nodal_circles: usize,
-    /// Direction on the blade along most of the branch: never `Reflected`.
-    pub direction: Direction,
+    /// How the wave runs on the blade at each speed: never `Reflected`.
+    pub direction: Vec<Direction>,
     /// Rotation speeds, ascending.
     pub rpm: Vec<f64>,
     /// |Im λ|/2π in the space-fixed frame.
@@ -274,7 +289,7 @@ pub struct RootLociEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RootPathEntry {
-    /// Name of the mode before the onset.
+    /// Name of the branch.
     pub name: String,
     /// Re λ.
     pub growth_per_s: Vec<f64>,

@@ -18,8 +18,18 @@ pub enum Direction {
     /// Against the rotation on the blade, but carried forward in space: a backward
     /// wave past its critical speed.
     Reflected,
-    /// Neither: no nodal diameters, or as much of both.
+    /// Neither: no nodal diameters, or much of both.
     Standing,
+}
+
+impl Direction {
+    /// How the wave runs on the blade, where a reflected wave is a backward one.
+    pub fn on_blade(self) -> Self {
+        match self {
+            Direction::Reflected => Direction::Backward,
+            other => other,
+        }
+    }
 }
 
 /// Share of n nodal diameters in the kinetic energy of a mode.
@@ -27,6 +37,8 @@ pub enum Direction {
 pub struct HarmonicShare {
     /// n.
     pub diameters: usize,
+    /// Nodal circles of its radial profile.
+    pub circles: usize,
     /// Between 0 and 1.
     pub share: f64,
 }
@@ -38,7 +50,7 @@ pub struct ModeName {
     pub diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub circles: usize,
-    /// How the dominant harmonic runs in space.
+    /// How the whole motion runs in space.
     pub direction: Direction,
     /// Shares of all harmonics, largest first.
     pub harmonics: Vec<HarmonicShare>,
@@ -46,8 +58,14 @@ pub struct ModeName {
     pub body_frequency_rad_per_s: f64,
 }
 
-/// Waves whose energies differ by less than this share make a standing wave.
-const STANDING: f64 = 0.2;
+/// Where the squares of the amplitudes of all forward and of all backward waves differ by less
+/// than this share of both, the motion stands: the larger is less than twice the smaller.
+const STANDING: f64 = 1.0 / 3.0;
+/// A harmonic with this share of the energy names the mode alone.
+const DOMINANT: f64 = 2.0 / 3.0;
+/// Harmonics are named until they have this share together, and no more than so many.
+const NAMED_SHARE: f64 = 0.75;
+const MOST_NAMED: usize = 3;
 /// A sign change of the radial profile counts where it leaves this share of its peak.
 const CIRCLE: f64 = 0.03;
 
@@ -62,6 +80,7 @@ impl ModeName {
             .iter()
             .map(|wave| HarmonicShare {
                 diameters: wave.diameters,
+                circles: wave.circles(plate),
                 share: wave.energy() / total.max(f64::MIN_POSITIVE),
             })
             .collect();
@@ -69,19 +88,82 @@ impl ModeName {
         let wave = &waves[harmonics[0].diameters];
         ModeName {
             diameters: wave.diameters,
-            circles: wave.circles(plate),
-            direction: wave.direction(mode),
+            circles: harmonics[0].circles,
+            direction: direction(&waves, wave, mode),
             harmonics,
             body_frequency_rad_per_s: wave.body_frequency(mode).abs(),
         }
     }
 
-    /// How the wave runs on the blade, where a reflected wave is a backward one.
-    pub fn direction_on_blade(&self) -> Direction {
-        match self.direction {
-            Direction::Reflected => Direction::Backward,
-            other => other,
+    /// "1 diameter", or the shares of the harmonics where none dominates: "0 (54 %) + 1 (45 %)";
+    /// "0/1" is one circle without diameters.
+    pub fn in_shares(&self) -> String {
+        match self.mixed(MOST_NAMED) {
+            Some(shares) => shares,
+            None => in_words(self.diameters, self.circles, Direction::Standing),
         }
+    }
+
+    /// The same as short as it can be: "1", "0/1", "0 (54 %) + 1 (45 %)".
+    pub fn in_short(&self) -> String {
+        let dominant = || short(self.diameters, self.circles);
+        self.mixed(2).unwrap_or_else(dominant)
+    }
+
+    /// The harmonics with their shares, unless one dominates.
+    fn mixed(&self, most: usize) -> Option<String> {
+        if self.harmonics.first().is_none_or(|h| h.share >= DOMINANT) {
+            return None;
+        }
+        let mut named = 0.0;
+        let mut terms = Vec::new();
+        for h in self.harmonics.iter().take(most) {
+            if named >= NAMED_SHARE {
+                break;
+            }
+            named += h.share;
+            let percent = 100.0 * h.share;
+            terms.push(format!(
+                "{} ({percent:.0} %)",
+                short(h.diameters, h.circles)
+            ));
+        }
+        Some(terms.join(" + "))
+    }
+}
+
+/// "2", with a nodal circle "2/1".
+fn short(diameters: usize, circles: usize) -> String {
+    match circles {
+        0 => format!("{diameters}"),
+        _ => format!("{diameters}/{circles}"),
+    }
+}
+
+/// How the whole motion runs in space. Each pair of waves e^{i(ωt ∓ nθ)} counts with the
+/// squares of its amplitudes, for the energy of a wave that stands in space is mostly that of
+/// its backward half, against which the material runs.
+fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
+    let square = |wave: &[c64]| wave.iter().map(|c| c.norm_sqr()).sum::<f64>();
+    let [mut forward, mut backward, mut all] = [0.0; 3];
+    for wave in waves {
+        let squares = [square(&wave.forward), square(&wave.backward)];
+        all += squares[0] + squares[1];
+        if wave.diameters > 0 {
+            forward += squares[0];
+            backward += squares[1];
+        }
+    }
+    if mode.kind == ModeKind::Negative {
+        Direction::Reflected
+    } else if (forward - backward).abs() < STANDING * all {
+        Direction::Standing
+    } else if backward > forward {
+        Direction::Backward
+    } else if dominant.body_frequency(mode) < 0.0 {
+        Direction::Reflected
+    } else {
+        Direction::Forward
     }
 }
 
@@ -163,22 +245,6 @@ impl Wave {
             omega - self.carried
         } else {
             -(omega + self.carried)
-        }
-    }
-
-    fn direction(&self, mode: &Mode) -> Direction {
-        let balance =
-            (self.forward_energy - self.backward_energy) / self.energy().max(f64::MIN_POSITIVE);
-        if mode.kind == ModeKind::Negative {
-            Direction::Reflected
-        } else if self.diameters == 0 || balance.abs() < STANDING {
-            Direction::Standing
-        } else if balance < 0.0 {
-            Direction::Backward
-        } else if self.body_frequency(mode) < 0.0 {
-            Direction::Reflected
-        } else {
-            Direction::Forward
         }
     }
 

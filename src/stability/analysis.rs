@@ -80,7 +80,7 @@ impl Analysis {
         let chart = match (model.plate.is_axisymmetric(), detail) {
             (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
-            (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, &[], progress)?,
+            (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, detail, progress)?,
         };
         let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s());
         let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));

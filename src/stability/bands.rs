@@ -2,11 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::analysis::Detail;
 use super::damped;
 use super::divergence::{close_pairs, divergence};
 use super::finder::{CRITICAL_GAP, CRITICAL_GROUP, Finder};
 use super::flutter::flutter;
-use crate::campbell::{self, Campbell, Progress, SpeedSample};
+use crate::campbell::{self, Campbell, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
 
 /// Kind of an instability.
@@ -73,8 +74,8 @@ pub struct StabilityChart {
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
 pub(super) const SEARCH_SPEEDS: usize = 25;
-/// Speeds drawn within a band, as shares of its width, besides that of its peak.
-const WITHIN_BANDS: [f64; 4] = [0.02, 0.15, 0.85, 0.98];
+/// Speeds drawn within and beside a band, as shares of its width, besides that of its peak.
+const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.
 ///
@@ -86,15 +87,15 @@ pub fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, SpectrumError> {
-    drawn(model, range, count, &WITHIN_BANDS, progress)
+    drawn(model, range, count, Detail::Full, progress)
 }
 
-/// The same with other speeds drawn within each band.
+/// The same, drawn more or less closely.
 pub(super) fn drawn(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
-    within_bands: &[f64],
+    detail: Detail,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, SpectrumError> {
     if !model.is_conservative() {
@@ -111,10 +112,16 @@ pub(super) fn drawn(
         }
     };
     let (instabilities, certificate) = bands(model, &search)?;
-    let between = inside(&instabilities, &samples, within_bands);
+    let (shares, closeness) = match detail {
+        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
+        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
+    };
+    let between = inside(&instabilities, &samples, shares, range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
+    samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    let samples = campbell::refined(model, samples, closeness)?;
     Ok(StabilityChart {
-        campbell: Campbell::track(samples),
+        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
         instabilities,
         certificate,
     })
@@ -217,8 +224,13 @@ pub(super) fn with_critical_speeds(
     speeds
 }
 
-/// Speeds inside and at the edges of the bands, so that the narrowest one is drawn.
-fn inside(instabilities: &[Instability], samples: &[SpeedSample], shares: &[f64]) -> Vec<f64> {
+/// Speeds inside and beside the bands, so that the narrowest one is drawn.
+fn inside(
+    instabilities: &[Instability],
+    samples: &[SpeedSample],
+    shares: &[f64],
+    range: (f64, f64),
+) -> Vec<f64> {
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {
@@ -227,6 +239,7 @@ fn inside(instabilities: &[Instability], samples: &[SpeedSample], shares: &[f64]
             shares.map(at).chain([band.peak])
         })
         .collect();
+    speeds.retain(|s| (range.0..=range.1).contains(s));
     speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();

@@ -43,7 +43,7 @@ pub(super) fn chart(
     speeds.dedup();
     let mut samples = campbell::sample(model, &speeds, progress)?;
     for _ in 0..ROUNDS {
-        let campbell = Campbell::track(samples.clone());
+        let campbell = Campbell::track(samples.clone(), model.complete_to_rad_per_s);
         let mut doubtful: Vec<f64> = campbell
             .branches
             .par_iter()
@@ -57,7 +57,7 @@ pub(super) fn chart(
         }
         samples.extend(campbell::sample(model, &doubtful, &|_, _| ())?);
     }
-    let campbell = Campbell::track(samples);
+    let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = campbell
         .branches
         .par_iter()

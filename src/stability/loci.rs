@@ -3,27 +3,26 @@
 use faer::c64;
 
 use super::bands::Instability;
-use super::flutter::meeting_modes;
-use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
+use crate::campbell::{Sighted, match_modes};
+use crate::spectrum::{LowModel, Mode, ModeKind, SpectralModel, SpectrumError};
 
 /// Two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootLoci {
     /// Speeds, ascending, in rad/s.
     pub speeds: Vec<f64>,
-    /// For the mode of Krein sign +1 and that of −1: its name before the onset.
-    pub names: Vec<String>,
-    /// λ and Krein sign of both at each speed.
+    /// For the mode of Krein sign +1 and that of −1: λ and Krein sign at each speed.
     pub paths: [Vec<(c64, i8)>; 2],
 }
 
 /// Stretches wider than this share of their end are not spanned by the modes at both ends.
 const NARROW: f64 = 0.04;
-/// Speeds of the loci on each side of the band and within it.
+/// Speeds of the loci on each side of the band and within each half of it.
 const SPEEDS: usize = 20;
 
 impl RootLoci {
-    /// Follows the pair of a band from one width before it to one after it, inside a range.
+    /// Follows the pair of a band from its peak to one width before it and one after it, inside
+    /// a range, or to where one of the two meets another mode.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -45,48 +44,117 @@ impl RootLoci {
         } else {
             low
         };
-        let mut loci = RootLoci {
-            speeds: Vec::new(),
-            names: meeting_modes(model, band.from, band.frequency)?,
-            paths: [Vec::new(), Vec::new()],
+        let Some(peak) = Pair::at_peak(&low, band)? else {
+            return Ok(None);
         };
-        for (start, end) in [(from, band.from), (band.from, band.to), (band.to, to)] {
-            for k in 0..SPEEDS {
-                // Denser towards the edges of the band, where the paths turn.
-                let share =
-                    0.5 * (1.0 - (std::f64::consts::PI * (k as f64 + 0.5) / SPEEDS as f64).cos());
-                let speed = start + share * (end - start);
-                if let Some(pair) = pair(&low.modes(speed)?.modes, band.frequency) {
-                    loci.speeds.push(speed);
-                    for (path, mode) in loci.paths.iter_mut().zip(pair) {
-                        path.push((mode.lambda, mode.krein_sign()));
-                    }
-                }
-            }
-        }
-        Ok(Some(loci))
+        let outwards =
+            |edge: f64, end: f64| denser_at_ends(band.peak, edge).chain(denser_at_ends(edge, end));
+        let mut rows = peak.followed(&low, band, outwards(band.from, from))?;
+        rows.reverse();
+        rows.push(peak.row());
+        rows.extend(peak.followed(&low, band, outwards(band.to, to))?);
+        let path = |k: usize| rows.iter().map(|row| row.1[k]).collect();
+        Ok(Some(RootLoci {
+            speeds: rows.iter().map(|row| row.0).collect(),
+            paths: [path(0), path(1)],
+        }))
     }
 }
 
-/// The growing and the decaying mode, or the + and the − mode, next to a frequency.
-fn pair(modes: &[Mode], frequency: f64) -> Option<[&Mode; 2]> {
-    let nearest = |kinds: [ModeKind; 2]| {
-        kinds.map(|kind| {
-            let distance = |m: &&Mode| (m.frequency_rad_per_s() - frequency).abs();
-            let same = modes.iter().filter(|m| m.kind == kind);
-            same.min_by(|x, y| distance(x).total_cmp(&distance(y)))
-        })
-    };
-    let apart = nearest([ModeKind::Positive, ModeKind::Negative]);
-    let merged = nearest([ModeKind::Flutter, ModeKind::Decaying]);
-    let off = |pair: &[Option<&Mode>; 2]| match pair {
-        [Some(x), Some(y)] => (0.5 * (x.lambda.im + y.lambda.im) - frequency).abs(),
-        _ => f64::INFINITY,
-    };
-    let chosen = if off(&merged) <= off(&apart) {
-        merged
-    } else {
-        apart
-    };
-    Some([chosen[0]?, chosen[1]?])
+/// A speed, and λ and Krein sign of both modes.
+type Row = (f64, [(c64, i8); 2]);
+
+/// Speeds from one to another, neither of them, closer together at both, where paths turn.
+fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let count = if from == to { 0 } else { SPEEDS };
+    (0..count).map(move |k| {
+        let angle = std::f64::consts::PI * (k as f64 + 0.5) / SPEEDS as f64;
+        from + 0.5 * (1.0 - angle.cos()) * (to - from)
+    })
+}
+
+/// Modes among which a pair is followed.
+const NEIGHBOURS: usize = 32;
+
+/// The lowest modes of a speed, ascending.
+fn lowest_modes(low: &LowModel<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
+    let mut modes = low.modes(speed)?.modes;
+    modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+    modes.truncate(NEIGHBOURS);
+    Ok(modes)
+}
+
+/// The two modes among those of a speed.
+struct Pair {
+    speed: f64,
+    modes: Vec<Mode>,
+    chosen: [usize; 2],
+}
+
+impl Pair {
+    /// The growing and the decaying mode of a band where it grows fastest.
+    fn at_peak(low: &LowModel<'_>, band: &Instability) -> Result<Option<Self>, SpectrumError> {
+        let modes = lowest_modes(low, band.peak)?;
+        let nearest = |kind: ModeKind, growth: f64| {
+            let wanted = c64::new(growth, band.frequency);
+            let off = |i: &usize| (modes[*i].lambda - wanted).norm();
+            let same = (0..modes.len()).filter(|i| modes[*i].kind == kind);
+            same.min_by(|x, y| off(x).total_cmp(&off(y)))
+        };
+        let growth = band.peak_growth_per_s;
+        let growing = nearest(ModeKind::Flutter, growth);
+        let decaying = nearest(ModeKind::Decaying, -growth);
+        Ok(growing.zip(decaying).map(|(growing, decaying)| Pair {
+            speed: band.peak,
+            modes,
+            chosen: [growing, decaying],
+        }))
+    }
+
+    fn row(&self) -> Row {
+        let of = |i: usize| (self.modes[i].lambda, self.modes[i].krein_sign());
+        (self.speed, self.chosen.map(of))
+    }
+
+    /// Rows of the pair at one speed after another, as far as it stays a pair: merged within
+    /// the band, two waves beside it.
+    fn followed(
+        &self,
+        low: &LowModel<'_>,
+        band: &Instability,
+        speeds: impl Iterator<Item = f64>,
+    ) -> Result<Vec<Row>, SpectrumError> {
+        let mut rows = Vec::new();
+        let mut known: Option<Pair> = None;
+        for speed in speeds {
+            let last = known.as_ref().unwrap_or(self);
+            let Some(next) = last.to(low, speed)? else {
+                break;
+            };
+            let inside = (band.from..=band.to).contains(&speed);
+            let signs = next.row().1.map(|(_, sign)| sign);
+            if signs != if inside { [0, 0] } else { [1, -1] } {
+                break;
+            }
+            rows.push(next.row());
+            known = Some(next);
+        }
+        Ok(rows)
+    }
+
+    /// The same two modes at another speed.
+    fn to(&self, low: &LowModel<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
+        let modes = lowest_modes(low, speed)?;
+        let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
+        let height = highest(&self.modes).max(highest(&modes));
+        let seen = [&self.modes, &modes].map(|modes| Sighted::of_modes(modes));
+        let matches = match_modes([&seen[0], &seen[1]], speed - self.speed, height);
+        let after = |before: usize| matches.iter().find(|m| m.before == before).map(|m| m.after);
+        let chosen = after(self.chosen[0]).zip(after(self.chosen[1]));
+        Ok(chosen.map(|(first, second)| Pair {
+            speed,
+            modes,
+            chosen: [first, second],
+        }))
+    }
 }

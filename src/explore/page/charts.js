@@ -333,7 +333,7 @@ export class Charts {
 
 function sameBranch(report, branch) {
   const alike = report.campbell.branches.filter((b) => b.name === branch.name);
-  return alike[0] ?? null;
+  return alike.find((b) => b.branch === branch.branch) ?? alike[0] ?? null;
 }
 
 function indexNear(values, wanted) {

@@ -8,7 +8,7 @@ import { Motion } from "./motion.js";
 import { SceneState, clone } from "./scene.js";
 import { Refused, Live, mode, saved, start, stayConnected } from "./talk.js";
 import { facts, tables, verdict } from "./verdict.js";
-import { krein, shown } from "./words.js";
+import { krein, numbered, shown } from "./words.js";
 
 const by = (id) => document.getElementById(id);
 const begun = await start();
@@ -130,9 +130,9 @@ async function onHover(found) {
     const slower = motion.show(shape, Blade.reach(state.scene));
     document.body.classList.add("moving");
     const growth = Math.abs(shape.growth_per_s) > 1e-3 ? `, ${shape.growth_per_s > 0 ? "grows" : "decays"} at ${shown(Math.abs(shape.growth_per_s), 3)} 1/s` : "";
-    const name = Object.assign(document.createElement("strong"), { textContent: shape.name, className: shape.direction });
+    const name = Object.assign(document.createElement("strong"), { textContent: numbered(branch.branch, branch.name), className: shape.direction });
     by("mode").replaceChildren(name, ` at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
-      + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, Krein sign ${krein(shape.krein_sign)}${growth}. `
+      + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, nodal diameters there ${shape.name}, Krein sign ${krein(shape.krein_sign)}${growth}. `
       + `${MEANING[shape.direction]} Shown ${shown(slower, 2)} times slower; the dot turns with the blade.`);
   } catch (error) {
     if (error.name !== "AbortError") by("mode").textContent = error.message;

@@ -1,8 +1,6 @@
 // How things are drawn: the colours of the figures, lighter on a dark page, and the marks of
 // a Campbell diagram on a canvas.
 
-import { shortName } from "./words.js";
-
 export const NEGLIGIBLE_PER_S = 1e-3;
 const DASH = [6, 4];
 const FINE_DASH = [4, 4];
@@ -56,9 +54,11 @@ export function stretches(report, branch) {
   const all = [];
   for (let i = 0; i + 1 < branch.rpm.length; i++) {
     const look = lookOf(report, branch, i);
+    // Guides let waves stand at rest, whatever they do from there on.
+    const direction = branch.direction[i + 1];
     const last = all.at(-1);
-    if (last?.look === look) last.to = i + 1;
-    else all.push({ look, from: i, to: i + 1 });
+    if (last?.look === look && last.direction === direction) last.to = i + 1;
+    else all.push({ look, direction, from: i, to: i + 1 });
   }
   return all;
 }
@@ -90,9 +90,9 @@ export function drawBranches(context, place, report, colours, { scale, highlight
   // From the highest down, so that the lowest lie on top.
   for (const branch of [...report.campbell.branches].reverse()) {
     const strong = branch === highlighted ? 1.6 : 0;
-    context.strokeStyle = ghost ? colours.standing : waveColour(colours, branch.direction);
     context.globalAlpha = ghost ? 0.45 : 1;
-    for (const { look, from, to } of stretches(report, branch)) {
+    for (const { look, direction, from, to } of stretches(report, branch)) {
+      context.strokeStyle = ghost ? colours.standing : waveColour(colours, direction);
       context.lineWidth = (ghost ? 1 : look === "unstable" ? 3.4 : 1.6 + strong) * scale;
       context.setLineDash(look === "reflected" ? DASH.map((d) => d * scale) : []);
       trace(context, place, branch, from, to);
@@ -146,9 +146,9 @@ export function labelEnds(context, place, box, report, colours, scale) {
   const right = box.left + box.width;
   for (const { branch, end, at } of labels) {
     if (Math.abs(at - end) > 60 * scale || at < box.top - height) continue;
-    const colour = waveColour(colours, branch.direction);
+    const colour = waveColour(colours, branch.direction.at(-1));
     context.fillStyle = colour;
-    context.fillText(shortName(branch), right + 14 * scale, at);
+    context.fillText(branch.label, right + 14 * scale, at);
     context.strokeStyle = colour;
     context.globalAlpha = 0.5;
     context.lineWidth = scale;

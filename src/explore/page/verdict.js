@@ -1,6 +1,6 @@
 // What the chart says, in words and tables.
 
-import { modeName, rpm, shown } from "./words.js";
+import { numbered, rpm, shown } from "./words.js";
 
 function node(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -62,12 +62,12 @@ function table(caption, heads, rows) {
 
 // The chart for those who do not see it, and for who wants the numbers.
 export function tables(place, report) {
-  const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), modeName(c.nodal_diameters, c.nodal_circles)]);
+  const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), numbered(c.branch, c.name)]);
   const bands = report.instabilities.map((band) => [
     band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed ? "" : " …"}`,
-    band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.join(" and "),
+    band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.map((name, k) => numbered(band.branches[k], name)).join(" and "),
   ]);
-  const rest = report.modes_at_rest.slice(0, 8).map((m) => [m.frequency_hz.toFixed(2), m.name]);
+  const rest = report.modes_at_rest.slice(0, 8).map((m) => [m.frequency_hz.toFixed(2), numbered(m.branch, m.name)]);
   const both = [
     table("Critical speeds", ["rpm", "mode"], speeds),
     table("Bands of instability", ["kind", "from rpm", "to rpm", "growth 1/s", "Hz", "modes"], bands),

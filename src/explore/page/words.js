@@ -50,15 +50,8 @@ export function shown(value, digits = 6) {
 export const rpm = (value) =>
   value === null || value === undefined ? "none" : `${value < 100 ? value.toFixed(1) : Math.round(value)} rpm`;
 
-export function modeName(diameters, circles) {
-  const count = (n, noun) => `${n} ${noun}${n === 1 ? "" : "s"}`;
-  return count(diameters, "diameter") + (circles > 0 ? `, ${count(circles, "circle")}` : "");
-}
-
-export function shortName(branch) {
-  const number = branch.nodal_circles > 0 ? `${branch.nodal_diameters}/${branch.nodal_circles}` : branch.nodal_diameters;
-  return `${number} ${branch.direction}`;
-}
+// Number and name of a branch, the same wherever it is met.
+export const numbered = (branch, name) => (branch ? `${branch}: ${name}` : name);
 
 // What a Krein sign says.
 export const krein = (sign) => (sign > 0 ? "+1" : sign < 0 ? "−1 (reflected)" : "0 (none)");

@@ -71,6 +71,11 @@ impl BandLabels {
         candidates.filter(free).min_by_key(cost)
     }
 
+    /// Number of bands that have a label.
+    pub fn count(&self) -> usize {
+        self.placed.len()
+    }
+
     /// Room that the labels take at the top of the panel.
     pub fn height(&self) -> f64 {
         let rows = self.placed.iter().map(|place| place.row + 1).max();

@@ -7,7 +7,7 @@ use super::super::is_damped;
 use super::super::meeting::Meeting;
 use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, QUIET, tint};
 use super::speeds::line_colour;
-use super::waves::direction_colour;
+use super::waves::{direction_at, direction_colour};
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, Report};
 
@@ -142,7 +142,7 @@ fn draw_branch(sheet: &mut Sheet, chart: &Chart, axis: &Axis, branch: &BranchEnt
         let decays = pair[0].1.min(*pair[1].1) < -NEGLIGIBLE_PER_S;
         let colour = match growing {
             true => growth_colour(chart.report, branch, highest),
-            false => tint(direction_colour(branch.direction), 0.55),
+            false => tint(direction_colour(direction_at(branch, highest)), 0.55),
         };
         let wanted = if growing { grows } else { decays && !grows };
         if !wanted || colour != run_colour {
@@ -160,22 +160,13 @@ fn draw_branch(sheet: &mut Sheet, chart: &Chart, axis: &Axis, branch: &BranchEnt
 }
 
 fn growth_colour(report: &Report, branch: &BranchEntry, sample: usize) -> Colour {
-    band_of_sample(report, branch, sample).map_or(FLUTTER, |band| line_colour(band.kind))
-}
-
-/// The band that a sample of a branch belongs to: of those around it the one that is
-/// nearest in frequency.
-fn band_of_sample<'a>(
-    report: &'a Report,
-    branch: &BranchEntry,
-    sample: usize,
-) -> Option<&'a InstabilityEntry> {
     let rpm = branch.rpm.get(sample).copied().unwrap_or(f64::NAN);
-    let hz = branch.frequency_hz.get(sample).copied().unwrap_or(0.0);
-    let around = report.instabilities.iter();
-    let around = around.filter(|band| band.from_rpm <= rpm && rpm <= band.to_rpm);
-    let off = |band: &InstabilityEntry| (band.frequency_hz - hz).abs();
-    around.min_by(|a, b| off(a).total_cmp(&off(b)))
+    let mut bands = report.instabilities.iter();
+    let own = bands.find(|band| {
+        let around = band.from_rpm <= rpm && rpm <= band.to_rpm;
+        around && band.branches.contains(&branch.branch)
+    });
+    own.map_or(FLUTTER, |band| line_colour(band.kind))
 }
 
 /// Growth within the bands alone: without damping there is none outside, and the
@@ -201,19 +192,7 @@ fn draw_damped(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
 }
 
 fn draw_band(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
-    let [first, last] = chart.speed.values();
-    let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
-    let closed = [
-        band.closed || band.from_rpm > first,
-        band.closed || band.to_rpm < last,
-    ];
-    let mut samples = vec![[band.peak_rpm, band.peak_growth_per_s]];
-    samples.extend(samples_within(chart.report, band));
-    let squares = samples.iter().map(|&[rpm, growth]| [rpm, growth * growth]);
-    let Some(meeting) = Meeting::new(ends, closed, squares) else {
-        return;
-    };
-    let curve = meeting.growth();
+    let curve = curve(chart.report, band);
     let curve: Vec<_> = curve
         .iter()
         .map(|&[rpm, growth]| [chart.speed.at(rpm), axis.at(growth)])
@@ -223,20 +202,34 @@ fn draw_band(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEn
     }
 }
 
-/// Speeds and growth rates of the mode that the band belongs to.
-fn samples_within(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
-    let mut found = Vec::new();
-    for branch in &report.campbell.branches {
+/// Speeds and growth rates of a band from one end to the other, those of its own branch.
+pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
+    let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
+    let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
+    let own = band.branches.first().and_then(|number| {
+        let mut branches = report.campbell.branches.iter();
+        branches.find(|branch| branch.branch == *number)
+    });
+    let samples: Vec<[f64; 2]> = own.map_or(Vec::new(), |branch| {
         let samples = branch.rpm.iter().zip(&branch.growth_per_s);
-        for (i, (&rpm, &growth)) in samples.enumerate() {
-            let inside = band.from_rpm < rpm && rpm < band.to_rpm;
-            let own = || band_of_sample(report, branch, i).is_some_and(|b| std::ptr::eq(b, band));
-            if inside && growth > NEGLIGIBLE_PER_S && own() {
-                found.push([rpm, growth]);
-            }
-        }
-    }
-    found
+        samples.map(|(rpm, growth)| [*rpm, *growth]).collect()
+    });
+    let inside = |s: &&[f64; 2]| ends[0] < s[0] && s[0] < ends[1];
+    let growing = samples.iter().filter(inside).filter(|s| s[1] > 0.0);
+    let peak = [band.peak_rpm, band.peak_growth_per_s];
+    let squares = growing.chain([&peak]).map(|[rpm, g]| [*rpm, g * g]);
+    // Growth begins at zero where two waves merge or a wave stands still; where two real λ
+    // meet, it goes on beyond the band.
+    let next = [
+        samples.iter().rfind(|s| s[0] <= ends[0]),
+        samples.iter().find(|s| s[0] >= ends[1]),
+    ];
+    let at_zero = |k: usize| {
+        let cut_short = !band.closed && [ends[0] <= first, ends[1] >= last][k];
+        !cut_short && next[k].is_none_or(|s| s[1] <= NEGLIGIBLE_PER_S)
+    };
+    let meeting = Meeting::new(ends, [at_zero(0), at_zero(1)], squares);
+    meeting.map_or(Vec::new(), |meeting| meeting.growth())
 }
 
 fn draw_peak(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {

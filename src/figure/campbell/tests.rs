@@ -22,6 +22,8 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
     let extra = (0..60).map(|i| 1200.0 + 23.0 * f64::from(i));
     let entry = |rpm| CriticalSpeedEntry {
         rpm,
+        branch: None,
+        name: String::new(),
         nodal_diameters: 2,
         nodal_circles: 0,
     };

@@ -28,18 +28,18 @@ pub fn direction_colour(direction: Direction) -> Colour {
     }
 }
 
+/// How a branch runs at one of its speeds.
+pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
+    let direction = branch.direction.get(sample);
+    direction.copied().unwrap_or(Direction::Standing)
+}
+
+fn last_colour(branch: &BranchEntry) -> Colour {
+    direction_colour(direction_at(branch, branch.rpm.len().saturating_sub(1)))
+}
+
 fn short_label(branch: &BranchEntry) -> String {
-    let direction = match branch.direction {
-        Direction::Forward => "forward",
-        Direction::Backward => "backward",
-        Direction::Reflected => "reflected",
-        Direction::Standing => "standing",
-    };
-    let label = match branch.nodal_circles {
-        0 => format!("{} {direction}", branch.nodal_diameters),
-        circles => format!("{}/{circles} {direction}", branch.nodal_diameters),
-    };
-    shorten(&label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
+    shorten(&branch.label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
 }
 
 /// Room to the right of the plot.
@@ -76,8 +76,9 @@ pub fn highest_shown_hz(report: &Report) -> f64 {
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;
+    // Lines end a little below the height that the chart is complete to.
     let bound = if complete > 0.0 {
-        complete
+        0.985 * complete
     } else {
         f64::INFINITY
     };
@@ -89,20 +90,25 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|v| v.is_finite()).fold(0.0, f64::max)
 }
 
-/// What a stretch of a branch looks like.
+/// What is said of a stretch of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stretch {
+pub enum Stretch {
     Plain,
     Reflected,
     Unstable,
 }
 
+/// What a stretch is and how its wave runs.
+pub type Look = (Stretch, Direction);
+
 /// Stretches of equal look, each ending where the next begins.
-fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Stretch, Vec<[f64; 2]>)> {
+fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Look, Vec<[f64; 2]>)> {
     let points = places(branch, chart);
-    let mut all: Vec<(Stretch, Vec<[f64; 2]>)> = Vec::new();
+    let mut all: Vec<(Look, Vec<[f64; 2]>)> = Vec::new();
     for (i, segment) in points.windows(2).enumerate() {
+        // Guides let waves stand at rest, whatever they do from there on.
         let look = look_of_segment(chart.report, branch, i);
+        let look = (look, direction_at(branch, i + 1));
         match all.last_mut() {
             Some((last, line)) if *last == look => line.push(segment[1]),
             _ => all.push((look, segment.to_vec())),
@@ -136,11 +142,11 @@ fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
 pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
     // From the highest down, so that the lowest branches lie on top.
     for branch in chart.report.campbell.branches.iter().rev() {
-        let colour = direction_colour(branch.direction);
         if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
-            dot(sheet, chart, *rpm, *hz, colour);
+            dot(sheet, chart, *rpm, *hz, last_colour(branch));
         }
-        for (look, line) in stretches(branch, chart) {
+        for ((look, direction), line) in stretches(branch, chart) {
+            let colour = direction_colour(direction);
             let stroke = match look {
                 Stretch::Plain => Stroke::solid(colour, CURVE),
                 Stretch::Reflected => Stroke {
@@ -223,7 +229,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
         let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
             continue;
         };
-        let colour = direction_colour(branch.direction);
+        let colour = last_colour(branch);
         let (right, label_left) = (chart.upper.right, chart.upper.right + LABEL_GAP);
         if (centre - end).abs() > 3.0 {
             let leader = [[right + 1.0, *end], [label_left - 2.0, centre]];
@@ -247,7 +253,7 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
         let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
             continue;
         };
-        let colour = direction_colour(branch.direction);
+        let colour = last_colour(branch);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
         let at = [centre, chart.upper.top - 6.0];
         let label = short_label(branch);
@@ -276,28 +282,22 @@ fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Which marks occur that need a note.
-pub struct MarksShown<'a> {
-    pub measured: Option<&'a str>,
-    pub reflected: bool,
-    pub unstable: bool,
+/// Looks that occur in the figure.
+pub fn looks_shown(chart: &Chart) -> Vec<Look> {
+    let branches = chart.report.campbell.branches.iter();
+    let all = branches.flat_map(|branch| stretches(branch, chart));
+    let mut shown: Vec<Look> = Vec::new();
+    for (look, line) in all {
+        if !shown.contains(&look) && !clip(&line, &chart.upper).is_empty() {
+            shown.push(look);
+        }
+    }
+    shown
 }
 
-pub fn marks_shown<'a>(chart: &Chart<'a>) -> MarksShown<'a> {
-    let occurs = |wanted: Stretch| {
-        let branches = &chart.report.campbell.branches;
-        branches.iter().any(|branch| {
-            let found = stretches(branch, chart);
-            let mut found = found.iter().filter(|(look, _)| *look == wanted);
-            found.any(|(_, line)| !clip(line, &chart.upper).is_empty())
-        })
-    };
+/// Where the measured points are from, if the figure shows any.
+pub fn measured_source<'a>(chart: &Chart<'a>) -> Option<&'a str> {
     let measured = chart.report.scene.measured.as_ref();
-    MarksShown {
-        measured: measured
-            .map(|m| m.source.as_str())
-            .filter(|_| !measured_places(chart).is_empty()),
-        reflected: occurs(Stretch::Reflected),
-        unstable: occurs(Stretch::Unstable),
-    }
+    let source = measured.map(|m| m.source.as_str());
+    source.filter(|_| !measured_places(chart).is_empty())
 }

@@ -1,0 +1,175 @@
+//! Which mode of a speed is which mode of the next one.
+
+use faer::{Col, c64};
+
+use super::assignment::cheapest;
+use crate::spectrum::{DescribedMode, Mode, ModeKind};
+
+/// A mode of each of two speeds, taken for the same.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Match {
+    /// Index of the mode at the lower speed.
+    pub before: usize,
+    /// Index of the mode at the higher speed.
+    pub after: usize,
+    /// |xᴴy|² of the two shapes, 1 for the same shape.
+    pub likeness: f64,
+}
+
+/// A mode with its shape in coordinates that both speeds share.
+#[derive(Debug, Clone, Copy)]
+pub struct Sighted<'a> {
+    mode: &'a Mode,
+    shape: &'a Col<c64>,
+}
+
+impl<'a> Sighted<'a> {
+    /// Modes of one projection, in its own coordinates.
+    pub fn of_modes(modes: &'a [Mode]) -> Vec<Self> {
+        let shape = |mode: &'a Mode| &mode.coordinates;
+        modes
+            .iter()
+            .map(|mode| Sighted {
+                mode,
+                shape: shape(mode),
+            })
+            .collect()
+    }
+
+    /// Modes of a chart, whose projections change from speed to speed.
+    pub fn of_described(modes: &'a [DescribedMode]) -> Vec<Self> {
+        modes
+            .iter()
+            .map(|m| Sighted {
+                mode: &m.mode,
+                shape: &m.shape,
+            })
+            .collect()
+    }
+}
+
+/// Weight of a frequency that is off by the chart's height, against shapes that are wholly
+/// unlike: shape decides between neighbours, and nothing leaps over the chart.
+const OFF: f64 = 4.0;
+/// Cost of a branch that ends or begins at the top of the chart, and of one that does so
+/// anywhere else, which no eigenvalue of a stable window does.
+const AT_TOP: f64 = 0.5;
+const INSIDE: f64 = 20.0;
+/// Share of the height that counts as its top, besides the way a mode goes in one step.
+const TOP: f64 = 0.02;
+/// Cost of two modes that nothing can turn into each other.
+const NEVER: f64 = 1e3;
+
+/// The pairs of least total cost, of two speeds that are `step` apart. A mode is left alone only where it leaves or enters the
+/// chart at its top, `height_rad_per_s`, or where one list is longer.
+pub fn match_modes(
+    [before, after]: [&[Sighted<'_>]; 2],
+    step: f64,
+    height_rad_per_s: f64,
+) -> Vec<Match> {
+    let old: Vec<Carrier<'_>> = before.iter().map(Carrier::new).collect();
+    let new: Vec<Carrier<'_>> = after.iter().map(Carrier::new).collect();
+    let height = height_rad_per_s.max(f64::MIN_POSITIVE);
+    // Where a mode goes within the step, seen from its own speed.
+    let leaving = |c: &Carrier<'_>, step: f64| {
+        let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
+        match there >= (1.0 - TOP) * height {
+            true => AT_TOP,
+            false => INSIDE,
+        }
+    };
+    let size = old.len() + new.len();
+    let mut costs = vec![vec![0.0; size]; size];
+    let mut likeness = vec![vec![0.0; new.len()]; old.len()];
+    for (i, x) in old.iter().enumerate() {
+        for (k, y) in new.iter().enumerate() {
+            (costs[i][k], likeness[i][k]) = x.cost(y, step, height);
+        }
+        costs[i][new.len()..].fill(leaving(x, step));
+    }
+    for row in &mut costs[old.len()..] {
+        for (cost, y) in row.iter_mut().zip(&new) {
+            *cost = leaving(y, -step);
+        }
+    }
+    let columns = cheapest(&costs);
+    let pairs = columns.iter().take(old.len()).enumerate();
+    pairs
+        .filter(|(i, k)| **k < new.len() && costs[*i][**k] < NEVER)
+        .map(|(before, &after)| Match {
+            before,
+            after,
+            likeness: likeness[before][after],
+        })
+        .collect()
+}
+
+/// A mode brought to positive action.
+struct Carrier<'a> {
+    frequency: f64,
+    slope: f64,
+    part: usize,
+    shape: &'a Col<c64>,
+    conjugated: bool,
+    damped: bool,
+}
+
+impl<'a> Carrier<'a> {
+    fn new(&Sighted { mode, shape }: &Sighted<'a>) -> Self {
+        let conjugated = mode.action < 0;
+        let sign = if conjugated { -1.0 } else { 1.0 };
+        Carrier {
+            frequency: sign * mode.lambda.im,
+            slope: sign * mode.frequency_slope,
+            part: mode.part,
+            shape,
+            conjugated,
+            damped: mode.kind == ModeKind::Damped,
+        }
+    }
+
+    /// The same motion as (−ω, q̄).
+    fn mirrored(&self) -> Self {
+        Carrier {
+            frequency: -self.frequency,
+            slope: -self.slope,
+            conjugated: !self.conjugated,
+            ..*self
+        }
+    }
+
+    /// Cost of taking both for one mode, and how alike their shapes are.
+    fn cost(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
+        if self.part != other.part {
+            return (NEVER, 0.0);
+        }
+        let direct = self.cost_as_is(other, step, height);
+        if !self.damped {
+            return direct;
+        }
+        // The action of two damped modes that have all but merged is rounding.
+        let turned = self.mirrored().cost_as_is(other, step, height);
+        if turned.0 < direct.0 { turned } else { direct }
+    }
+
+    fn cost_as_is(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
+        let likeness = self.likeness(other);
+        let moved = other.frequency - self.frequency;
+        // Next to a merging the slope of a frequency has no bound, and one end says more.
+        let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
+        let off = slopes.map(|slope| (moved - slope * step).abs());
+        let off = off.into_iter().fold(f64::INFINITY, f64::min) / height;
+        (1.0 - likeness + OFF * off, likeness)
+    }
+
+    /// |xᴴy|², 1 for the same shape.
+    fn likeness(&self, other: &Carrier<'_>) -> f64 {
+        let mut product = c64::new(0.0, 0.0);
+        for (x, y) in self.shape.iter().zip(other.shape.iter()) {
+            let left = if self.conjugated { *x } else { x.conj() };
+            let right = if other.conjugated { y.conj() } else { *y };
+            product += left * right;
+        }
+        product.norm_sqr()
+    }
+}
