@@ -20,6 +20,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+// The integration tests' draws of saws serve the unit tests too, by the crate's own name.
+#[cfg(test)]
+extern crate self as sawflutter;
+
 pub mod campbell;
 pub mod check;
 #[cfg(feature = "cli")]

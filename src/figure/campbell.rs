@@ -7,6 +7,8 @@ mod legend;
 mod speeds;
 mod waves;
 
+#[cfg(test)]
+pub(super) use growth::curve;
 pub(super) use waves::draw_measured_mark;
 
 use band_labels::BandLabels;
@@ -38,12 +40,12 @@ const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
 /// The Campbell diagram as PNG, 1200 × 900 pixels.
 pub fn campbell_png(report: &Report) -> Result<Vec<u8>, FigureError> {
-    render::png(&campbell(report))
+    render::png(&sheet(report))
 }
 
 /// The Campbell diagram as SVG.
 pub fn campbell_svg(report: &Report) -> Result<String, FigureError> {
-    render::svg(&campbell(report))
+    render::svg(&sheet(report))
 }
 
 /// What the parts of the figure share.
@@ -55,7 +57,7 @@ struct Chart<'a> {
     lower: Frame,
 }
 
-fn campbell(report: &Report) -> Sheet {
+pub(super) fn sheet(report: &Report) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let chart = Chart::new(report);
     heading::draw(&mut sheet, &report.scene.name, &key_facts(report));

@@ -15,6 +15,12 @@ mod cut_map;
 #[cfg(test)]
 mod cutting_tests;
 mod declutter;
+#[cfg(test)]
+mod drawn_tests;
+#[cfg(test)]
+#[allow(dead_code, reason = "helpers of other properties")]
+#[path = "../../tests/invariants/draws.rs"]
+mod draws;
 mod fit;
 mod heading;
 mod heat;

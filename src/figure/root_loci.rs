@@ -28,16 +28,12 @@ const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
 /// The root loci as PNG, 1200 × 800 pixels; `None` if the report has none.
 pub fn root_loci_png(report: &Report) -> Result<Option<Vec<u8>>, FigureError> {
-    root_loci(report)
-        .map(|sheet| render::png(&sheet))
-        .transpose()
+    sheet(report).map(|sheet| render::png(&sheet)).transpose()
 }
 
 /// The root loci as SVG; `None` if the report has none.
 pub fn root_loci_svg(report: &Report) -> Result<Option<String>, FigureError> {
-    root_loci(report)
-        .map(|sheet| render::svg(&sheet))
-        .transpose()
+    sheet(report).map(|sheet| render::svg(&sheet)).transpose()
 }
 
 /// What the parts of the figure share.
@@ -52,7 +48,7 @@ struct Chart {
     decimals: usize,
 }
 
-fn root_loci(report: &Report) -> Option<Sheet> {
+pub(super) fn sheet(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
     let chart = Chart::new(Loci::new(entry, is_damped(report))?);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);

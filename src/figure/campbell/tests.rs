@@ -17,7 +17,7 @@ fn every_critical_speed_is_labelled() {
 
 #[test]
 fn labels_neither_overlap_nor_leave_the_sheet() {
-    assert_tidy(&campbell(&busy_report()));
+    assert_tidy(&sheet(&busy_report()));
     let mut crowded = busy_report();
     let extra = (0..60).map(|i| 1200.0 + 23.0 * f64::from(i));
     let entry = |rpm| CriticalSpeedEntry {
@@ -35,7 +35,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
         .extend(copies.iter().cloned().chain(copies.clone()));
     crowded.scene.name = "Sägeblatt <&> ".repeat(40);
     crowded.scene.operating_rpm = Some(3000.0);
-    assert_tidy(&campbell(&crowded));
+    assert_tidy(&sheet(&crowded));
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn png_has_the_promised_size_and_is_the_same_each_time() {
 #[test]
 fn an_empty_report_says_that_nothing_grows() {
     let report = empty_report("");
-    assert_tidy(&campbell(&report));
+    assert_tidy(&sheet(&report));
     let svg = campbell_svg(&report).unwrap();
     assert!(svg.contains("no growth: stable at every speed shown"));
     assert!(svg.contains("no critical speed"));
@@ -94,7 +94,7 @@ fn odd_input_is_drawn_without_complaint() {
         odd.campbell.from_rpm = from;
         odd.campbell.to_rpm = to;
         odd.campbell.complete_to_hz = complete;
-        assert_tidy(&campbell(&odd));
+        assert_tidy(&sheet(&odd));
         assert!(!campbell_svg(&odd).unwrap().contains("\"NaN"));
     }
 }
@@ -130,7 +130,7 @@ fn the_certificate_is_told_and_violations_are_red() {
     assert!(svg.contains("68 functions, critical speeds within 0.14 %"));
     report.certificate.krein_violations = 2;
     report.certificate.violating_rpm = vec![1200.0, 1300.0];
-    assert_tidy(&campbell(&report));
+    assert_tidy(&sheet(&report));
     let svg = campbell_svg(&report).unwrap();
     assert!(svg.contains("Krein index does not match at 2 speeds, 1200 to 1300 rpm"));
     assert!(!svg.contains("index matches"));

@@ -10,8 +10,8 @@ fn report() -> Report {
     report
 }
 
-fn sheet(report: &Report) -> Sheet {
-    root_loci(report).unwrap()
+fn drawn(report: &Report) -> Sheet {
+    sheet(report).unwrap()
 }
 
 #[test]
@@ -95,13 +95,13 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
         let mut report = report();
         report.scene.name = "Sägeblatt <&> ".repeat(40);
         report.root_loci = Some(sample_loci(drift));
-        assert_tidy(&sheet(&report));
+        assert_tidy(&drawn(&report));
         for path in &mut report.root_loci.as_mut().unwrap().paths {
             path.name = "12 diameters, 3 circles, backward, or so ".repeat(4);
             path.growth_per_s.iter_mut().for_each(|g| *g -= 0.1);
         }
         report.terms = vec!["guide damping C".to_owned()];
-        assert_tidy(&sheet(&report));
+        assert_tidy(&drawn(&report));
     }
 }
 
@@ -125,7 +125,7 @@ fn few_odd_and_huge_numbers_are_drawn_without_complaint() {
     loci.paths[1].growth_per_s[9] = f64::INFINITY;
     loci.paths[1].krein_sign.truncate(2);
     loci.rpm[5] = 0.0;
-    assert_tidy(&sheet(&odd));
+    assert_tidy(&drawn(&odd));
     let loci = odd.root_loci.as_mut().unwrap();
     for list in [&mut loci.paths[0].frequency_hz, &mut loci.rpm] {
         list.iter_mut().for_each(|value| *value *= 1e200);
@@ -138,7 +138,7 @@ fn few_odd_and_huge_numbers_are_drawn_without_complaint() {
     let mut inside = report();
     let loci = inside.root_loci.as_mut().unwrap();
     (loci.onset_rpm, loci.end_rpm) = (2000.0, 3000.0);
-    assert_tidy(&sheet(&inside));
+    assert_tidy(&drawn(&inside));
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn pictures_are_the_same_each_time() {
     let info = decoder.read_info().unwrap();
     assert_eq!((info.info().width, info.info().height), (WIDTH, HEIGHT));
     assert_eq!(Some(bytes), root_loci_png(&report).unwrap());
-    assert!(!texts(&sheet(&report)).is_empty());
+    assert!(!texts(&drawn(&report)).is_empty());
 }
 
 #[test]
