@@ -46,9 +46,9 @@ pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
         }
     }
     let mut column_of = vec![0; size];
-    for column in 1..=size {
-        if let Some(row) = row_of[column].checked_sub(1) {
-            column_of[row] = column - 1;
+    for (column, row) in row_of[1..].iter().enumerate() {
+        if let Some(row) = row.checked_sub(1) {
+            column_of[row] = column;
         }
     }
     column_of
