@@ -13,7 +13,7 @@ use super::draws::{any_saw, lowest_critical, scene};
 use super::root_loci;
 use super::tidy::assert_tidy;
 use crate::report::{BranchEntry, Report, RootLociEntry};
-use crate::scene::{Accuracy, Scene, SceneFile, SweepFile, rpm};
+use crate::scene::{Accuracy, SceneFile, SweepFile, rpm};
 use crate::stability::Analysis;
 
 const PEAK: f64 = 1.02;
@@ -25,10 +25,8 @@ fn report(file: &SceneFile, reach: f64) -> Report {
         from_rpm: 0.0,
         to_rpm: reach * rpm(lowest_critical(&file)),
     });
-    let scene = Scene {
-        accuracy: Accuracy::Draft,
-        ..scene(&file)
-    };
+    file.accuracy = Accuracy::Draft;
+    let scene = scene(&file);
     let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
     Report::new(&scene, &analysis).unwrap()
 }
