@@ -4,8 +4,8 @@ use super::axis::{Axis, Spread, draw_horizontal};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FLUTTER_SHADE, FORWARD, GRID,
-    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD,
+    GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
 };
 use super::{FigureError, bands, heading, render};
 use crate::report::{CheckReport, CriterionEntry};
@@ -36,11 +36,12 @@ fn sheet(report: &CheckReport) -> Sheet {
     let verdict = if report.passed { "passed" } else { "failed" };
     let title = format!("{}: check {verdict}", report.scene.name);
     heading::draw(&mut sheet, &title, &facts(report));
-    let speed = Axis::new([0.0, report.to_rpm], [LEFT, RIGHT], Spread::Linear);
+    let speed = Axis::new([0.0, last_shown_rpm(report)], [LEFT, RIGHT], Spread::Linear);
     draw_saw(&mut sheet, report, &speed);
     for (k, criterion) in report.criteria.iter().enumerate() {
         draw_criterion(&mut sheet, criterion, &speed, row(k + 1));
     }
+    draw_end_of_sweep(&mut sheet, report, &speed, bottom);
     let operating = speed.at(report.operating_rpm);
     let line = [[operating, TOP], [operating, bottom]];
     sheet.line(line, Stroke::solid(INK, HAIRLINE));
@@ -51,6 +52,30 @@ fn sheet(report: &CheckReport) -> Sheet {
     sheet.text([centre, bottom + 42.0], letters, name);
     draw_key(&mut sheet, bottom + BELOW - 22.0);
     sheet
+}
+
+/// Far enough for the sweep, for every limit and for what was found: the lowest critical speed
+/// is known beyond the sweep too.
+fn last_shown_rpm(report: &CheckReport) -> f64 {
+    let of_criterion = |c: &CriterionEntry| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
+    let criteria = report.criteria.iter().map(of_criterion);
+    let marks = criteria.chain([report.operating_rpm]).fold(0.0, f64::max);
+    report.to_rpm.max(1.03 * marks)
+}
+
+/// Where the sweep ends within the axis, beyond which no band is searched for.
+fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
+    if report.to_rpm >= speed.values()[1] {
+        return;
+    }
+    let x = speed.at(report.to_rpm);
+    let dashed = Stroke {
+        dash: Some(FINE_DASH),
+        ..Stroke::solid(QUIET, HAIRLINE)
+    };
+    sheet.line([[x, TOP], [x, bottom]], dashed);
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
+    sheet.text([x.max(LEFT + 90.0), TOP - 6.0], letters, "end of the sweep");
 }
 
 fn row(k: usize) -> Frame {
@@ -123,7 +148,7 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     let middle = 0.5 * (frame.top + frame.bottom);
     let asked = speed.at(asked);
     let unreached = if is_limit { RIGHT } else { asked };
-    let end = found.map_or(unreached, |rpm| speed.at(rpm).min(RIGHT));
+    let end = found.map_or(unreached, |rpm| speed.at(rpm));
     let bar = Frame {
         left: asked.min(end),
         top: middle - 7.0,
@@ -133,7 +158,7 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     sheet.fill(bar, tint(colour, 0.35));
     let upright = [[asked, middle - 16.0], [asked, middle + 16.0]];
     sheet.line(upright, Stroke::solid(INK, STRONG_CURVE));
-    if found.is_some_and(|rpm| speed.shows(rpm)) {
+    if found.is_some() {
         sheet.disc([end, middle], 6.0, colour);
     }
 }
@@ -163,8 +188,9 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
 mod tests {
     use super::*;
     use crate::check::{Check, Limits};
+    use crate::figure::canvas::Mark;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::scene::{Accuracy, Scene, rad_per_s};
+    use crate::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 
     #[test]
     fn limits_that_are_kept_and_limits_that_are_not_are_told_apart() {
@@ -181,5 +207,35 @@ mod tests {
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
         assert_eq!((with("pass: "), with("FAIL: ")), (3, 1), "{said:?}");
+    }
+
+    /// A saw whose lowest critical speed lies beyond its sweep.
+    #[test]
+    fn a_speed_found_beyond_the_sweep_is_on_the_axis() {
+        let scene = Scene::paper().edited(|file| {
+            file.accuracy = Accuracy::Draft;
+            file.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: 1400.0,
+            });
+        });
+        let scene = scene.unwrap();
+        let limits = Limits::at(rad_per_s(1250.0));
+        let check = Check::new(&scene, &limits).unwrap();
+        let report = CheckReport::new(&scene, &limits, &check);
+        let found = report.criteria.iter().filter_map(|c| c.found_rpm);
+        let highest = found.fold(0.0, f64::max);
+        assert!(highest > report.to_rpm, "{highest}");
+        let sheet = sheet(&report);
+        assert_tidy(&sheet);
+        let discs = sheet.marks().iter().filter_map(|mark| match mark {
+            Mark::Disc(centre, radius, _) if *radius == 6.0 => Some(centre[0]),
+            _ => None,
+        });
+        let places: Vec<f64> = discs.filter(|x| *x > LEFT).collect();
+        assert!(!places.is_empty());
+        assert!(places.iter().all(|x| *x <= RIGHT), "{places:?}");
+        let said = texts(&sheet);
+        assert!(said.iter().any(|(_, text)| *text == "end of the sweep"));
     }
 }

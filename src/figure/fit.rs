@@ -6,8 +6,8 @@ use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, Colour, DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE,
-    QUIET, STANDING, Weight, shorten,
+    ALARM, AXIS_SIZE, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE,
+    INK, LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
 };
 use super::{FigureError, heading, render};
 use crate::report::{FitReport, ResidualEntry};
@@ -27,13 +27,23 @@ const LOWER: Frame = Frame {
 };
 const BEFORE: Colour = STANDING;
 const FITTED: Colour = FORWARD;
-/// Colour of each place from the lowest frequency on, for the residuals; then it repeats.
-const PLACES: [Colour; 4] = [
-    FORWARD,
-    plotters::style::RGBColor(192, 69, 45),
-    plotters::style::RGBColor(104, 71, 153),
-    plotters::style::RGBColor(163, 98, 0),
+/// Mark of each place from the lowest frequency on, for the residuals; then they repeat. Shapes
+/// are told apart where colours are not.
+const PLACES: [(Shape, Colour); 4] = [
+    (Shape::Disc, FORWARD),
+    (Shape::Ring, BACKWARD),
+    (Shape::Square, DIVERGENCE),
+    (Shape::Cross, INK),
 ];
+
+/// What stands at the end of a residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Disc,
+    Ring,
+    Square,
+    Cross,
+}
 
 /// The fit as PNG, 1200 × 820 pixels.
 pub fn fit_png(report: &FitReport) -> Result<Vec<u8>, FigureError> {
@@ -176,16 +186,38 @@ fn draw_pair(
         sheet.line(way, Stroke::solid(ALARM, HAIRLINE));
         // Side by side, so that none hides another.
         let aside = 7.0 * ((r.place - 1) % PLACES.len()) as f64 - 10.5;
-        let colour = PLACES[(r.place - 1) % PLACES.len()];
+        let (shape, colour) = PLACES[(r.place - 1) % PLACES.len()];
         let x = (x + aside).clamp(LOWER.left, LOWER.right);
         let (zero, top) = (residual.at(0.0), residual.at(r.fitted_hz - r.measured_hz));
         sheet.line([[x, zero], [x, top]], Stroke::solid(colour, CURVE));
-        sheet.disc([x, top], 3.0, colour);
+        draw_shape(sheet, shape, [x, top], colour);
     }
     if r.fitted {
         draw_measured_mark(sheet, at);
     } else {
         sheet.disc(at, 2.0, QUIET);
+    }
+}
+
+fn draw_shape(sheet: &mut Sheet, shape: Shape, [x, y]: [f64; 2], colour: Colour) {
+    let stroke = Stroke::solid(colour, 1.4);
+    match shape {
+        Shape::Disc => sheet.disc([x, y], 3.2, colour),
+        Shape::Ring => sheet.ring([x, y], 3.2, stroke, PAPER),
+        Shape::Square => {
+            let frame = Frame {
+                left: x - 3.0,
+                top: y - 3.0,
+                right: x + 3.0,
+                bottom: y + 3.0,
+            };
+            sheet.fill(frame, colour);
+        }
+        Shape::Cross => {
+            for side in [-3.2, 3.2] {
+                sheet.line([[x - 3.2, y - side], [x + 3.2, y + side]], stroke);
+            }
+        }
     }
 }
 
@@ -209,9 +241,11 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
         .word(text);
     }
     let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
-    for (place, colour) in PLACES.iter().enumerate().take(deepest) {
-        key.mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 3.0, *colour))
-            .word(["lowest", "second", "third", "fourth, …"][place]);
+    for (place, (shape, colour)) in PLACES.into_iter().enumerate().take(deepest) {
+        key.mark(6.0, |sheet, [x, y]| {
+            draw_shape(sheet, shape, [x + 3.0, y], colour)
+        })
+        .word(["lowest", "second", "third", "fourth, …"][place]);
     }
 }
 
@@ -248,6 +282,16 @@ mod tests {
             .unwrap();
             let report = FitReport::new(&scene, &table, to_rpm, 0.95, &fit).unwrap();
             assert_tidy(&sheet(&report));
+        }
+    }
+
+    #[test]
+    fn residuals_are_told_apart_without_colours() {
+        for (k, (shape, _)) in PLACES.iter().enumerate() {
+            assert!(PLACES[..k].iter().all(|(other, _)| other != shape));
+            let mut sheet = Sheet::new(WIDTH, HEIGHT);
+            draw_shape(&mut sheet, *shape, [100.0, 100.0], INK);
+            assert!(!sheet.marks().is_empty());
         }
     }
 

@@ -1,11 +1,11 @@
 //! Time against true error, both on logarithmic scales.
 
 use super::axis::{Axis, Spread};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::key::Key;
 use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
-    QUIET, STANDING, STRONG_CURVE, tint,
+    PAPER, QUIET, STANDING, STRONG_CURVE, tint,
 };
 use super::{FigureError, heading, render};
 use crate::stability::{Method, Setting};
@@ -52,9 +52,16 @@ fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
+    // Papered before any dot is drawn: the promised accuracies' dashed lines pass there.
+    for (at, letters, label) in labels(settings, &error, &time) {
+        sheet.fill(text_frame(at, &letters, &label), PAPER);
+    }
     for method in METHODS {
         let own: Vec<&Setting> = settings.iter().filter(|s| s.method == method).collect();
         draw_method(&mut sheet, method, &own, &error, &time);
+    }
+    for (at, letters, label) in labels(settings, &error, &time) {
+        sheet.text(at, letters, &label);
     }
     sheet
 }
@@ -73,17 +80,24 @@ fn look(method: Method) -> (Colour, &'static str) {
     }
 }
 
+/// Numbers of functions above the dots of the charts: the critical speeds alone stand at the
+/// same numbers, in the same order.
+fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Lettering, String)> {
+    let charts = settings.iter().filter(|s| s.is_chart() && s.speeds == 51);
+    let label = |setting: &Setting| {
+        let [x, y] = place(setting, error, time);
+        let (colour, _) = look(setting.method);
+        let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
+        ([x, y - 11.0], letters, setting.functions.to_string())
+    };
+    charts.map(label).collect()
+}
+
 fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis, time: &Axis) {
     let (colour, _) = look(method);
     for setting in own {
         let at = place(setting, error, time);
         sheet.disc(at, 4.0, colour);
-        // The critical speeds alone stand at the same numbers, in the same order.
-        if setting.is_chart() && setting.speeds == 51 {
-            let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
-            let label = format!("{}", setting.functions);
-            sheet.text([at[0], at[1] - 11.0], letters, &label);
-        }
     }
     let line = own.iter().filter(|s| s.speeds == 51 || !s.is_chart());
     let line = line.map(|s| place(s, error, time));
@@ -171,6 +185,7 @@ fn seconds(log: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::canvas::Mark;
     use super::*;
 
     /// Eight sizes of a chart and of the critical speeds, two charts on the whole basis.
@@ -199,7 +214,18 @@ mod tests {
                 .chain(dense)
             })
             .collect();
-        super::super::tidy::assert_tidy(&sheet("A saw", &settings));
+        let drawn = sheet("A saw", &settings);
+        super::super::tidy::assert_tidy(&drawn);
+        // A dashed line is under paper wherever a label is written over it.
+        let marks = drawn.marks();
+        let is_fill = |m: &&Mark| matches!(m, Mark::Fill(_, colour) if *colour == PAPER);
+        let papered = marks.iter().filter(is_fill).count();
+        let charts = settings.iter().filter(|s| s.is_chart()).count();
+        assert_eq!(papered, charts);
+        let last_dashed = marks
+            .iter()
+            .rposition(|m| matches!(m, Mark::Line(_, s) if s.dash.is_some()));
+        assert!(last_dashed < marks.iter().position(|m| is_fill(&m)));
     }
 
     #[test]

@@ -45,9 +45,14 @@ impl Report {
             scene: scene.file().clone(),
             terms: terms(&model.plate),
             modes_at_rest: (at_rest.iter().enumerate())
-                .map(|(i, mode)| RestMode {
-                    branch: branches.of_mode_at_rest(i),
-                    ..rest_mode(analysis, mode)
+                .map(|(i, mode)| {
+                    let branch = branches.of_mode_at_rest(i);
+                    let name = branch.map(|number| branches.name(number));
+                    RestMode {
+                        branch,
+                        name: name.unwrap_or_else(|| mode.name.in_shares()),
+                        ..rest_mode(analysis, mode)
+                    }
                 })
                 .collect(),
             critical_speeds: critical_speeds(analysis, &branches),

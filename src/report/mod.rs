@@ -83,7 +83,8 @@ pub struct RestMode {
     pub nodal_diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub nodal_circles: usize,
-    /// In words; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45 %)".
+    /// Name of its branch; the shares of its harmonics where none dominates:
+    /// "0 (54 %) + 1 (45 %)".
     pub name: String,
     /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
     /// rest.
