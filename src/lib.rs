@@ -41,4 +41,5 @@ pub mod spline;
 pub mod stability;
 pub mod study;
 pub mod system;
+pub mod text;
 pub mod transient;

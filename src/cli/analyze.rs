@@ -1,54 +1,96 @@
 //! `sawflutter analyze`.
 
+use std::path::{Path, PathBuf};
+
 use crate::figure;
 use crate::report::{Report, SensitivityEntry};
+use crate::scene::Scene;
 use crate::stability::{Analysis, sensitivities};
 use clap::Args;
 use rayon::prelude::*;
 
-use super::common::{Common, progress_bar, show};
+use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
+use super::output::OutputFolder;
+use super::several;
 use super::summary::summary;
 
 pub const EXAMPLES: &str = "\
 Examples:
   sawflutter analyze                                  the built-in saw
   sawflutter analyze my-saw.json --out my-saw         your own saw
+  sawflutter analyze saws/*.json --out saws-out       a folder each, and a table
+  make-scene | sawflutter analyze -                   a scene from another program
   sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
   sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
 
 #[derive(Args, Default)]
 pub struct Arguments {
+    /// Scenes to chart, - for standard input; without any, the built-in guided spline saw
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
     #[command(flatten)]
-    common: Common,
+    finely: Finely,
+    #[command(flatten)]
+    pub output: Output,
     /// Also say how critical speeds and onsets move with thickness, density, modulus and
     /// the guides
     #[arg(long)]
     sensitivity: bool,
 }
 
-/// Charts a saw, writes the files and prints the summary.
+/// Charts saws, writes their files and prints the summary, or a table of several.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.common.scene()?;
-    let folder = arguments.common.folder()?;
+    let read = |path: &PathBuf| arguments.finely.applied(read_scene(path)?);
+    match &arguments.scenes[..] {
+        [] => one(arguments, &arguments.finely.applied(Scene::paper())?),
+        [path] => one(arguments, &read(path)?),
+        paths => {
+            let scenes = paths.iter().map(read).collect::<anyhow::Result<_>>()?;
+            several::run(arguments, paths, scenes)
+        }
+    }
+}
+
+fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
+    let folder = arguments.output.folder()?;
+    let report = report(arguments, scene)?;
+    let (files, json) = files(&report)?;
+    // The table of several scenes is not this run's.
+    let optional = [&OPTIONAL[..], &several::FILES].concat();
+    let words = || summary(&report);
+    arguments
+        .output
+        .print(&folder, &files, &optional, &json, words)
+}
+
+/// Charts a saw into a folder of its own.
+pub fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
+    let folder = OutputFolder::open(path)?;
+    let report = report(arguments, scene)?;
+    folder.write_together(&files(&report)?.0, &OPTIONAL)?;
+    Ok(report)
+}
+
+fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
     let bar = progress_bar("speeds");
-    let analysis = Analysis::new(&scene, &|done, of| show(&bar, done, of))?;
+    let analysis = Analysis::new(scene, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
-    let mut report = Report::new(&scene, &analysis)?;
+    let mut report = Report::new(scene, &analysis)?;
     if arguments.sensitivity {
         let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
-        let found = sensitivities(&scene, &analysis, at)?;
+        let found = sensitivities(scene, &analysis, at)?;
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = figures(&report)?;
-    // An earlier run may have left those of another saw.
-    let mut stale = OPTIONAL.to_vec();
-    stale.retain(|name| files.iter().all(|(drawn, _)| drawn != name));
+    Ok(report)
+}
+
+/// The files of a report, and the last one as text.
+fn files(report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
+    let json = serde_json::to_string_pretty(report)?;
+    let mut files = figures(report)?;
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
-    arguments
-        .common
-        .print(&folder, &files, &stale, &json, || summary(&report))
+    Ok((files, json))
 }
 
 /// Figures that not every saw has.

@@ -1,7 +1,6 @@
 //! `sawflutter check`.
 
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::PathBuf;
 
 use crate::check::{Check, Limits};
@@ -11,7 +10,7 @@ use crate::scene::{Scene, rad_per_s};
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::common::Input;
+use super::common::{Input, say};
 use super::output::OutputFolder;
 
 pub const EXAMPLES: &str = "\
@@ -72,11 +71,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         ];
         folder.write_together(&files, &[])?;
     }
-    let mut stdout = std::io::stdout().lock();
-    if arguments.json {
-        writeln!(stdout, "{json}")?;
-    } else {
-        write!(stdout, "{}", summary(&check))?;
+    match arguments.json {
+        true => say(&format!("{json}\n"))?,
+        false => say(&summary(&check))?,
     }
     Ok(check.passed())
 }

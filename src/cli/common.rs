@@ -3,7 +3,8 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use crate::scene::{Accuracy, Scene};
+use crate::scene::{Accuracy, SCENE_TEXT, Scene, SceneError};
+use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,7 +14,7 @@ use super::output::OutputFolder;
 /// The saw to look at, and how finely.
 #[derive(Args, Default)]
 pub struct Input {
-    /// Scene to look at; without it, the built-in guided spline saw
+    /// Scene to look at, - for standard input; without it, the built-in guided spline saw
     scene: Option<PathBuf>,
     #[command(flatten)]
     finely: Finely,
@@ -71,9 +72,38 @@ impl Input {
     }
 }
 
-/// The scene of a file.
+/// The scene of a file, or of standard input.
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
-    Scene::from_path(path).with_context(|| format!("{} was refused", path.display()))
+    let text = read_text(path, SCENE_TEXT)?;
+    Scene::from_json(&text).map_err(|error: SceneError| refused(path, error.into()))
+}
+
+/// The text of a file, or of standard input where the path is `-`.
+pub fn read_text(path: &Path, kind: Kind) -> Result<String, FileError> {
+    match is_standard_input(path) {
+        true => read_stream(std::io::stdin().lock(), Path::new(STANDARD_INPUT), kind),
+        false => read_path(path, kind),
+    }
+}
+
+const STANDARD_INPUT: &str = "standard input";
+
+pub fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// The error of what a file says, with the name of the file.
+pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
+    let name = match is_standard_input(path) {
+        true => STANDARD_INPUT.into(),
+        false => path.display().to_string(),
+    };
+    error.context(format!("{name} was refused"))
+}
+
+/// Writes to standard output what a terminal may be sent.
+pub fn say(text: &str) -> std::io::Result<()> {
+    write!(std::io::stdout().lock(), "{}", printable(text))
 }
 
 impl Finely {
@@ -111,40 +141,42 @@ impl Common {
         &self,
         folder: &OutputFolder,
         files: &[NamedFile],
-        stale: &[&str],
+        optional: &[&str],
         json: &str,
         summary: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
-        self.output.print(folder, files, stale, json, summary)
+        self.output.print(folder, files, optional, json, summary)
     }
 }
 
 impl Output {
     /// The folder asked for, seen to take files.
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
-        let out = self.out.clone();
-        OutputFolder::open(&out.unwrap_or_else(|| "sawflutter-out".into()))
+        OutputFolder::open(&self.path())
     }
 
-    /// Writes the files, removes `stale` ones of an earlier run, and prints the report, in
-    /// words or as JSON.
+    /// Where the folder is.
+    pub fn path(&self) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| "sawflutter-out".into())
+    }
+
+    /// Writes the files, removes those of the `optional` names that an earlier run has left and
+    /// this one does not write, and prints the report, in words or as JSON.
     pub fn print(
         &self,
         folder: &OutputFolder,
         files: &[NamedFile],
-        stale: &[&str],
+        optional: &[&str],
         json: &str,
         summary: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
-        folder.write_together(files, stale)?;
-        let mut stdout = std::io::stdout().lock();
+        folder.write_together(files, optional)?;
         if self.json {
-            writeln!(stdout, "{json}")?;
+            say(&format!("{json}\n"))?;
         } else {
-            write!(stdout, "{}", summary())?;
             let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-            let names = names.join(", ");
-            writeln!(stdout, "\nWritten to {}: {names}", folder.path().display())?;
+            let (names, path) = (names.join(", "), folder.path().display());
+            say(&format!("{}\nWritten to {path}: {names}\n", summary()))?;
         }
         Ok(())
     }

@@ -53,19 +53,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = CutReport::new(&scene, &cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
-    let mut stale: &[&str] = &[];
-    match figure::spline_orbit_png(&report)?.zip(figure::spline_orbit_svg(&report)?) {
-        Some((png, svg)) => files.extend([
-            ("spline-orbit.png", png),
-            ("spline-orbit.svg", svg.into_bytes()),
-        ]),
-        None => stale = &["spline-orbit.png", "spline-orbit.svg"],
+    if let Some(png) = figure::spline_orbit_png(&report)? {
+        files.push((OPTIONAL[0], png));
+    }
+    if let Some(svg) = figure::spline_orbit_svg(&report)? {
+        files.push((OPTIONAL[1], svg.into_bytes()));
     }
     files.push(("cut.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, stale, &json, || summary(&report))
+        .print(&folder, &files, &OPTIONAL, &json, || summary(&report))
 }
+
+/// Figures that not every scene has.
+const OPTIONAL: [&str; 2] = ["spline-orbit.png", "spline-orbit.svg"];
 
 fn figures(report: &CutReport) -> Result<Vec<NamedFile>, figure::FigureError> {
     type Draw = fn(&CutReport) -> Result<Vec<u8>, figure::FigureError>;

@@ -66,16 +66,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         ("spin.npy", npy(&system.spin)),
         ("gyroscopic.npy", npy(&system.gyroscopic)),
     ];
-    let mut stale = Vec::new();
-    for (name, matrix) in [
-        ("damping.npy", &system.damping),
-        ("circulatory.npy", &system.circulatory),
-    ] {
-        match matrix {
-            Some(matrix) => files.push((name, npy(matrix))),
-            // What an earlier run left of another saw would be taken for this one's.
-            None => stale.push(name),
-        }
+    let optional = OPTIONAL
+        .into_iter()
+        .zip([&system.damping, &system.circulatory]);
+    for (name, matrix) in optional {
+        files.extend(matrix.as_ref().map(|matrix| (name, npy(matrix))));
     }
     let about = json!({
         "scene": scene.file().name,
@@ -88,16 +83,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     });
     let json = serde_json::to_string_pretty(&about)?;
     files.push(("matrices.json", json.clone().into_bytes()));
-    arguments.common.print(&folder, &files, &stale, &json, || {
-        format!(
-            "{} functions: n up to {}, {} radial functions each\n{}\n",
-            plate.degrees_of_freedom(),
-            plate.resolution.max_diameters,
-            plate.resolution.radial_functions,
-            "equation and units in matrices.json"
-        )
-    })
+    arguments
+        .common
+        .print(&folder, &files, &OPTIONAL, &json, || {
+            format!(
+                "{} functions: n up to {}, {} radial functions each\n{}\n",
+                plate.degrees_of_freedom(),
+                plate.resolution.max_diameters,
+                plate.resolution.radial_functions,
+                "equation and units in matrices.json"
+            )
+        })
 }
+
+/// Matrices that not every saw has.
+const OPTIONAL: [&str; 2] = ["damping.npy", "circulatory.npy"];
 
 /// A matrix as a `.npy` file, format 1.0, row by row (NumPy Enhancement Proposal 1). The crates
 /// that write it bring a parser of Python literals, and a C compiler for that.

@@ -1,17 +1,17 @@
 //! `sawflutter fit`.
 
 use std::fmt::Write;
-use std::io::Read;
 use std::path::PathBuf;
 
 use crate::figure;
 use crate::fit::{Fit, Measurement, Options};
 use crate::report::{FitReport, ParameterEntry};
 use crate::scene::Scene;
+use crate::text::{Kind, OtherEncodings};
 use anyhow::{Context, bail};
 use clap::Args;
 
-use super::common::{Common, progress_bar, show};
+use super::common::{Common, progress_bar, read_text, refused, show};
 use super::free::{freed, number};
 use super::summary::wrapped;
 
@@ -23,7 +23,9 @@ Examples:
     --free guides[0].radius_m=0.15..0.3 --free blade.material.density_kg_per_m3
 
 measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
-mode was not seen. They are held against the lowest computed ones.
+mode was not seen. They are held against the lowest computed ones. A first line
+like rpm,f1,f2 names the columns, in any order; semicolons with decimal commas
+and tabs are read too.
 The calibrated scene is fitted-scene.json.";
 
 #[derive(Args)]
@@ -58,7 +60,10 @@ pub struct Arguments {
 /// More starts than these never found anything new.
 const MAX_STARTS: usize = 1000;
 /// As for scenes; a table of frequencies is a page.
-const MAX_TABLE_BYTES: u64 = 1 << 20;
+const TABLE: Kind = Kind {
+    limit: 1 << 20,
+    other_encodings: OtherEncodings::AsLatin1,
+};
 
 /// Fits a saw to measured frequencies, writes the files and prints the table.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -128,22 +133,10 @@ fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measureme
         )?;
         return Ok(Measurement::of_scene(own));
     };
-    let unreadable = || format!("cannot read the measured frequencies {}", path.display());
-    let mut text = String::new();
-    std::fs::File::open(path)
-        .with_context(unreadable)?
-        .take(MAX_TABLE_BYTES + 1)
-        .read_to_string(&mut text)
-        .with_context(unreadable)?;
-    if text.len() as u64 > MAX_TABLE_BYTES {
-        bail!(
-            "{} is larger than {MAX_TABLE_BYTES} bytes; a table of frequencies is a page, so this is probably another file",
-            path.display()
-        );
-    }
+    let text = read_text(path, TABLE)?;
     let name = path.file_name().unwrap_or(path.as_os_str());
     Measurement::from_csv(&name.to_string_lossy(), &text)
-        .with_context(|| format!("{} was refused", path.display()))
+        .map_err(|error| refused(path, error.into()))
 }
 
 /// What is hardly ever known of a saw: where the guides act and how stiff they are. Angles are

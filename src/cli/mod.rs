@@ -13,14 +13,17 @@ mod output;
 mod place;
 mod runup;
 mod schema;
+mod several;
 mod study;
 mod study_summary;
 mod summary;
 mod tradeoff;
 
 use std::ffi::OsString;
+use std::path::Path;
 
-use clap::{Parser, Subcommand};
+use crate::text::{printable, printable_line};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.
@@ -71,7 +74,8 @@ enum Command {
 const EXAMPLES: &str = "\
 Examples:
   sawflutter                              chart the built-in guided spline saw
-  sawflutter analyze my-saw.json          chart your own saw
+  sawflutter my-saw.json                  chart your own saw
+  sawflutter saws/*.json                  chart many, and put them in a table
   sawflutter cut                          is it stable in the wood?
   sawflutter check --operating-rpm 1250   does it keep the 85 % rule? for scripts
   sawflutter explore --open               what if? drag the guides in your browser
@@ -83,12 +87,17 @@ Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed."
 /// Runs the command that arguments ask for, the first being the program's name. The exit code:
 /// 0 done, 1 a check failed, 2 refused or failed.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let arguments = match Arguments::try_parse_from(with_command(arguments)) {
         Ok(arguments) => arguments,
+        // Its words are the user's.
+        Err(refusal) if refusal.use_stderr() => {
+            eprint!("{}", printable(&refusal.render().to_string()));
+            return 2;
+        }
         // Help and version are printed too, and are no failure.
-        Err(refusal) => {
-            let _ = refusal.print();
-            return if refusal.use_stderr() { 2 } else { 0 };
+        Err(help) => {
+            let _ = help.print();
+            return 0;
         }
     };
     match command(arguments.command) {
@@ -96,10 +105,28 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(false) => 1,
         Err(error) if is_closed_pipe(&error) => 0,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", printable_line(&in_words(&error)));
             2
         }
     }
+}
+
+/// The arguments with `analyze` where no command is named: before an option, and before what is a
+/// file, or has a name that only a file has. Anything else is left to be refused as a typo.
+fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+    let Some(first) = arguments.get(1) else {
+        return arguments;
+    };
+    let text = first.to_string_lossy();
+    let of_program = ["-h", "--help", "-V", "--version", "help"].contains(&&*text)
+        || Arguments::command().find_subcommand(first).is_some();
+    let option = text.starts_with('-');
+    let file = text.contains(['.', '/', '\\']) || Path::new(first).exists();
+    if !of_program && (option || file) {
+        arguments.insert(1, "analyze".into());
+    }
+    arguments
 }
 
 /// Runs a command; without one, `analyze`. False is a check that was not passed.
@@ -120,6 +147,19 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Schema(arguments)) => schema::run(&arguments),
     }
     .map(|()| true)
+}
+
+/// An error and its causes; a cause that is told already is not told again.
+fn in_words(error: &anyhow::Error) -> String {
+    let mut words = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if words.is_empty() {
+            words = cause;
+        } else if !words.contains(&cause) {
+            words += &format!(": {cause}");
+        }
+    }
+    words
 }
 
 /// A reader that has seen enough, like `head`, is no failure.

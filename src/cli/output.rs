@@ -31,9 +31,14 @@ impl OutputFolder {
     }
 
     /// Writes the files of one run together: all are on the disk before the first gets its
-    /// name, and `stale` names are removed. The last file is the one to look for: while it is
+    /// name, and what an earlier run has left under an `optional` name that this one does not
+    /// write is removed: it would be taken for this one's. The last file is the one to look for: while it is
     /// there, every other belongs to it, whatever stopped a run and whoever else writes here.
-    pub fn write_together(&self, files: &[(&str, Vec<u8>)], stale: &[&str]) -> anyhow::Result<()> {
+    pub fn write_together(
+        &self,
+        files: &[(&str, Vec<u8>)],
+        optional: &[&str],
+    ) -> anyhow::Result<()> {
         let _turn = self.wait_for_turn();
         self.remove_leftovers();
         let staged = files
@@ -41,6 +46,8 @@ impl OutputFolder {
             .map(|(name, content)| self.staged(name, content))
             .collect::<anyhow::Result<Vec<_>>>()?;
         let last = files.last().map(|(name, _)| *name);
+        let written = |name: &&&str| files.iter().any(|(own, _)| own == *name);
+        let stale = optional.iter().filter(|name| !written(name));
         for name in last.iter().chain(stale) {
             self.remove(name)?;
         }
@@ -91,7 +98,7 @@ impl OutputFolder {
         Ok(())
     }
 
-    /// Removes what an earlier run left under a name that this one does not write.
+    /// Removes what an earlier run has left under a name.
     fn remove(&self, name: &str) -> anyhow::Result<()> {
         let target = self.path.join(name);
         match std::fs::remove_file(&target) {

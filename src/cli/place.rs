@@ -103,23 +103,22 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = Vec::new();
     if let Some(png) = figure::place_png(&report)? {
-        files.push(("place.png", png));
+        files.push((OPTIONAL[0], png));
     }
     if let Some(svg) = figure::place_svg(&report)? {
-        files.push(("place.svg", svg.into_bytes()));
+        files.push((OPTIONAL[1], svg.into_bytes()));
     }
-    let stale: &[&str] = match files.is_empty() {
-        true => &["place.png", "place.svg"],
-        false => &[],
-    };
     let placed = serde_json::to_string_pretty(&report.scene)?;
     files.push(("placed-scene.json", placed.into_bytes()));
     files.push(("place.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, stale, &json, || summary(&report))?;
+        .print(&folder, &files, &OPTIONAL, &json, || summary(&report))?;
     Ok(report.kept)
 }
+
+/// Figures that not every search has.
+const OPTIONAL: [&str; 2] = ["place.png", "place.svg"];
 
 fn told(bar: &ProgressBar, what: &'static str, done: usize, of: usize) {
     bar.set_message(what);

@@ -1,11 +1,11 @@
 //! `sawflutter study`.
 
-use std::io::{IsTerminal, Read, Write};
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::figure;
-use crate::scene::{MAX_SCENE_BYTES, Scene};
+use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
     self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, read_inputs, read_log,
 };
@@ -13,7 +13,7 @@ use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::common::{Finely, NamedFile, Output, read_scene};
+use super::common::{Finely, NamedFile, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
 use super::study_summary::summary;
 
@@ -195,7 +195,9 @@ fn print(
         ("study.csv", study::csv(study, &saws)?),
         ("study.json", json.clone().into_bytes()),
     ];
-    output.print(folder, &files, &[], &json, || summary(&report))
+    // Of a program that was built with Parquet.
+    let optional = ["study.parquet"];
+    output.print(folder, &files, &optional, &json, || summary(&report))
 }
 
 fn print_part(
@@ -209,35 +211,22 @@ fn print_part(
         .count();
     let path = folder.path().join(Log::name(shard));
     let (Shard { number, of }, log) = (shard, path.display().to_string());
-    let mut stdout = std::io::stdout().lock();
     if arguments.output.json {
         let part = serde_json::json!({ "shard": number, "of": of, "saws": saws, "log": log });
-        writeln!(stdout, "{part}")?;
+        say(&format!("{part}\n"))?;
     } else {
-        writeln!(stdout, "Part {number} of {of}: {saws} saws in {log}")?;
-        writeln!(
-            stdout,
-            "When all parts are done: sawflutter study merge {}",
-            folder.path().display()
-        )?;
+        let folder = folder.path().display();
+        say(&format!(
+            "Part {number} of {of}: {saws} saws in {log}\n\
+             When all parts are done: sawflutter study merge {folder}\n"
+        ))?;
     }
     Ok(())
 }
 
 fn read_study(path: &Path) -> anyhow::Result<StudyFile> {
-    let unreadable = || format!("cannot read the study {}", path.display());
-    let file = std::fs::File::open(path).with_context(unreadable)?;
-    let mut text = String::new();
-    file.take(MAX_SCENE_BYTES + 1)
-        .read_to_string(&mut text)
-        .with_context(unreadable)?;
-    if text.len() as u64 > MAX_SCENE_BYTES {
-        bail!(
-            "the study {} is larger than {MAX_SCENE_BYTES} bytes; a study is a page of JSON, so this is probably another file",
-            path.display()
-        );
-    }
-    StudyFile::from_json(&text).with_context(|| format!("{} was refused", path.display()))
+    let text = read_text(path, SCENE_TEXT)?;
+    StudyFile::from_json(&text).map_err(|error| refused(path, error.into()))
 }
 
 /// More parts than a cluster has.

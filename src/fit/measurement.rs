@@ -3,6 +3,7 @@
 use crate::scene::{Measured, MeasuredRow, rad_per_s};
 
 use super::FitError;
+use super::table::{Table, TableRow};
 
 /// Frequencies measured over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,38 +69,22 @@ impl Measurement {
         }
     }
 
-    /// Reads a table: a speed in rpm, then frequencies in Hz or blanks. A first line of names
-    /// and lines that begin with # are passed over.
+    /// Reads a table: a speed in rpm, then frequencies in Hz or blanks, separated by commas,
+    /// semicolons, tabs or blanks. A first line of names says which column is the speed; lines
+    /// that begin with # are passed over.
     ///
     /// # Errors
     /// [`FitError::Table`] with the line, the column and what is wrong with it.
     pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let mut rows: Vec<Row> = Vec::new();
-        for (index, record) in reader.records().enumerate() {
-            let record = record.map_err(|error| FitError::Table {
-                line: error.position().map_or(0, csv::Position::line),
-                problem: format!("it cannot be read ({error}); give rpm and frequencies in Hz, separated by commas"),
-            })?;
-            let first = record.get(0).unwrap_or_default();
-            if index == 0 && first.parse::<f64>().is_err() {
-                continue;
-            }
-            rows.push(row(&record)?);
-            if rows.len() > MAX_ROWS {
-                return Err(wrong(
-                    &record,
-                    format!(
-                        "it is row {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
-                        rows.len()
-                    ),
-                ));
-            }
+        let table = Table::read(text)?;
+        let rows: Vec<Row> = table.rows.iter().map(row).collect::<Result<_, _>>()?;
+        if let Some(beyond) = table.rows.get(MAX_ROWS) {
+            let problem = format!(
+                "it is row {} of {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
+                MAX_ROWS + 1,
+                rows.len()
+            );
+            return Err(wrong(beyond, problem));
         }
         Ok(Measurement {
             source: source.to_owned(),
@@ -151,39 +136,40 @@ impl Measurement {
     }
 }
 
-fn wrong(record: &csv::StringRecord, problem: String) -> FitError {
+fn wrong(row: &TableRow, problem: String) -> FitError {
     FitError::Table {
-        line: record.position().map_or(0, csv::Position::line),
+        line: row.line,
         problem,
     }
 }
 
-fn row(record: &csv::StringRecord) -> Result<Row, FitError> {
-    let number = |column: usize, most: f64, unit: &str| -> Result<f64, FitError> {
-        let text = record.get(column).unwrap_or_default();
-        match text.parse::<f64>() {
-            Ok(value) if (0.0..=most).contains(&value) => Ok(value),
-            _ => Err(wrong(
-                record,
-                format!(
-                    "column {} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}",
-                    column + 1
-                ),
-            )),
-        }
+fn row(typed: &TableRow) -> Result<Row, FitError> {
+    let number = |(column, text): &(usize, String), most: f64, unit: &str| match text.parse::<f64>()
+    {
+        Ok(value) if (0.0..=most).contains(&value) => Ok(value),
+        _ => Err(wrong(
+            typed,
+            format!(
+                "column {column} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}"
+            ),
+        )),
     };
-    if record.len() > MAX_COLUMNS + 1 {
+    let Some((speed, frequencies)) = typed.cells.split_first() else {
+        return Err(wrong(typed, "it has no speed; give it in rpm".into()));
+    };
+    if frequencies.len() > MAX_COLUMNS {
         let problem = format!(
             "it has {} frequencies, but at most {MAX_COLUMNS} are allowed; leave out the highest",
-            record.len() - 1
+            frequencies.len()
         );
-        return Err(wrong(record, problem));
+        return Err(wrong(typed, problem));
     }
-    let rpm = number(0, MAX_RPM, "revolutions per minute")?;
-    let columns = (1..record.len())
-        .map(|column| match record.get(column) {
-            None | Some("") => Ok(None),
-            Some(_) => number(column, MAX_HZ, "Hz, or leave it blank").map(Some),
+    let rpm = number(speed, MAX_RPM, "revolutions per minute")?;
+    let columns = frequencies
+        .iter()
+        .map(|cell| match cell.1.as_str() {
+            "" => Ok(None),
+            _ => number(cell, MAX_HZ, "Hz, or leave it blank").map(Some),
         })
         .collect::<Result<Vec<_>, _>>()?;
     Ok(Row::new(rpm, &columns))

@@ -26,6 +26,7 @@ mod error;
 mod measurement;
 mod model;
 mod solve;
+mod table;
 
 use rayon::prelude::*;
 

@@ -30,7 +30,7 @@ pub use membrane::{
 };
 pub use parameter::Parameter;
 pub use profile::Profile;
-pub(crate) use read::{KeyedError, from_keyed_json};
+pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use residual::{ResidualStress, ResidualStressRow};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{KeyedError, SceneError, from_keyed_json};
+use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
+use crate::text::{KeyedError, from_keyed_json};
 
 /// Which numbers of a scene vary, how, and what the saws have to keep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -143,13 +144,11 @@ fn default_margin() -> f64 {
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// Not JSON, or not a study: wrong type, unknown or missing key.
-    #[error(
-        "{key}: {message}; `sawflutter schema --study` prints the keys and types of a study, and scenes/studies/ has examples"
-    )]
+    #[error("{key}: {message}")]
     Syntax {
         /// JSON path of the key.
         key: String,
-        /// What the parser said, with line and column.
+        /// What is wrong with it, with the remedy and the line.
         message: String,
     },
     /// A value that no study has.
@@ -183,9 +182,18 @@ impl StudyFile {
     /// # Errors
     /// [`StudyError::Syntax`] with the JSON path of the offending key.
     pub fn from_json(text: &str) -> Result<Self, StudyError> {
-        from_keyed_json(text, "the study")
-            .map_err(|KeyedError { key, message }| StudyError::Syntax { key, message })
+        from_keyed_json(text, "the study").map_err(syntax)
     }
+}
+
+fn syntax(error: KeyedError) -> StudyError {
+    let KeyedError {
+        key, mut message, ..
+    } = error;
+    if error.of_keys {
+        message += "; `sawflutter schema --study` prints the keys and types of a study, and scenes/studies/ has examples";
+    }
+    StudyError::Syntax { key, message }
 }
 
 /// The JSON schema of a study file, derived from [`StudyFile`].

@@ -151,8 +151,8 @@ fn what_is_no_scene_at_all_is_refused() {
     for (text, expected) in [
         ("", "empty"),
         ("  \n\t ", "empty"),
-        ("{", "EOF"),
-        ("[]", "the scene"),
+        ("{", "add the missing }"),
+        ("[]", "the scene: it is a list"),
         ("{} {}", "name"),
         ("radius,thickness\n1,2\n", "the scene"),
     ] {

@@ -1,0 +1,119 @@
+//! Several scenes at a time: a folder each, and a table.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use crate::report::Report;
+use crate::scene::Scene;
+use anyhow::bail;
+use serde::Serialize;
+
+use super::analyze::{Arguments, into_folder};
+use super::common::is_standard_input;
+use super::in_words;
+use super::summary::shortened;
+
+/// What is written beside the folders of the scenes.
+pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
+
+/// A scene in the table. What is missing was not reached within the sweep.
+#[derive(Serialize)]
+struct Row {
+    /// Where its files are, below the folder of all.
+    folder: String,
+    name: String,
+    lowest_critical_rpm: Option<f64>,
+    flutter_speed_rpm: Option<f64>,
+    instabilities: usize,
+    warnings: usize,
+    /// Why there is nothing, where the scene could not be charted.
+    error: Option<String>,
+}
+
+/// Charts every scene that can be, and prints and writes the table.
+pub fn run(arguments: &Arguments, paths: &[PathBuf], scenes: Vec<Scene>) -> anyhow::Result<()> {
+    let all = arguments.output.folder()?;
+    let mut rows = Vec::new();
+    for (folder, scene) in folders(paths).into_iter().zip(&scenes) {
+        let found = into_folder(arguments, scene, &all.path().join(&folder));
+        rows.push(Row::new(folder, scene, found));
+    }
+    let json = serde_json::to_string_pretty(&rows)?;
+    let files = [
+        (FILES[0], csv(&rows)?),
+        (FILES[1], json.clone().into_bytes()),
+    ];
+    let words = || table(&rows);
+    arguments.output.print(&all, &files, &[], &json, words)?;
+    let failed = rows.iter().filter(|row| row.error.is_some()).count();
+    match failed {
+        0 => Ok(()),
+        _ => bail!("{failed} of {} scenes could not be charted", rows.len()),
+    }
+}
+
+/// A folder for every file, named after it; a second file of a name is numbered.
+fn folders(paths: &[PathBuf]) -> Vec<String> {
+    let mut taken: Vec<String> = Vec::new();
+    for path in paths {
+        let stem = match is_standard_input(path) {
+            true => "standard-input".into(),
+            false => path.file_stem().unwrap_or_default().to_string_lossy(),
+        };
+        let numbered = (2..).map(|k| format!("{stem}-{k}"));
+        let mut names = std::iter::once(stem.to_string()).chain(numbered);
+        taken.extend(names.find(|name| !taken.contains(name)));
+    }
+    taken
+}
+
+impl Row {
+    fn new(folder: String, scene: &Scene, found: anyhow::Result<Report>) -> Self {
+        let (report, error) = match found {
+            Ok(report) => (Some(report), None),
+            Err(error) => (None, Some(in_words(&error))),
+        };
+        let of = report.as_ref();
+        Row {
+            folder,
+            name: scene.file.name.clone(),
+            lowest_critical_rpm: of.and_then(|r| r.critical_speeds.first()).map(|c| c.rpm),
+            flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
+            instabilities: of.map_or(0, |r| r.instabilities.len()),
+            warnings: of.map_or(0, |r| r.warnings.len()),
+            error,
+        }
+    }
+}
+
+fn csv(rows: &[Row]) -> anyhow::Result<Vec<u8>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    Ok(writer.into_inner()?)
+}
+
+fn table(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "                          lowest critical    flutter      bands   warnings\n\
+         scene                               [rpm]      [rpm]\n",
+    );
+    let speed = |rpm: Option<f64>| rpm.map_or("-".to_owned(), |rpm| format!("{rpm:.1}"));
+    for row in rows {
+        let folder = shortened(&row.folder, 26);
+        // Writing to a string cannot fail.
+        let _ = match &row.error {
+            Some(error) => writeln!(text, "{folder:<26} failed: {error}"),
+            None => writeln!(
+                text,
+                "{folder:<26} {:>14} {:>10} {:>10} {:>10}",
+                speed(row.lowest_critical_rpm),
+                speed(row.flutter_speed_rpm),
+                row.instabilities,
+                row.warnings
+            ),
+        };
+    }
+    text
+}

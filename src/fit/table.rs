@@ -1,0 +1,341 @@
+//! A table of measured frequencies as spreadsheets and instruments write it: separators, decimal
+//! commas and the order of the columns are read off the table itself.
+
+use super::FitError;
+
+/// Rows of numbers or blanks, the speed first, then the frequencies in the order of their columns.
+#[derive(Debug, PartialEq)]
+pub struct Table {
+    pub rows: Vec<TableRow>,
+}
+
+/// A line of the table.
+#[derive(Debug, PartialEq)]
+pub struct TableRow {
+    /// Line in the file, from 1.
+    pub line: u64,
+    /// Number of the column in the file, from 1, and its text; blanks at the end are left out.
+    pub cells: Vec<(usize, String)>,
+}
+
+fn wrong(line: u64, problem: String) -> FitError {
+    FitError::Table { line, problem }
+}
+
+impl Table {
+    /// Reads a table. Lines that begin with # and blank ones are passed over.
+    ///
+    /// # Errors
+    /// [`FitError::Table`] with the line and what is wrong with it.
+    pub fn read(text: &str) -> Result<Self, FitError> {
+        let separator = Separator::of(text);
+        let mut records = separator.records(text)?;
+        let header = Header::take(&mut records)?;
+        let numbers = records
+            .iter()
+            .flat_map(|r| r.cells.iter().map(|cell| (r.line, cell)));
+        let comma = has_decimal_comma(numbers, separator)?;
+        let mut rows = Vec::new();
+        for record in records {
+            rows.push(row(record, header.as_ref(), comma)?);
+        }
+        Ok(Table { rows })
+    }
+}
+
+/// What stands between the cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Separator {
+    Mark(u8),
+    Blanks,
+}
+
+struct Record {
+    line: u64,
+    cells: Vec<String>,
+}
+
+impl Record {
+    fn new<'a>(line: u64, cells: impl Iterator<Item = &'a str>) -> Self {
+        let mut cells: Vec<String> = cells.map(|cell| cell.trim().to_owned()).collect();
+        while cells.last().is_some_and(String::is_empty) {
+            cells.pop();
+        }
+        Record { line, cells }
+    }
+}
+
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with('#')
+}
+
+impl Separator {
+    /// The rarest mark wins that stands outside quotation marks: a comma may be decimal beside a
+    /// semicolon or a tab, and never the other way round.
+    fn of(text: &str) -> Self {
+        let mut quoted = false;
+        let mut seen = [false; 3];
+        for line in text.lines().filter(|line| !is_comment(line)) {
+            for character in line.chars() {
+                match character {
+                    '"' => quoted = !quoted,
+                    ';' if !quoted => seen[0] = true,
+                    '\t' if !quoted => seen[1] = true,
+                    ',' if !quoted => seen[2] = true,
+                    _ => (),
+                }
+            }
+        }
+        let marks = [b';', b'\t', b','];
+        let found = marks.into_iter().zip(seen).find(|(_, seen)| *seen);
+        found.map_or(Separator::Blanks, |(mark, _)| Separator::Mark(mark))
+    }
+
+    fn records(self, text: &str) -> Result<Vec<Record>, FitError> {
+        let mut records = Vec::new();
+        match self {
+            Separator::Blanks => {
+                for (index, line) in text.lines().enumerate() {
+                    if !is_comment(line) {
+                        records.push(Record::new(index as u64 + 1, line.split_whitespace()));
+                    }
+                }
+            }
+            Separator::Mark(mark) => {
+                let mut reader = csv::ReaderBuilder::new()
+                    .has_headers(false)
+                    .flexible(true)
+                    .comment(Some(b'#'))
+                    .delimiter(mark)
+                    .from_reader(text.as_bytes());
+                for record in reader.records() {
+                    let record = record.map_err(|error| {
+                        let line = error.position().map_or(0, csv::Position::line);
+                        wrong(
+                            line,
+                            format!("it cannot be read ({error}); give rpm and frequencies in Hz"),
+                        )
+                    })?;
+                    let line = record.position().map_or(0, csv::Position::line);
+                    records.push(Record::new(line, record.iter()));
+                }
+            }
+        }
+        // Spreadsheets write the separator into the first line.
+        let blank = |record: &Record| record.cells.is_empty();
+        let hint = |record: &Record| record.cells[0].starts_with("sep=");
+        records.retain(|record| !blank(record) && !hint(record));
+        Ok(records)
+    }
+}
+
+/// Whether a text was meant as a number, with either decimal mark.
+fn number(cell: &str) -> Option<f64> {
+    cell.replace(',', ".").parse().ok()
+}
+
+/// Which column is the speed, and in which order the frequencies stand.
+struct Header {
+    names: usize,
+    speed: usize,
+    frequencies: Vec<usize>,
+}
+
+impl Header {
+    /// Takes the names off the rows, where the first row has names, and a row of units below.
+    fn take(records: &mut Vec<Record>) -> Result<Option<Self>, FitError> {
+        let Some(first) = records.first() else {
+            return Ok(None);
+        };
+        let named = first.cells.iter().any(|name| is_speed(name));
+        let numbers = first.cells.iter().filter(|cell| number(cell).is_some());
+        if !named && numbers.count() > 0 {
+            return Ok(None);
+        }
+        let Record { line, cells } = records.remove(0);
+        if !named {
+            return Err(wrong(
+                line,
+                format!(
+                    "it has neither numbers nor the names of columns, one of them rpm ({:?}); write \
+                     names like rpm, f1, f2, or correct the numbers",
+                    cells.join(", ")
+                ),
+            ));
+        }
+        let mut names = cells;
+        if records
+            .first()
+            .is_some_and(|record| record.cells.iter().all(|cell| is_unit(cell)))
+        {
+            for (name, unit) in names.iter_mut().zip(records.remove(0).cells) {
+                *name += &format!(" [{unit}]");
+            }
+        }
+        Header::of_names(line, &names).map(Some)
+    }
+
+    fn of_names(line: u64, names: &[String]) -> Result<Self, FitError> {
+        let speeds: Vec<usize> = (0..names.len()).filter(|k| is_speed(&names[*k])).collect();
+        let [speed] = speeds[..] else {
+            let problem = format!(
+                "{} of its columns are speeds; keep the one in rpm",
+                speeds.len()
+            );
+            return Err(wrong(line, problem));
+        };
+        for (column, name) in names.iter().enumerate() {
+            let small = name.to_lowercase();
+            let foreign = ["rad/s", "khz", "krpm", "1/s", "rps", "rev/s", "(ms)", "[s]"];
+            let other = foreign.iter().any(|unit| small.contains(unit));
+            let in_hz = column == speed && small.contains("hz");
+            if other || in_hz {
+                let problem = format!(
+                    "column {} is {name:?}; give speeds in rpm and frequencies in Hz",
+                    column + 1
+                );
+                return Err(wrong(line, problem));
+            }
+            if column != speed && !is_frequency(&small) {
+                let problem = format!(
+                    "column {} is {name:?}, which is neither the speed nor a frequency; remove it, \
+                     or call it f1, f2 and so on if it is one",
+                    column + 1
+                );
+                return Err(wrong(line, problem));
+            }
+        }
+        let mut frequencies: Vec<usize> = (0..names.len()).filter(|k| *k != speed).collect();
+        let place = |column: &usize| last_number(&names[*column]);
+        if frequencies.iter().all(|column| place(column).is_some()) {
+            frequencies.sort_by_key(place);
+        }
+        Ok(Header {
+            names: names.len(),
+            speed,
+            frequencies,
+        })
+    }
+}
+
+/// A name of the speed, in the languages of those who build saws.
+fn is_speed(name: &str) -> bool {
+    let small = name.to_lowercase();
+    let words = [
+        "rpm", "speed", "drehzahl", "1/min", "min-1", "min^-1", "min⁻¹", "u/min", "r/min",
+        "rev/min", "tr/min", "vitesse", "velocid", "varvtal", "omega", "Ω",
+    ];
+    words.iter().any(|word| small.contains(word)) || small == "n" || name.contains('Ω')
+}
+
+/// A name of a frequency, in small letters: `f1`, `mode 2`, `frequency`, `(0,2)`, `3`.
+fn is_frequency(small: &str) -> bool {
+    let words = [
+        "hz", "freq", "fréq", "mode", "peak", "wave", "eigen", "diameter",
+    ];
+    let numbered = |prefix: &str| {
+        let rest = small.strip_prefix(prefix);
+        let rest = rest.map(|rest| rest.trim_start_matches(['_', ' ', '-', '.']));
+        rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
+    };
+    words.iter().any(|word| small.contains(word))
+        || ["f", "fn", "m", ""].iter().any(|prefix| numbered(prefix))
+        || small.starts_with('(')
+}
+
+/// A unit that stands alone in its cell.
+fn is_unit(cell: &str) -> bool {
+    let bare = cell.trim_matches(['[', ']', '(', ')']).to_lowercase();
+    let units = [
+        "", "rpm", "1/min", "min-1", "min^-1", "u/min", "r/min", "hz", "khz", "rad/s", "1/s",
+    ];
+    units.contains(&bare.as_str())
+}
+
+/// The number that a name has outside its unit: 3 of `f3 (Hz)`.
+fn last_number(name: &str) -> Option<u64> {
+    let bare = name.split(['(', '[']).next().unwrap_or(name).trim_end();
+    let digits = bare.len() - bare.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    bare[bare.len() - digits..].parse().ok()
+}
+
+/// Whether commas in numbers are decimal. Points and commas in one table, or commas that may part
+/// thousands, are refused.
+fn has_decimal_comma<'a>(
+    cells: impl Iterator<Item = (u64, &'a String)>,
+    separator: Separator,
+) -> Result<bool, FitError> {
+    let (mut comma, mut point, mut thousands) = (None, None, true);
+    for (line, cell) in cells.filter(|(_, cell)| cell.contains([',', '.'])) {
+        if cell.contains(',') && cell.contains('.') {
+            let problem =
+                format!("{cell:?} has both a comma and a point; write a decimal point alone");
+            return Err(wrong(line, problem));
+        }
+        if number(cell).is_none() {
+            continue;
+        }
+        if let Some((whole, decimals)) = cell.split_once(',') {
+            comma = comma.or(Some((line, cell)));
+            let whole = whole.trim_start_matches('-');
+            thousands &= decimals.len() == 3 && whole != "0" && whole.len() <= 3;
+        } else {
+            point = point.or(Some(cell));
+        }
+    }
+    match (comma, point) {
+        (Some((line, comma)), Some(point)) => Err(wrong(
+            line,
+            format!(
+                "{comma:?} has a comma, {point:?} a point; write a decimal point everywhere, and nothing between thousands"
+            ),
+        )),
+        (Some((line, comma)), None) if thousands && separator != Separator::Mark(b';') => {
+            Err(wrong(
+                line,
+                format!(
+                    "{comma:?} may have a decimal comma, or one between thousands; write a decimal point, and nothing between thousands"
+                ),
+            ))
+        }
+        _ => Ok(comma.is_some()),
+    }
+}
+
+fn row(record: Record, header: Option<&Header>, comma: bool) -> Result<TableRow, FitError> {
+    let Record { line, cells } = record;
+    let names = header.map_or(usize::MAX, |header| header.names);
+    if cells.len() > names {
+        let problem = format!(
+            "it has {} columns, the header {names}; name every column, and if the numbers have \
+             decimal commas, put semicolons between them",
+            cells.len()
+        );
+        return Err(wrong(line, problem));
+    }
+    let order: Vec<usize> = match header {
+        Some(header) => std::iter::once(header.speed)
+            .chain(header.frequencies.iter().copied())
+            .collect(),
+        None => (0..cells.len()).collect(),
+    };
+    let text = |column: &usize| {
+        let text = cells.get(*column).cloned().unwrap_or_default();
+        match comma {
+            true => text.replace(',', "."),
+            false => text,
+        }
+    };
+    let mut ordered: Vec<(usize, String)> = order.iter().map(|k| (k + 1, text(k))).collect();
+    while ordered.last().is_some_and(|(_, text)| text.is_empty()) {
+        ordered.pop();
+    }
+    Ok(TableRow {
+        line,
+        cells: ordered,
+    })
+}
+
+#[cfg(test)]
+#[path = "table_tests.rs"]
+mod tests;

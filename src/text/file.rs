@@ -1,0 +1,212 @@
+//! Files as Unicode text, whatever program wrote them.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Why a file gave no text.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The system refused to open or read it.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A directory in place of a file.
+    #[error("{} is a directory; give a file inside it", path.display())]
+    Directory {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// More bytes than such a file can have.
+    #[error(
+        "{} is larger than {limit} bytes; it should be a page of text, so this is probably another file",
+        path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Most bytes.
+        limit: u64,
+    },
+    /// No text at all.
+    #[error("{} is {kind}", path.display())]
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// What it is instead, and the remedy.
+        kind: &'static str,
+    },
+}
+
+/// What is neither UTF-8 nor UTF-16.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OtherEncodings {
+    /// Refused: JSON is Unicode.
+    Refused,
+    /// Read as ISO 8859-1, for tables: their numbers and separators are ASCII in all of them, and
+    /// no more than the name of a column can come out wrong.
+    AsLatin1,
+}
+
+/// What a file is expected to be.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Most bytes.
+    pub limit: u64,
+    /// How other encodings are dealt with.
+    pub other_encodings: OtherEncodings,
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`FileError`] with the path.
+pub fn read_path(path: &Path, kind: Kind) -> Result<String, FileError> {
+    let unreadable = |source| FileError::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    if file.metadata().map_err(unreadable)?.is_dir() {
+        return Err(FileError::Directory {
+            path: path.to_owned(),
+        });
+    }
+    read_stream(file, path, kind)
+}
+
+/// The text of a stream, called `path` in errors.
+///
+/// # Errors
+/// [`FileError`] with the name.
+pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String, FileError> {
+    let path = || path.to_owned();
+    let limit = kind.limit;
+    // The limit is on what is read, not on what the file system reports: pipes and devices
+    // report nothing.
+    let mut bytes = Vec::new();
+    let mut limited = stream.take(limit + 1);
+    limited
+        .read_to_end(&mut bytes)
+        .map_err(|source| FileError::Read {
+            path: path(),
+            source,
+        })?;
+    if bytes.len() as u64 > limit {
+        return Err(FileError::TooLarge {
+            path: path(),
+            limit,
+        });
+    }
+    decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path: path(), kind })
+}
+
+/// How files begin that people take for tables or scenes.
+const FOREIGN: [(&[u8], &str); 6] = [
+    (
+        b"PK\x03\x04",
+        "a spreadsheet or another archive (.xlsx, .ods, .zip); save it as CSV in the spreadsheet, or unpack it",
+    ),
+    (
+        b"\xd0\xcf\x11\xe0",
+        "an old Office file (.xls); save it as CSV in the spreadsheet",
+    ),
+    (b"%PDF", "a PDF; give the text file it was made from"),
+    (b"\x1f\x8b", "compressed (.gz); unpack it"),
+    (
+        b"\x89PNG",
+        "a picture (.png); give the text file with the numbers",
+    ),
+    (
+        b"PAR1",
+        "an Apache Parquet table; give the text file with the numbers",
+    ),
+];
+
+const BINARY: &str = "not text, but binary; give a file of plain text";
+const UNKNOWN_ENCODING: &str = "not UTF-8 or UTF-16 text; save it as UTF-8";
+const LONE_SURROGATE: &str = "broken UTF-16 text; save it as UTF-8";
+
+/// The text of bytes in UTF-8 or UTF-16, without byte order mark, or why there is none.
+fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'static str> {
+    if let Some((_, kind)) = FOREIGN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
+        return Err(kind);
+    }
+    let utf_16 = match bytes {
+        [0xff, 0xfe, rest @ ..] => Some((rest, u16::from_le_bytes as fn([u8; 2]) -> u16)),
+        [0xfe, 0xff, rest @ ..] => Some((rest, u16::from_be_bytes as fn([u8; 2]) -> u16)),
+        // Without a mark: what such files begin with is ASCII, whose other half is zero.
+        [first, 0, second, 0, ..] if *first != 0 && *second != 0 => {
+            Some((bytes, u16::from_le_bytes as fn([u8; 2]) -> u16))
+        }
+        [0, first, 0, second, ..] if *first != 0 && *second != 0 => {
+            Some((bytes, u16::from_be_bytes as fn([u8; 2]) -> u16))
+        }
+        _ => None,
+    };
+    if let Some((bytes, of_pair)) = utf_16 {
+        if bytes.len() % 2 == 1 {
+            return Err(LONE_SURROGATE);
+        }
+        let units = bytes
+            .chunks_exact(2)
+            .map(|pair| of_pair([pair[0], pair[1]]));
+        return char::decode_utf16(units)
+            .collect::<Result<String, _>>()
+            .map_err(|_| LONE_SURROGATE);
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if bytes.contains(&0) {
+        return Err(BINARY);
+    }
+    match (std::str::from_utf8(bytes), other_encodings) {
+        (Ok(text), _) => Ok(text.to_owned()),
+        (Err(_), OtherEncodings::Refused) => Err(UNKNOWN_ENCODING),
+        (Err(_), OtherEncodings::AsLatin1) => {
+            Ok(bytes.iter().map(|byte| char::from(*byte)).collect())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The expected bytes are those of `iconv`, written out.
+    #[test]
+    fn the_same_text_in_every_encoding() {
+        let text = "{\"ä\": 1}";
+        let cases: [&[u8]; 6] = [
+            b"{\"\xc3\xa4\": 1}",
+            b"\xef\xbb\xbf{\"\xc3\xa4\": 1}",
+            b"\xff\xfe{\0\"\0\xe4\0\"\0:\0 \01\0}\0",
+            b"\xfe\xff\0{\0\"\0\xe4\0\"\0:\0 \01\0}",
+            b"{\0\"\0\xe4\0\"\0:\0 \01\0}\0",
+            b"{\"\xe4\": 1}",
+        ];
+        for bytes in cases {
+            let decoded = decode(bytes, OtherEncodings::AsLatin1);
+            assert_eq!(decoded.as_deref(), Ok(text), "{bytes:?}");
+        }
+        assert_eq!(decode(b"", OtherEncodings::Refused), Ok(String::new()));
+        let refused = decode(cases[5], OtherEncodings::Refused);
+        assert_eq!(refused, Err(UNKNOWN_ENCODING));
+    }
+
+    #[test]
+    fn what_is_no_text_is_called_by_its_name() {
+        for (bytes, expected) in [
+            (&b"PK\x03\x04rest"[..], "save it as CSV"),
+            (b"\xd0\xcf\x11\xe0", "save it as CSV"),
+            (b"ab\0\0cd", "binary"),
+            (b"\xff\xfea", "UTF-16"),
+            (b"\xff\xfe\x00\xd8a\0", "UTF-16"),
+        ] {
+            let kind = decode(bytes, OtherEncodings::AsLatin1).unwrap_err();
+            assert!(kind.contains(expected), "{bytes:?}: {kind}");
+        }
+    }
+}

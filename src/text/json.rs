@@ -1,0 +1,100 @@
+//! JSON as people write it, read where it is unambiguous.
+
+use serde::de::DeserializeOwned;
+
+use super::problem;
+use super::token::{Part, tokens, without_comments};
+
+/// What a JSON text was refused for.
+#[derive(Debug)]
+pub(crate) struct KeyedError {
+    /// JSON path of the key, or the whole.
+    pub key: String,
+    /// What is wrong with it, and the remedy.
+    pub message: String,
+    /// Whether a list of the known keys helps.
+    pub of_keys: bool,
+}
+
+/// What the parser says, and where.
+pub(super) struct Fault {
+    /// JSON path as the parser has it; empty for the whole.
+    pub path: String,
+    pub error: serde_json::Error,
+}
+
+/// Reads JSON, and nothing after it; errors point at the key, or at the `whole` by its name.
+/// Comments, commas before a closing bracket, and numbers in quotation marks where only a number
+/// can be meant, are read too.
+pub(crate) fn from_keyed_json<T: DeserializeOwned>(
+    text: &str,
+    whole: &str,
+) -> Result<T, KeyedError> {
+    let mut text = without_comments(text.trim_start_matches('\u{feff}'));
+    loop {
+        match strict(&text) {
+            Ok(value) => return Ok(value),
+            Err(fault) => match unquoted(&text, &fault.error) {
+                Some(next) => text = next,
+                None => return Err(problem::explain(&text, &fault, whole)),
+            },
+        }
+    }
+}
+
+fn strict<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| Fault {
+        path: known_path(&error.path().to_string()),
+        error: error.into_inner(),
+    })?;
+    json.end().map_err(|error| Fault {
+        path: String::new(),
+        error,
+    })?;
+    Ok(value)
+}
+
+/// A path without what the parser does not know yet: the key that it is at.
+fn known_path(path: &str) -> String {
+    let path = path.trim_end_matches('?').trim_end_matches('.');
+    path.trim_end_matches("[?]").to_owned()
+}
+
+/// The text without the quotation marks around the number that an error complains of.
+fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
+    let message = error.to_string();
+    let (found, expected) = message
+        .strip_prefix("invalid type: string ")?
+        .split_once(", ")?;
+    let number = found.trim_matches('"');
+    let wanted = ["f64", "u32", "u64", "usize"];
+    let wanted = wanted
+        .iter()
+        .any(|t| expected.starts_with(&format!("expected {t}")));
+    if !wanted || !serde_json::from_str::<f64>(number).is_ok_and(f64::is_finite) {
+        return None;
+    }
+    let end = offset(text, error);
+    let mut same: Vec<_> = tokens(text)
+        .into_iter()
+        .filter(|token| token.part == Part::Quoted && token.text == found)
+        .collect();
+    // The parser has just read it, but for variants, which it reads whole before it looks.
+    if let Some(place) = same.iter().position(|token| token.end() == end) {
+        same = vec![same[place]];
+    }
+    let [token] = same[..] else { return None };
+    let mut next = text.to_owned();
+    next.replace_range(token.start..token.end(), &format!(" {number} "));
+    Some(next)
+}
+
+/// Offset in bytes at which the parser stopped, behind what it had read.
+pub(super) fn offset(text: &str, error: &serde_json::Error) -> usize {
+    let lines = text
+        .split_inclusive('\n')
+        .take(error.line().saturating_sub(1));
+    let before: usize = lines.map(str::len).sum();
+    (before + error.column()).min(text.len())
+}

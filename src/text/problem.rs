@@ -1,0 +1,324 @@
+//! What keeps a text from being the JSON that was expected, in plain words.
+
+use super::json::{Fault, KeyedError, offset};
+use super::token::{Part, Token, tokens};
+
+/// The cause and the remedy of a parser's complaint.
+pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
+    let Fault { path, error } = fault;
+    let said = error.to_string();
+    let said = said.split(" at line ").next().unwrap_or_default();
+    let line = error.line();
+    let (key, message) = match error.classify() {
+        _ if text.trim().is_empty() => (String::new(), "it is empty; give its keys in JSON".into()),
+        _ if !text.trim_start().starts_with('{') => (String::new(), no_object(text)),
+        serde_json::error::Category::Data => of_data(path, said, line),
+        serde_json::error::Category::Eof => (String::new(), unfinished(text)),
+        _ => of_syntax(text, path, error)
+            .unwrap_or_else(|| (path.clone(), format!("it is no JSON: {said} (line {line})"))),
+    };
+    let key = match key.as_str() {
+        "" => whole.to_owned(),
+        _ => key,
+    };
+    KeyedError {
+        key,
+        message,
+        of_keys: said.starts_with("missing field"),
+    }
+}
+
+fn no_object(text: &str) -> String {
+    match text.trim_start().starts_with('[') {
+        true => "it is a list in brackets [ ], but must be an object in braces { }".into(),
+        false => {
+            "it is no JSON, which begins with a brace, a key and a value, like {\"name\": …}".into()
+        }
+    }
+}
+
+fn unfinished(text: &str) -> String {
+    let mut open: Vec<Token> = Vec::new();
+    for token in tokens(text) {
+        match token.text {
+            "{" | "[" => open.push(token),
+            "}" | "]" => {
+                open.pop();
+            }
+            _ => (),
+        }
+    }
+    let Some(last) = open.last() else {
+        return "it ends before it is complete: a quotation mark is not closed".into();
+    };
+    let closing = if last.text == "{" { '}' } else { ']' };
+    format!(
+        "it ends before it is complete: the {} of line {} is not closed; add the missing {closing}",
+        last.text,
+        line_of(text, last.start)
+    )
+}
+
+fn line_of(text: &str, offset: usize) -> usize {
+    1 + text[..offset].matches('\n').count()
+}
+
+/// The path of a key below another one.
+fn below(path: &str, key: &str) -> String {
+    match path {
+        "" => key.to_owned(),
+        _ if path == key || path.ends_with(&format!(".{key}")) => path.to_owned(),
+        _ => format!("{path}.{key}"),
+    }
+}
+
+/// JSON, but not what was expected.
+fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
+    let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
+    let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
+    let known = known.unwrap_or_default();
+    let word = |kind: &str| said.starts_with(kind);
+    if word("unknown field") {
+        let key = below(path, subject);
+        return (
+            key,
+            format!(
+                "there is no such key; {} (line {line})",
+                meant(subject, known)
+            ),
+        );
+    }
+    if word("missing field") {
+        let message = "it is missing, but must be given".to_owned();
+        return (below(path, subject), message);
+    }
+    if word("duplicate field") {
+        let message = format!("it stands there twice; remove one (line {line})");
+        return (below(path, subject), message);
+    }
+    if word("unknown variant") {
+        let near = meant(subject, known);
+        let message = format!("{subject:?} is not known; {near} (line {line})");
+        return (path.to_owned(), message);
+    }
+    let found = said.strip_prefix("invalid type: ");
+    let found = found.or_else(|| said.strip_prefix("invalid value: "));
+    let message = match found.and_then(|rest| rest.split_once(", expected ")) {
+        Some((found, expected)) => of_type(found, expected),
+        None => said.to_owned(),
+    };
+    (path.to_owned(), format!("{message} (line {line})"))
+}
+
+/// What has another type than it should have.
+fn of_type(found: &str, expected: &str) -> String {
+    let (kind, value) = found.split_once(' ').unwrap_or((found, ""));
+    let is = match kind {
+        "string" => format!("the text {value}"),
+        "sequence" => "a list in brackets [ ]".into(),
+        "map" => "an object in braces { }".into(),
+        "integer" | "floating" | "boolean" => value
+            .rsplit("point ")
+            .next()
+            .unwrap_or(value)
+            .replace('`', ""),
+        _ => found.to_owned(),
+    };
+    let first = expected.split(' ').next().unwrap_or_default();
+    let must = match first {
+        "f64" | "f32" => "a number, like 0.0028",
+        "u8" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
+        "struct" | "internally" => "an object in braces { }",
+        _ if expected.starts_with("a string") => "a text in double quotation marks",
+        _ if expected.starts_with("a sequence") => "a list in brackets [ ]",
+        _ if expected.starts_with("a map") => "an object in braces { }",
+        _ if expected.starts_with("a boolean") => "true or false",
+        _ => expected,
+    };
+    let comma = kind == "string" && first == "f64" && value.contains(',');
+    let remedy = match comma {
+        true => "; write it with a decimal point and without quotation marks",
+        false => "",
+    };
+    format!("must be {must}, but is {is}{remedy}")
+}
+
+/// Units that people write, and what one of them is in the unit that a key has.
+const UNITS: [(&str, &str, &str); 13] = [
+    ("mm", "m", "0.001"),
+    ("cm", "m", "0.01"),
+    ("in", "m", "0.0254"),
+    ("inch", "m", "0.0254"),
+    ("gpa", "pa", "1e9"),
+    ("mpa", "pa", "1e6"),
+    ("n_per_mm", "n_per_m", "1000"),
+    ("kn_per_m", "n_per_m", "1000"),
+    ("g_per_cm3", "kg_per_m3", "1000"),
+    ("n_per_mm2", "pa", "1e6"),
+    ("kw", "w", "1000"),
+    ("ms", "s", "0.001"),
+    ("m_per_min", "m_per_s", "1/60"),
+];
+
+/// A near miss differs in no more than a third of its letters.
+const LIKENESS: f64 = 0.75;
+
+/// The known name that was meant, or all of them.
+fn meant(subject: &str, known: &[&str]) -> String {
+    for (unit, own, factor) in UNITS {
+        let stem = subject
+            .strip_suffix(unit)
+            .filter(|stem| stem.ends_with('_'));
+        let name = stem.map(|stem| format!("{stem}{own}"));
+        if let Some(name) = name.filter(|name| known.contains(&name.as_str())) {
+            return format!("did you mean {name}? One {unit} is {factor} {own}");
+        }
+    }
+    let small = subject.to_lowercase();
+    let likeness = |name: &str| {
+        let whole =
+            name.starts_with(&format!("{small}_")) || small.starts_with(&format!("{name}_"));
+        let part = if whole { 1.0 } else { 0.0 };
+        strsim::jaro_winkler(&small, name).max(part)
+    };
+    let nearest = known.iter().map(|name| (likeness(name), *name));
+    let nearest = nearest.max_by(|x, y| x.0.total_cmp(&y.0));
+    match nearest.filter(|(likeness, _)| *likeness > LIKENESS) {
+        Some((_, name)) => format!("did you mean {name}?"),
+        None if known.is_empty() => "leave it out: nothing can be given here".into(),
+        None => format!("give one of: {}", known.join(", ")),
+    }
+}
+
+/// No JSON: the first thing up to where the parser stopped that people write and JSON has not.
+fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(String, String)> {
+    let stopped = offset(text, error);
+    let all = tokens(text);
+    let mut open = Vec::new();
+    let mut key = "";
+    for (place, token) in all.iter().enumerate() {
+        if token.start > stopped {
+            break;
+        }
+        let line = line_of(text, token.start);
+        let next = |ahead: usize| all.get(place + ahead);
+        let begins_key = next(1).is_some_and(|token| token.text == ":");
+        match token.text {
+            "{" | "[" => open.push(token.text),
+            "}" | "]" => {
+                open.pop();
+            }
+            _ if token.part == Part::Quoted && begins_key => key = token.text.trim_matches('"'),
+            _ => (),
+        }
+        let in_object = open.last() == Some(&"{");
+        if let Some(number) = decimal_comma(token, next(1), next(2), in_object) {
+            let point = number.replace(',', ".");
+            let message = format!("{number} has a decimal comma; write {point} (line {line})");
+            let key = if in_object {
+                below(path, key)
+            } else {
+                path.to_owned()
+            };
+            return Some((key, message));
+        }
+        if let Some(problem) = of_word(token, begins_key) {
+            return Some((path.to_owned(), format!("{problem} (line {line})")));
+        }
+    }
+    of_parser(error).map(|message| (path.to_owned(), message))
+}
+
+/// `0,0028` where a key should follow the comma, or a number that cannot begin with 0.
+fn decimal_comma(
+    token: &Token,
+    comma: Option<&Token>,
+    after: Option<&Token>,
+    in_object: bool,
+) -> Option<String> {
+    let digits = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+    let (comma, after) = (comma?, after?);
+    let adjacent = token.end() == comma.start && comma.end() == after.start;
+    let whole = token.text.trim_start_matches('-');
+    let first = after.text.chars().next()?;
+    let zero = after.text.len() > 1 && after.text.starts_with('0') && digits(after.text);
+    let found = token.part == Part::Word
+        && comma.text == ","
+        && after.part == Part::Word
+        && adjacent
+        && !whole.is_empty()
+        && digits(whole)
+        && first.is_ascii_digit()
+        && (in_object || zero);
+    found.then(|| format!("{},{}", token.text, after.text))
+}
+
+/// A word that is no number, `true`, `false` or `null`.
+fn of_word(token: &Token, begins_key: bool) -> Option<String> {
+    let text = token.text;
+    if token.part != Part::Word || serde_json::from_str::<serde_json::Value>(text).is_ok() {
+        return None;
+    }
+    let bare = text.trim_start_matches(['-', '+']).to_lowercase();
+    let quotes = text.starts_with(['\'', '\u{2018}', '\u{201c}', '\u{201e}', '\u{ab}']);
+    Some(match bare.as_str() {
+        "nan" | "inf" | "infinity" => {
+            format!("{text} is no number; give one, or leave the key out if there is none")
+        }
+        "true" | "false" => format!("write {bare} in small letters, not {text}"),
+        "none" | "nil" => "leave the key out where there is no value".into(),
+        _ if quotes => {
+            format!("{text} must stand in straight double quotation marks, like \"this\"")
+        }
+        _ if begins_key => {
+            format!("the key {text} must stand in double quotation marks: \"{text}\"")
+        }
+        _ if text.starts_with('#') => "a comment begins with //, not with #".into(),
+        _ if bare.parse::<f64>().is_ok_and(f64::is_infinite) => {
+            format!("{text} is larger than any number")
+        }
+        _ if bare.parse::<f64>().is_ok() => {
+            format!(
+                "{text} is no number of JSON; write it with a digit on both sides of the point, without + or leading zeros"
+            )
+        }
+        _ if bare.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
+            format!(
+                "{text} is no number; write digits and a decimal point alone, like 0.0028, without unit"
+            )
+        }
+        _ => format!(
+            "{text} is no value of JSON; write a number, true, false, or a text in double quotation marks"
+        ),
+    })
+}
+
+/// The parser's own complaints that have a usual cause.
+fn of_parser(error: &serde_json::Error) -> Option<String> {
+    let (said, line) = (error.to_string(), error.line());
+    let message = [
+        (
+            "expected `,` or",
+            "a comma is missing before this, or a bracket was closed too early",
+        ),
+        (
+            "trailing characters",
+            "trailing characters: more follows after its last bracket; remove it",
+        ),
+        (
+            "invalid escape",
+            "a backslash in a text must be doubled: \\\\",
+        ),
+        (
+            "control character",
+            "a text must end on its line; write \\n for a line break and \\t for a tab",
+        ),
+        (
+            "expected `:`",
+            "a colon is missing between the key and its value",
+        ),
+        ("recursion limit", "too many brackets within each other"),
+    ];
+    let known = message.iter().find(|(words, _)| said.starts_with(words));
+    known.map(|(_, message)| format!("{message} (line {line})"))
+}

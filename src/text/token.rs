@@ -1,0 +1,137 @@
+//! JSON as people write it, cut into tokens: for the comments in it, and to find what keeps a
+//! parser from reading it.
+
+/// What a token is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// One of `{}[]:,`.
+    Mark,
+    /// A text in double quotation marks.
+    Quoted,
+    /// Anything else without white space: a number, `true`, or what should be in quotation marks.
+    Word,
+    /// `// …` or `/* … */`.
+    Comment,
+}
+
+/// A token and where it stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Token<'a> {
+    pub part: Part,
+    pub text: &'a str,
+    /// Offset in bytes.
+    pub start: usize,
+}
+
+impl Token<'_> {
+    /// Offset behind it.
+    pub fn end(&self) -> usize {
+        self.start + self.text.len()
+    }
+}
+
+/// Every token of a text.
+pub fn tokens(text: &str) -> Vec<Token<'_>> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    while let Some(first) = text[start..].chars().next() {
+        let rest = &text[start..];
+        if first.is_whitespace() {
+            start += first.len_utf8();
+            continue;
+        }
+        let (part, length) = match first {
+            '{' | '}' | '[' | ']' | ':' | ',' => (Part::Mark, 1),
+            '"' => (Part::Quoted, quoted(rest)),
+            _ => match comment(rest) {
+                Some(length) => (Part::Comment, length),
+                None => (Part::Word, word(rest)),
+            },
+        };
+        found.push(Token {
+            part,
+            text: &rest[..length],
+            start,
+        });
+        start += length;
+    }
+    found
+}
+
+/// Length of a text in quotation marks; one that is not closed ends with the line.
+fn quoted(rest: &str) -> usize {
+    let mut escaped = false;
+    for (offset, character) in rest.char_indices().skip(1) {
+        match character {
+            '"' if !escaped => return offset + 1,
+            '\n' => return offset,
+            _ => escaped = character == '\\' && !escaped,
+        }
+    }
+    rest.len()
+}
+
+fn comment(rest: &str) -> Option<usize> {
+    if rest.starts_with("//") {
+        return Some(rest.find('\n').unwrap_or(rest.len()));
+    }
+    let inside = rest.strip_prefix("/*")?;
+    inside.find("*/").map(|length| length + 4)
+}
+
+fn word(rest: &str) -> usize {
+    let ends = |(offset, character): &(usize, char)| {
+        let mark = matches!(character, '{' | '}' | '[' | ']' | ':' | ',' | '"');
+        mark || character.is_whitespace() || (*offset > 0 && comment(&rest[*offset..]).is_some())
+    };
+    let end = rest.char_indices().skip(1).find(ends);
+    end.map_or(rest.len(), |(offset, _)| offset)
+}
+
+/// The same text with spaces in place of comments and of commas before a closing bracket: what
+/// is left stands where it stood.
+pub fn without_comments(text: &str) -> String {
+    let all = tokens(text);
+    let mut blanks: Vec<&Token> = all.iter().filter(|t| t.part == Part::Comment).collect();
+    let meant: Vec<&Token> = all.iter().filter(|t| t.part != Part::Comment).collect();
+    let before_closing =
+        |pair: &&[&Token]| pair[0].text == "," && matches!(pair[1].text, "}" | "]");
+    blanks.extend(meant.windows(2).filter(before_closing).map(|pair| pair[0]));
+    let mut tidy = text.to_owned();
+    for token in blanks {
+        let blank = |c: char| if c == '\n' { '\n' } else { ' ' };
+        let spaces = token.text.bytes().map(|byte| blank(char::from(byte)));
+        tidy.replace_range(token.start..token.end(), &spaces.collect::<String>());
+    }
+    tidy
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_and_last_commas_are_blanks_and_nothing_else_is() {
+        let text = "{ // Säge\n\"a\": \"// no, [comment,]\", /* two\nlines */ \"b\": [1, 2,],\n}";
+        let tidy = without_comments(text);
+        assert_eq!(tidy.len(), text.len());
+        let read: serde_json::Value = serde_json::from_str(&tidy).unwrap();
+        assert_eq!(
+            read,
+            serde_json::json!({"a": "// no, [comment,]", "b": [1, 2]})
+        );
+        assert_eq!(tidy.matches('\n').count(), text.matches('\n').count());
+        let plain = "{\"a\\\"\": [1e-3, null], \"b\": \"\\\\\"}";
+        assert_eq!(without_comments(plain), plain);
+    }
+
+    /// Whatever it is, it is cut into pieces that are there.
+    #[test]
+    fn broken_text_has_tokens_too() {
+        for text in ["\"open", "/* open", "{,,}]", "ä/b//c", "\\\"\\", "/"] {
+            for token in tokens(text) {
+                assert_eq!(&text[token.start..token.end()], token.text);
+            }
+        }
+    }
+}

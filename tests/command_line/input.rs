@@ -1,0 +1,287 @@
+//! Goal: input as people have it is read where it is unambiguous; what is not is refused once, in
+//! plain words that name the key and the remedy.
+
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use sawflutter::report::Report;
+use sawflutter::scene::SceneFile;
+use tempfile::TempDir;
+
+use super::program::{names_in, out, quick_scene, run, sawflutter, text, write_scene};
+
+fn json(file: &SceneFile) -> String {
+    serde_json::to_string_pretty(file).unwrap()
+}
+
+fn utf_16(text: &str, of: fn(u16) -> [u8; 2]) -> Vec<u8> {
+    text.encode_utf16().flat_map(of).collect()
+}
+
+/// The scene that a run has reported.
+fn reported(folder: &Path) -> SceneFile {
+    let written = std::fs::read(folder.join("report.json")).unwrap();
+    serde_json::from_slice::<Report>(&written).unwrap().scene
+}
+
+#[test]
+fn json_with_a_mark_in_utf_16_with_comments_or_quoted_numbers_is_the_same_scene() {
+    let mut file = quick_scene();
+    file.name = "Säge Ø 400".into();
+    let plain = json(&file);
+    let thickness = format!("\"thickness_m\": {}", file.blade.thickness_m);
+    assert_eq!(plain.matches(&thickness).count(), 1);
+    let quoted = format!("\"thickness_m\": \"{}\"", file.blade.thickness_m);
+    let marked = format!("\u{feff}{plain}");
+    let comments = format!(
+        "// mine\n{}, /* the\nend */\n}}\n",
+        &plain[..plain.len() - 1]
+    );
+    let cases = [
+        marked.clone().into_bytes(),
+        utf_16(&marked, u16::to_le_bytes),
+        utf_16(&marked, u16::to_be_bytes),
+        utf_16(&plain, u16::to_le_bytes),
+        comments.into_bytes(),
+        plain.replace(&thickness, &quoted).into_bytes(),
+    ];
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("scene.json");
+    for (index, bytes) in cases.iter().enumerate() {
+        std::fs::write(&path, bytes).unwrap();
+        let output = run(&["analyze", path.to_str().unwrap()], &folder);
+        assert!(output.status.success(), "{index}: {}", text(&output.stderr));
+        assert_eq!(reported(&out(&folder)), file, "{index}");
+    }
+}
+
+/// The message of a command that must be refused.
+fn refusal(output: &Output) -> String {
+    let message = text(&output.stderr).to_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(text(&output.stdout), "");
+    message
+}
+
+#[test]
+fn json_that_is_none_is_refused_by_cause_and_remedy() {
+    let file = quick_scene();
+    let thickness = format!("\"thickness_m\": {}", file.blade.thickness_m);
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("scene.json");
+    for (instead, parts) in [
+        (
+            "\"thickness_m\": 0,0028",
+            ["blade.thickness_m: 0,0028", "write 0.0028"],
+        ),
+        (
+            "\"thickness_m\": \"0,0028\"",
+            ["blade.thickness_m: ", "decimal point"],
+        ),
+        (
+            "\"thickness_m\": NaN",
+            ["blade.thickness_m: NaN", "no number"],
+        ),
+        (
+            "\"thickness_m\": [0.0028]",
+            ["blade.thickness_m: ", "must be a number"],
+        ),
+        ("\"thickness_m\": 2.8mm", ["blade: 2.8mm", "without unit"]),
+        (
+            "\"thickness_m\": .0028",
+            ["blade.thickness_m: .0028", "both sides of the point"],
+        ),
+        (
+            "\"thickness_mm\": 2.8",
+            [
+                "blade.thickness_mm: ",
+                "did you mean thickness_m? One mm is 0.001 m",
+            ],
+        ),
+        (
+            "\"thicknes_m\": 0.0028",
+            ["blade.thicknes_m: ", "did you mean thickness_m?"],
+        ),
+        (
+            "'thickness_m': 0.0028",
+            ["blade: 'thickness_m'", "double quotation marks"],
+        ),
+        (
+            "thickness_m: 0.0028",
+            ["blade: the key thickness_m", "double quotation marks"],
+        ),
+    ] {
+        std::fs::write(&path, json(&file).replace(&thickness, instead)).unwrap();
+        let message = refusal(&run(&["analyze", path.to_str().unwrap()], &folder));
+        for part in parts {
+            assert!(
+                message.contains(part),
+                "{instead}: no {part:?} in {message}"
+            );
+        }
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert_eq!(names_in(&out(&folder)), [""; 0]);
+    }
+}
+
+/// No cause twice: `cannot read x: No such file: No such file` was said once.
+#[test]
+fn a_cause_is_told_once() {
+    let folder = TempDir::new().unwrap();
+    let missing = folder.path().join("missing.json");
+    let message = refusal(&run(&["analyze", missing.to_str().unwrap()], &folder));
+    assert_eq!(message.matches("No such file").count(), 1, "{message}");
+    assert_eq!(message.matches("missing.json").count(), 1, "{message}");
+    let message = refusal(&run(&["analyze", folder.path().to_str().unwrap()], &folder));
+    assert!(message.contains("is a directory"), "{message}");
+    assert!(!message.contains("refused"), "{message}");
+}
+
+#[test]
+fn a_workbook_in_place_of_text_is_to_be_saved_as_csv() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let workbook = folder.path().join("measured.xlsx");
+    std::fs::write(&workbook, b"PK\x03\x04\x14\0\x06\0").unwrap();
+    let paths = [scene.to_str().unwrap(), workbook.to_str().unwrap()];
+    let message = refusal(&run(&["fit", paths[0], paths[1]], &folder));
+    assert!(message.contains("save it as CSV"), "{message}");
+}
+
+#[test]
+fn without_a_word_a_file_is_analyzed() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let output = run(&[scene.to_str().unwrap(), "--accuracy", "draft"], &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(reported(&out(&folder)), quick_scene());
+    let message = refusal(&run(&["no-such-scene.json"], &folder));
+    assert!(
+        message.contains("cannot read no-such-scene.json"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_scene_may_come_from_standard_input() {
+    let folder = TempDir::new().unwrap();
+    for arguments in [&["analyze", "-"][..], &["-"]] {
+        let output = sawflutter()
+            .args(arguments)
+            .arg("--out")
+            .arg(out(&folder))
+            .write_stdin(json(&quick_scene()))
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert_eq!(reported(&out(&folder)), quick_scene());
+    }
+    let output = sawflutter().arg("-").write_stdin("").output().unwrap();
+    let message = refusal(&output);
+    assert!(message.contains("standard input"), "{message}");
+    assert!(message.contains("empty"), "{message}");
+}
+
+#[test]
+fn a_typing_mistake_is_answered_with_the_name_that_was_meant() {
+    for (typed, meant) in [
+        (&["analyse"][..], "'analyze'"),
+        (&["chek"], "'check'"),
+        (&["analyze", "--acuracy", "draft"], "'--accuracy'"),
+        (&["analyze", "--accuracy", "drft"], "'draft'"),
+    ] {
+        let message = refusal(&sawflutter().args(typed).output().unwrap());
+        assert!(message.contains("similar"), "{message}");
+        assert!(message.contains(meant), "{message}");
+    }
+}
+
+/// The scene of a folder and a name, in a folder of its own.
+fn scene_in(folder: &TempDir, name: &str, file: &SceneFile) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(&path, json(file)).unwrap();
+    path
+}
+
+#[test]
+fn several_scenes_make_a_folder_each_and_a_table() {
+    let folder = TempDir::new().unwrap();
+    let mut thick = quick_scene();
+    thick.blade.thickness_m *= 1.5;
+    let scenes = [
+        scene_in(&folder, "one/thin.json", &quick_scene()),
+        scene_in(&folder, "two/thin.json", &thick),
+    ];
+    let paths = scenes.each_ref().map(|path| path.to_str().unwrap());
+    let output = run(&[paths[0], paths[1], "--json"], &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let out = out(&folder);
+    assert_eq!(
+        names_in(&out),
+        ["scenes.csv", "scenes.json", "thin", "thin-2"]
+    );
+    assert_eq!(reported(&out.join("thin")), quick_scene());
+    assert_eq!(reported(&out.join("thin-2")), thick);
+    // The table says what the reports say.
+    let rows: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    for (row, name) in rows.as_array().unwrap().iter().zip(["thin", "thin-2"]) {
+        let written = std::fs::read(out.join(name).join("report.json")).unwrap();
+        let report: Report = serde_json::from_slice(&written).unwrap();
+        assert_eq!(row["folder"], name);
+        assert_eq!(row["lowest_critical_rpm"], report.critical_speeds[0].rpm);
+        assert_eq!(row["instabilities"], report.instabilities.len());
+    }
+    let table = run(&[paths[0], paths[1]], &folder);
+    for line in text(&table.stdout).lines() {
+        assert!(
+            line.chars().count() <= 80 || line.starts_with("Written to"),
+            "{line}"
+        );
+    }
+    assert!(text(&table.stdout).contains("thin-2"));
+}
+
+/// Nothing is computed where one of the files is refused.
+#[test]
+fn several_scenes_are_read_before_the_first_is_computed() {
+    let folder = TempDir::new().unwrap();
+    let good = scene_in(&folder, "good.json", &quick_scene());
+    let mut wrong = quick_scene();
+    wrong.blade.thickness_m = -1.0;
+    let bad = scene_in(&folder, "bad.json", &wrong);
+    let paths = [good.to_str().unwrap(), bad.to_str().unwrap()];
+    let message = refusal(&run(&paths, &folder));
+    assert!(
+        message.contains("bad.json was refused: blade.thickness_m"),
+        "{message}"
+    );
+    assert!(!out(&folder).exists());
+}
+
+#[test]
+fn control_characters_are_not_sent_to_the_terminal() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    file.name = "evil \u{1b}]0;title\u{7} \u{9b}2J \u{202e}was".into();
+    let scene = write_scene(&folder, &file);
+    let steering = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+    let scene = scene.to_str().unwrap();
+    for arguments in [
+        &["analyze", scene][..],
+        &["analyze", scene, "--json"],
+        &["export", "--matrices", scene],
+        &["check", scene, "--operating-rpm", "1000"],
+        &["no\u{1b}[31msuch.json"],
+        &["\u{1b}[31m"],
+        &["fit", scene, "no\u{9b}such.csv"],
+    ] {
+        let output = run(arguments, &folder);
+        let shown = [text(&output.stdout), text(&output.stderr)].concat();
+        assert!(!shown.is_empty() && !shown.contains(steering), "{shown:?}");
+        if arguments.contains(&"--json") {
+            let report: Report = serde_json::from_slice(&output.stdout).unwrap();
+            assert_eq!(report.scene, file);
+        }
+    }
+}
