@@ -12,6 +12,7 @@ use clap::Args;
 
 use super::common::{Input, say};
 use super::output::OutputFolder;
+use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -73,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     }
     match arguments.json {
         true => say(&format!("{json}\n"))?,
-        false => say(&summary(&check))?,
+        false => say(&summary(&check, &report.warnings))?,
     }
     Ok(check.passed())
 }
@@ -113,7 +114,7 @@ fn speed(name: &str, rpm: f64) -> anyhow::Result<f64> {
     )
 }
 
-fn summary(check: &Check) -> String {
+fn summary(check: &Check, warnings: &[String]) -> String {
     let mut text = String::new();
     for criterion in &check.criteria {
         let word = if criterion.passed { "pass" } else { "FAIL" };
@@ -125,5 +126,8 @@ fn summary(check: &Check) -> String {
         1e-3 * check.rim_stiffness_at_rest_n_per_m,
         1e-3 * check.rim_stiffness_n_per_m
     );
+    for warning in warnings {
+        let _ = writeln!(text, "{}", wrapped(&format!("Warning: {warning}")));
+    }
     text
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::InstabilityEntry;
 use super::branches::Numbered;
 use crate::check::{Check, Criterion, Limits};
-use crate::scene::{Scene, SceneFile, rpm};
+use crate::scene::{Scene, SceneFile, rpm, unusual, unusual_number};
 
 /// A saw held against limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,8 @@ pub struct CheckReport {
     pub rim_stiffness_n_per_m: f64,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
+    /// Numbers that no saw has.
+    pub warnings: Vec<String>,
 }
 
 /// One limit and what was found.
@@ -82,8 +84,19 @@ impl CheckReport {
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
             rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,
             estimated_relative_error: analysis.estimated_relative_error,
+            warnings: warnings(scene, limits),
         }
     }
+}
+
+fn warnings(scene: &Scene, limits: &Limits) -> Vec<String> {
+    let mut warnings = unusual(&scene.file);
+    let operating = limits.operating_rad_per_s;
+    if scene.operating_rad_per_s != Some(operating) {
+        let asked = unusual_number("the operating speed", "operating_rpm", rpm(operating));
+        warnings.extend(asked);
+    }
+    warnings
 }
 
 impl From<&Criterion> for CriterionEntry {

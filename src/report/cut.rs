@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::SplineEntry;
-use crate::scene::{Scene, SceneFile};
+use crate::scene::{Scene, SceneFile, unusual};
 use crate::transient::{Cutting, CuttingRun, Growth, ToothPassing, VerdictMap};
 
 /// `cut.json`.
@@ -157,9 +157,9 @@ impl CutReport {
                 .tooth_angles_rad()
                 .map(f64::to_degrees)
                 .collect(),
-            warnings: runs
-                .iter()
-                .flat_map(|run| warnings(run, thickness_m))
+            warnings: unusual(&scene.file)
+                .into_iter()
+                .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
                 .collect(),
             runs,
         }

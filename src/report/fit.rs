@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::campbell::even_speeds;
 use crate::fit::{Fit, FittedParameter, Measurement, Row, Start};
-use crate::scene::{Scene, SceneFile};
+use crate::scene::{Scene, SceneFile, unusual};
 use crate::spectrum::SpectrumError;
 
 /// `fit.json`.
@@ -231,7 +231,7 @@ fn curves(before: &Scene, fitted: &Measurement, fit: &Fit) -> Result<CurvesEntry
 }
 
 fn warnings(fit: &Fit) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings = unusual(&fit.scene.file);
     for freed in &fit.without_effect {
         warnings.push(format!(
             "{} moves no measured frequency and stays as it was",

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use crate::place::{Demands, Goal, Map, Neighbours, Outcome, Placement};
-use crate::scene::{Scene, SceneFile, rpm};
+use crate::scene::{Scene, SceneFile, rpm, unusual};
 
 /// `place.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -240,7 +240,7 @@ fn parameters(found: &Placement) -> Vec<PlacedEntry> {
 }
 
 fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings = unusual(&scene.file);
     for freed in &found.without_effect {
         let path = freed.parameter.path();
         warnings.push(if path.ends_with("angle_deg") {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{MembraneSource, Plate};
-use crate::scene::{Blade, Bore, Scene, rpm};
+use crate::scene::{Blade, Bore, Scene, rpm, unusual};
 use crate::spectrum::DescribedMode;
 use crate::stability::{Analysis, Certificate};
 
@@ -66,7 +66,11 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
         cut_short(certificate),
         left_free(analysis),
     ];
-    found.into_iter().flatten().collect()
+    let of_scene = unusual(&scene.file);
+    of_scene
+        .into_iter()
+        .chain(found.into_iter().flatten())
+        .collect()
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {

@@ -9,6 +9,7 @@ mod guide;
 mod membrane;
 mod parameter;
 mod profile;
+mod quantity;
 mod read;
 mod residual;
 mod runup;
@@ -30,6 +31,7 @@ pub use membrane::{
 };
 pub use parameter::Parameter;
 pub use profile::Profile;
+pub use quantity::{QUANTITIES, Quantity, unusual, unusual_number};
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use residual::{ResidualStress, ResidualStressRow};

@@ -9,6 +9,11 @@ use serde_json::{Value, json};
 use thirtyfour::action_chain::ActionChain;
 use thirtyfour::prelude::*;
 
+use program::program;
+
+#[path = "../common/program.rs"]
+mod program;
+
 /// Longer than anything takes, also where others use the machine.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -52,7 +57,7 @@ pub struct Page {
 impl Page {
     pub async fn open(arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let explore = &mut Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let explore = &mut Command::new(program());
         let (program, address) = start(explore.arg("explore").args(arguments), |line| {
             line.starts_with("http://127.0.0.1:")
                 .then(|| line.to_owned())
@@ -169,7 +174,7 @@ impl Page {
         let path = self.folder.path().join("saved-scene.json");
         std::fs::write(&path, scene).unwrap();
         let out = self.folder.path().join("out");
-        let done = Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+        let done = Command::new(program())
             .args([
                 "analyze",
                 path.to_str().unwrap(),

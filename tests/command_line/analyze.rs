@@ -12,7 +12,7 @@ use sawflutter::report::Report;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
-use super::program::{names_in, quick_scene, sawflutter, text, write_scene};
+use super::program::{names_in, program, quick_scene, sawflutter, text, write_scene};
 
 const FILES: [&str; 6] = [
     "campbell.csv",
@@ -245,7 +245,7 @@ fn a_closed_pipe_is_no_failure() {
         &["analyze", scene, "--json"],
     ];
     for arguments in runs {
-        let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+        let mut child = std::process::Command::new(program())
             .current_dir(&folder)
             .args(arguments)
             .stdout(Stdio::piped())

@@ -11,6 +11,8 @@ use sawflutter::scene::{Accuracy, MAX_SCENE_BYTES, Scene};
 use sawflutter::stability::Analysis;
 use serde_json::Value;
 
+use super::program::program;
+
 struct Server {
     child: Child,
     host: String,
@@ -37,7 +39,7 @@ impl Answer {
 
 impl Server {
     fn start() -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let mut command = Command::new(program());
         let mut child = command
             .arg("explore")
             .stdout(Stdio::piped())

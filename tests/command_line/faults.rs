@@ -15,9 +15,8 @@ use sawflutter::report::Report;
 use sawflutter::scene::SceneFile;
 use tempfile::TempDir;
 
-use super::program::{self, text};
+use super::program::{self, program, text};
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_sawflutter");
 const STAGED: &str = ".sawflutter-";
 
 /// A scene that takes no time, by name.
@@ -37,7 +36,7 @@ fn write_scene(folder: &Path, file: &SceneFile) -> PathBuf {
 fn analyze(scene: &Path, out: &Path) -> Command {
     // Where the tests run in the background, SIGINT is ignored, and what they start inherits it.
     let mut command = Command::new("env");
-    command.arg("--default-signal=INT").arg(PROGRAM);
+    command.arg("--default-signal=INT").arg(program());
     command.arg("analyze").arg(scene).arg("--out").arg(out);
     command.stdout(Stdio::null()).stderr(Stdio::piped());
     command
@@ -118,7 +117,7 @@ fn interrupted_at_any_time() {
 /// Runs a shell command line in which `"$0" "$@"` is the program.
 fn in_shell(line: &str, scene: &Path, out: &Path) -> Output {
     let mut shell = Command::new("sh");
-    shell.args(["-c", line, PROGRAM, "analyze"]);
+    shell.args(["-c", line]).arg(program()).arg("analyze");
     shell.arg(scene).arg("--out").arg(out);
     shell.output().unwrap()
 }
@@ -172,7 +171,7 @@ fn a_full_disk_is_an_error_that_names_the_file() {
 fn a_full_standard_output_is_an_error() {
     for arguments in [&["schema"][..], &["analyze", "--help"]] {
         let full = File::options().write(true).open("/dev/full").unwrap();
-        let mut command = Command::new(PROGRAM);
+        let mut command = Command::new(program());
         let output = command.args(arguments).stdout(full).output().unwrap();
         // clap prints its help itself, and does not mind.
         if arguments[0] == "schema" {
@@ -199,19 +198,19 @@ fn a_read_only_folder_is_refused_before_the_computation() {
         std::fs::set_permissions(path, std::fs::Permissions::from_mode(bits)).unwrap();
     };
     mode(folder.path(), 0o755);
-    let program = folder.path().join("sawflutter");
-    std::fs::copy(PROGRAM, &program).unwrap();
+    let copy = folder.path().join("sawflutter");
+    std::fs::copy(program(), &copy).unwrap();
     let scene = write_scene(folder.path(), &quick_scene("new"));
     let out = folder.path().join("locked");
     std::fs::create_dir(&out).unwrap();
     mode(&out, 0o555);
-    let mut command = Command::new(&program);
+    let mut command = Command::new(&copy);
     command.arg("analyze").arg(&scene).arg("--out").arg(&out);
     let nobody = 65_534;
     let output = match command.uid(nobody).gid(nobody).output() {
         Ok(output) => output,
         // Whoever is not root cannot become nobody, and need not.
-        Err(_) => Command::new(&program)
+        Err(_) => Command::new(&copy)
             .arg("analyze")
             .args([&scene, Path::new("--out"), &out])
             .output()

@@ -285,3 +285,98 @@ fn control_characters_are_not_sent_to_the_terminal() {
         }
     }
 }
+
+/// Item 13: whatever an earlier run of the same command has left belongs to another saw.
+#[test]
+fn item_13_files_of_another_saw_do_not_stay() {
+    let folder = TempDir::new().unwrap();
+    let out = out(&folder);
+    std::fs::create_dir(&out).unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let scene = scene.to_str().unwrap();
+    for (arguments, optional) in [
+        (
+            &["analyze", scene][..],
+            &[
+                "root-loci.png",
+                "root-loci.svg",
+                "membrane.png",
+                "membrane.svg",
+                "scenes.csv",
+                "scenes.json",
+            ][..],
+        ),
+        (
+            &["export", "--matrices", scene],
+            &["damping.npy", "circulatory.npy"],
+        ),
+    ] {
+        for name in optional.iter().chain(&["notes.txt"]) {
+            std::fs::write(out.join(name), "of another saw").unwrap();
+        }
+        let output = run(arguments, &folder);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let left = names_in(&out);
+        let stale = |name: &&&str| left.iter().any(|other| other == *name);
+        assert_eq!(optional.iter().find(stale), None, "{left:?}");
+        assert!(left.iter().any(|name| name == "notes.txt"), "{left:?}");
+    }
+}
+
+/// Item 14: the saw of the program itself, typed in other units, does not pass without a word.
+#[test]
+fn item_14_numbers_in_other_units_are_warned_of() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    let own = run(
+        &["analyze", write_scene(&folder, &file).to_str().unwrap()],
+        &folder,
+    );
+    assert!(
+        !text(&own.stdout).contains("Warning:"),
+        "{}",
+        text(&own.stdout)
+    );
+    file.blade.material.density_kg_per_m3 = 7.8;
+    let scene = write_scene(&folder, &file);
+    let scene = scene.to_str().unwrap();
+    let output = run(&["analyze", scene], &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    // In the summary lines are broken at blanks.
+    let words = text(&output.stdout).replace("\n  ", " ");
+    let written = std::fs::read(out(&folder).join("report.json")).unwrap();
+    let report: Report = serde_json::from_slice(&written).unwrap();
+    let expected = "are these g/cm³? That would be 7800 kg/m³";
+    let warning = report.warnings.iter().find(|w| w.contains(expected));
+    let warning = warning.unwrap_or_else(|| panic!("{:?}", report.warnings));
+    assert!(words.contains(warning.as_str()), "{words}");
+    let output = run(&["check", scene, "--operating-rpm", "1.250"], &folder);
+    let words = text(&output.stdout).replace("\n  ", " ");
+    assert!(words.contains(expected), "{words}");
+    assert!(words.contains("That would be 1250 rpm"), "{words}");
+}
+
+/// Item 15: keys stand in the order in which they are declared, as in the program that the tests
+/// are built with. Fails for a program whose dependencies have other features than that one's.
+#[test]
+fn item_15_the_shipped_program_orders_keys_as_the_tested_one() {
+    let output = sawflutter().arg("schema").output().unwrap();
+    let own = serde_json::to_string_pretty(&sawflutter::scene::json_schema()).unwrap();
+    assert_eq!(text(&output.stdout).trim_end(), own);
+    let declared = [
+        "name",
+        "notes",
+        "blade",
+        "mount",
+        "guides",
+        "operating_rpm",
+        "cut",
+    ];
+    let schema = sawflutter::scene::json_schema();
+    let keys: Vec<&String> = schema["properties"].as_object().unwrap().keys().collect();
+    let place = |key: &&str| keys.iter().position(|own| own == key).unwrap();
+    assert!(
+        declared.iter().map(|key| place(key)).is_sorted(),
+        "{keys:?}"
+    );
+}

@@ -7,8 +7,13 @@ use assert_cmd::Command;
 use sawflutter::scene::{Accuracy, SceneFile};
 use tempfile::TempDir;
 
+#[path = "../common/program.rs"]
+mod tested;
+
+pub use tested::program;
+
 pub fn sawflutter() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_sawflutter"))
+    Command::new(program())
 }
 
 /// Runs it with the folder's `out` to write into.

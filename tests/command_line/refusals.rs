@@ -11,7 +11,7 @@ use assert_cmd::Command;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
-use super::program::{names_in, sawflutter, text};
+use super::program::{names_in, program, sawflutter, text};
 
 /// Runs a scene that must be refused: exit code 2, one message, nothing written.
 fn refused(scene: &Path) -> String {
@@ -193,7 +193,7 @@ fn a_huge_file_is_refused_fast_and_in_little_memory() {
         let output = Command::new("sh")
             .arg("-c")
             .arg("ulimit -v 500000 && exec \"$0\" analyze \"$1\" --out \"$2\"")
-            .arg(env!("CARGO_BIN_EXE_sawflutter"))
+            .arg(program())
             .args([&huge, &folder.path().join("out")])
             .output()
             .unwrap();

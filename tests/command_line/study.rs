@@ -10,7 +10,7 @@ use sawflutter::scene::Accuracy;
 use sawflutter::study::StudyReport;
 use tempfile::TempDir;
 
-use super::program::text;
+use super::program::{program, text};
 
 /// Every file of a result; the log is not one of them.
 const RESULT: [&str; 5] = [
@@ -65,7 +65,7 @@ impl Bench {
     }
 
     fn command(&self, out: &str, more: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let mut command = Command::new(program());
         command.arg("study").arg(&self.scene).arg(&self.study);
         command.arg("--out").arg(self.path(out)).args(more);
         command
@@ -76,7 +76,7 @@ impl Bench {
     }
 
     fn merge(&self, folders: &[&str], out: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sawflutter"));
+        let mut command = Command::new(program());
         command.args(["study", "merge"]);
         command.args(folders.iter().map(|f| self.path(f)));
         command.arg("--out").arg(self.path(out)).output().unwrap()
