@@ -182,13 +182,20 @@ pub fn unusual_number(label: &str, path: &str, value: f64) -> Option<String> {
     Some(quantity.remark(label, value))
 }
 
+/// A number that no saw has, and what it would be in the unit that it looks like.
+struct Unusual {
+    path: String,
+    value: f64,
+    meant: f64,
+}
+
 /// What to say of the numbers of a scene that no saw has: a line each, and one for all that look
 /// like the same other unit.
 pub fn unusual(scene: &SceneFile) -> Vec<String> {
     let json = serde_json::to_value(scene).expect("numbers of a scene are finite");
     let mut numbers = Vec::new();
     leaves(&json, String::new(), &mut numbers);
-    let mut of_unit: Vec<(&str, Vec<(String, f64, f64)>)> = Vec::new();
+    let mut of_unit: Vec<(&str, Vec<Unusual>)> = Vec::new();
     let mut remarks = Vec::new();
     for (path, value) in numbers {
         let Some(quantity) = Quantity::of(&path).filter(|q| !q.is_usual(value)) else {
@@ -198,26 +205,30 @@ pub fn unusual(scene: &SceneFile) -> Vec<String> {
             remarks.push(quantity.remark(&path, value));
             continue;
         };
+        let one = Unusual { path, value, meant };
         match of_unit.iter_mut().find(|(known, _)| *known == unit) {
-            Some((_, all)) => all.push((path, value, meant)),
-            None => of_unit.push((unit, vec![(path, value, meant)])),
+            Some((_, all)) => all.push(one),
+            None => of_unit.push((unit, vec![one])),
         }
     }
-    let together = of_unit.into_iter().map(|(unit, all)| match &all[..] {
-        [(path, value, _)] => unusual_number(path, path, *value).unwrap_or_default(),
-        _ => {
-            let each = all.iter().map(|(path, value, meant)| {
-                format!("{path} is {} ({})", short(*value), short(*meant))
-            });
-            let each: Vec<String> = each.collect();
-            format!(
-                "no saw has these numbers; are they {unit}? In brackets what that would be in the \
-                 unit of the key: {}",
-                each.join(", ")
-            )
-        }
-    });
+    let together = of_unit.into_iter().map(|(unit, all)| together(unit, &all));
     together.chain(remarks).collect()
+}
+
+fn together(unit: &str, all: &[Unusual]) -> String {
+    if let [Unusual { path, value, .. }] = all {
+        return unusual_number(path, path, *value).unwrap_or_default();
+    }
+    let each = all.iter().map(|one| {
+        let (value, meant) = (short(one.value), short(one.meant));
+        format!("{} is {value} ({meant})", one.path)
+    });
+    let each: Vec<String> = each.collect();
+    format!(
+        "no saw has these numbers; are they {unit}? In brackets what that would be in the unit of \
+         the key: {}",
+        each.join(", ")
+    )
 }
 
 /// Every number below a value, with its path.
