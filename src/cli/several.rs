@@ -76,7 +76,7 @@ impl Row {
         let of = report.as_ref();
         Row {
             folder,
-            name: scene.file.name.clone(),
+            name: scene.file().name.clone(),
             lowest_critical_rpm: of.and_then(|r| r.critical_speeds.first()).map(|c| c.rpm),
             flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
             instabilities: of.map_or(0, |r| r.instabilities.len()),

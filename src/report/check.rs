@@ -90,9 +90,9 @@ impl CheckReport {
 }
 
 fn warnings(scene: &Scene, limits: &Limits) -> Vec<String> {
-    let mut warnings = unusual(&scene.file);
+    let mut warnings = unusual(scene.file());
     let operating = limits.operating_rad_per_s;
-    if scene.operating_rad_per_s != Some(operating) {
+    if scene.operating_rad_per_s() != Some(operating) {
         let asked = unusual_number("the operating speed", "operating_rpm", rpm(operating));
         warnings.extend(asked);
     }

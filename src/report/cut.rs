@@ -157,7 +157,7 @@ impl CutReport {
                 .tooth_angles_rad()
                 .map(f64::to_degrees)
                 .collect(),
-            warnings: unusual(&scene.file)
+            warnings: unusual(scene.file())
                 .into_iter()
                 .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
                 .collect(),

@@ -231,7 +231,7 @@ fn curves(before: &Scene, fitted: &Measurement, fit: &Fit) -> Result<CurvesEntry
 }
 
 fn warnings(fit: &Fit) -> Vec<String> {
-    let mut warnings = unusual(&fit.scene.file);
+    let mut warnings = unusual(fit.scene.file());
     for freed in &fit.without_effect {
         warnings.push(format!(
             "{} moves no measured frequency and stays as it was",

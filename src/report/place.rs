@@ -240,7 +240,7 @@ fn parameters(found: &Placement) -> Vec<PlacedEntry> {
 }
 
 fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> {
-    let mut warnings = unusual(&scene.file);
+    let mut warnings = unusual(scene.file());
     for freed in &found.without_effect {
         let path = freed.parameter.path();
         warnings.push(if path.ends_with("angle_deg") {

@@ -66,7 +66,7 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
         cut_short(certificate),
         left_free(analysis),
     ];
-    let of_scene = unusual(&scene.file);
+    let of_scene = unusual(scene.file());
     of_scene
         .into_iter()
         .chain(found.into_iter().flatten())

@@ -304,7 +304,7 @@ mod tests {
 
     #[test]
     fn numbers_in_other_units_are_recognized() {
-        let file = Scene::paper().file;
+        let file = Scene::paper().file().clone();
         assert_eq!(unusual(&file), [""; 0]);
         let mut density = file.clone();
         density.blade.material.density_kg_per_m3 = 7.8;
@@ -334,7 +334,7 @@ mod tests {
 
     #[test]
     fn a_scene_wholly_in_millimetres_gets_one_remark() {
-        let mut file = Scene::paper().file;
+        let mut file = Scene::paper().file().clone();
         file.blade.outer_diameter_m *= 1e3;
         file.blade.inner_diameter_m *= 1e3;
         file.blade.thickness_m *= 1e3;

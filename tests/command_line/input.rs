@@ -375,8 +375,5 @@ fn item_15_the_shipped_program_orders_keys_as_the_tested_one() {
     let schema = sawflutter::scene::json_schema();
     let keys: Vec<&String> = schema["properties"].as_object().unwrap().keys().collect();
     let place = |key: &&str| keys.iter().position(|own| own == key).unwrap();
-    assert!(
-        declared.iter().map(|key| place(key)).is_sorted(),
-        "{keys:?}"
-    );
+    assert!(declared.iter().map(place).is_sorted(), "{keys:?}");
 }

@@ -106,7 +106,7 @@ fn every_study_suits_its_scene_and_the_schema() {
             let name = scene.file_stem().unwrap().to_string_lossy().into_owned();
             stem.starts_with(&format!("{name}-"))
         });
-        let scene = Scene::from_path(&scene.expect("a scene of this name")).unwrap();
+        let scene = Scene::from_path(scene.expect("a scene of this name")).unwrap();
         let study = Study::new(scene, file).unwrap_or_else(|error| panic!("{error}"));
         assert!(study.count() > 1);
     }
