@@ -188,7 +188,9 @@ impl Header {
             let small = name.to_lowercase();
             let foreign = ["rad/s", "khz", "krpm", "1/s", "rps", "rev/s", "(ms)", "[s]"];
             let other = foreign.iter().any(|unit| small.contains(unit));
-            let in_hz = column == speed && small.contains("hz");
+            // A whole word: there is one in Drehzahl.
+            let mut words = small.split(|c: char| !c.is_alphanumeric());
+            let in_hz = column == speed && words.any(|word| word == "hz");
             if other || in_hz {
                 let problem = format!(
                     "column {} is {name:?}; give speeds in rpm and frequencies in Hz",
