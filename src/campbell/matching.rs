@@ -51,12 +51,14 @@ impl<'a> Sighted<'a> {
 /// Weight of a frequency that is off by the chart's height, against shapes that are wholly
 /// unlike: shape decides between neighbours, and nothing leaps over the chart.
 const OFF: f64 = 4.0;
-/// Cost of a branch that ends or begins at the top of the chart, and of one that does so
-/// anywhere else, which no eigenvalue of a stable window does.
-const AT_TOP: f64 = 0.5;
+/// Cost of a branch that ends or begins at the top of the chart or at no frequency at all, and of
+/// one that does so anywhere else, which no eigenvalue of a stable window does.
+const AT_EDGE: f64 = 0.5;
 const INSIDE: f64 = 20.0;
 /// Share of the height that counts as its top, besides the way a mode goes in one step.
 const TOP: f64 = 0.02;
+/// Frequencies below this share of the height are those of real λ.
+const STOPPED: f64 = 1e-9;
 /// Cost of two modes that nothing can turn into each other.
 const NEVER: f64 = 1e3;
 
@@ -70,11 +72,13 @@ pub fn match_modes(
     let old: Vec<Carrier<'_>> = before.iter().map(Carrier::new).collect();
     let new: Vec<Carrier<'_>> = after.iter().map(Carrier::new).collect();
     let height = height_rad_per_s.max(f64::MIN_POSITIVE);
-    // Where a mode goes within the step, seen from its own speed.
+    // Where a mode goes within the step, seen from its own speed. A damped mode that comes to a
+    // stop turns into two real λ, of which one begins or ends there.
     let leaving = |c: &Carrier<'_>, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
-        match there >= (1.0 - TOP) * height {
-            true => AT_TOP,
+        let stopped = c.damped && c.frequency.abs() <= STOPPED * height;
+        match there >= (1.0 - TOP) * height || stopped {
+            true => AT_EDGE,
             false => INSIDE,
         }
     };
@@ -171,5 +175,41 @@ impl<'a> Carrier<'a> {
             product += left * right;
         }
         product.norm_sqr()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn damped(re: f64, im: f64, place: usize) -> Mode {
+        Mode {
+            lambda: c64::new(re, im),
+            kind: ModeKind::Damped,
+            frequency_slope: 0.0,
+            action: 1,
+            part: 0,
+            coordinates: Col::from_fn(4, |i| c64::new(f64::from(u8::from(i == place)), 0.0)),
+        }
+    }
+
+    /// A damped mode comes to a stop below three that go on, the highest next to the top.
+    #[test]
+    fn of_two_real_eigenvalues_one_begins_and_the_waves_above_go_on() {
+        let waves = || [(40.0, 1), (70.0, 2), (97.0, 3)].map(|(im, k)| damped(-0.1, im, k));
+        let before: Vec<Mode> = [damped(-0.1, 0.5, 0)].into_iter().chain(waves()).collect();
+        let real = [damped(0.4, 0.0, 0), damped(-0.6, 0.0, 0)];
+        let after: Vec<Mode> = real.into_iter().chain(waves()).collect();
+        let seen = [&before, &after].map(|modes| Sighted::of_modes(modes));
+        let pairs = |found: Vec<Match>| -> Vec<(usize, usize)> {
+            found.iter().map(|m| (m.before, m.after)).collect()
+        };
+        let found = pairs(match_modes([&seen[0], &seen[1]], 1.0, 100.0));
+        assert_eq!(found.len(), 4);
+        assert!(found[0].0 == 0 && found[0].1 < 2, "{found:?}");
+        assert_eq!(found[1..], [(1, 2), (2, 3), (3, 4)]);
+        let back = pairs(match_modes([&seen[1], &seen[0]], -1.0, 100.0));
+        assert_eq!(back.len(), 4);
+        assert!(back[1..] == [(2, 1), (3, 2), (4, 3)], "{back:?}");
     }
 }
