@@ -24,7 +24,7 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     KeyedError {
         key,
         message,
-        of_keys: said.starts_with("missing field"),
+        of_keys: said.starts_with("missing field") || said.starts_with("unknown field"),
     }
 }
 
