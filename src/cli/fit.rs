@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use crate::figure;
 use crate::fit::{Fit, Measurement, Options};
 use crate::report::{FitReport, ParameterEntry};
-use crate::scene::Scene;
+use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
 use anyhow::{Context, bail};
 use clap::Args;
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             measurement.source
         );
     }
-    let usual = usual_paths(&scene);
+    let usual = Freed::usual_to_fit(scene.file());
     let freed = freed(&scene, &arguments.free, &usual)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("starts");
@@ -137,25 +137,6 @@ fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measureme
     let name = path.file_name().unwrap_or(path.as_os_str());
     Measurement::from_csv(&name.to_string_lossy(), &text)
         .map_err(|error| refused(path, error.into()))
-}
-
-/// What is hardly ever known of a saw: where the guides act and how stiff they are. Angles are
-/// seen only between guides. Without guides: density.
-fn usual_paths(scene: &Scene) -> Vec<String> {
-    let count = scene.file().guides.len();
-    if count == 0 {
-        return vec!["blade.material.density_kg_per_m3".into()];
-    }
-    let of = |index: usize| {
-        let mut names = vec!["radius_m", "stiffness_n_per_m"];
-        if index > 0 {
-            names.push("angle_deg");
-        }
-        names
-            .into_iter()
-            .map(move |name| format!("guides[{index}].{name}"))
-    };
-    (0..count).flat_map(of).collect()
 }
 
 fn summary(report: &FitReport) -> String {

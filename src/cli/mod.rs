@@ -25,6 +25,8 @@ use std::path::Path;
 use crate::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
 
+pub use summary::summary;
+
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.
 #[derive(Parser)]

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::figure;
 use crate::place::{Demands, Goal, Options, Placement};
 use crate::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
-use crate::scene::{Scene, rad_per_s};
+use crate::scene::{Freed, Scene, rad_per_s};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
@@ -83,15 +83,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         map: arguments.map,
         ..Options::default()
     };
-    let usual: Vec<String> = match scene.file().guides.first() {
-        Some(_) => ["radius_m", "angle_deg", "stiffness_n_per_m"]
-            .map(|name| format!("guides[0].{name}"))
-            .to_vec(),
-        None if arguments.free.is_empty() => {
-            bail!("guides is missing, but there must be one to be placed; write one into the scene")
-        }
-        None => Vec::new(),
-    };
+    let usual = Freed::usual_to_place(scene.file());
+    if usual.is_empty() && arguments.free.is_empty() {
+        bail!("guides is missing, but there must be one to be placed; write one into the scene");
+    }
     let freed = freed(&scene, &arguments.free, &usual)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("{msg}");

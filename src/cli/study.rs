@@ -7,7 +7,8 @@ use std::sync::{Mutex, PoisonError};
 use crate::figure;
 use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
-    self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, read_inputs, read_log,
+    self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, finished_in, keep, read_inputs,
+    read_log,
 };
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
@@ -79,14 +80,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let study = Study::new(scene, study).context("the study was refused")?;
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    let mut finished = vec![None; study.count()];
     // Whoever computes everything takes what parts have computed; a part keeps to itself, for
     // the others may be at work.
-    if shard == Shard::WHOLE {
-        for path in Log::all_in(folder.path())? {
-            keep(&mut finished, read_log(&path, &study)?);
-        }
-    }
+    let mut finished = match shard == Shard::WHOLE {
+        true => finished_in(folder.path(), &study)?,
+        false => vec![None; study.count()],
+    };
     compute(&study, shard, &folder, &mut finished)?;
     if shard != Shard::WHOLE {
         return print_part(arguments, &study, shard, &folder);
@@ -128,13 +127,6 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
     }
     let folder = merge.output.folder()?;
     print(&merge.output, &study, &folder, finished)
-}
-
-fn keep(finished: &mut [Option<Saw>], saws: Vec<Saw>) {
-    for saw in saws {
-        let index = saw.index;
-        finished[index].get_or_insert(saw);
-    }
 }
 
 /// Analyses what is missing, each saw logged as soon as it is done.

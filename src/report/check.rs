@@ -1,5 +1,6 @@
 //! `sawflutter check --json`: every limit and what was found.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
@@ -8,7 +9,7 @@ use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm, unusual, unusual_number};
 
 /// A saw held against limits.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckReport {
     /// Version of the program that wrote the report.
@@ -42,7 +43,7 @@ pub struct CheckReport {
 }
 
 /// One limit and what was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionEntry {
     /// The limit in a word.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SplineEntry;
@@ -9,7 +10,7 @@ use crate::scene::{Scene, SceneFile, unusual};
 use crate::transient::{Cutting, CuttingRun, Growth, ToothPassing, VerdictMap};
 
 /// `cut.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutReport {
     /// Version of the program that wrote the report.
@@ -29,7 +30,7 @@ pub struct CutReport {
 }
 
 /// Whether a motion grows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// No motion grows as fast as the threshold.
@@ -39,7 +40,7 @@ pub enum Verdict {
 }
 
 /// One speed of the cut.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutRunEntry {
     /// Rotation speed.
@@ -94,7 +95,7 @@ pub struct CutRunEntry {
 }
 
 /// A cut with the force that its power allows.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ByPowerEntry {
     /// P/(Ωb) shared by the teeth.
@@ -106,7 +107,7 @@ pub struct ByPowerEntry {
 }
 
 /// What it changes that the loads pass with the teeth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToothPassingEntry {
     /// Teeth passing a second.
@@ -124,7 +125,7 @@ pub struct ToothPassingEntry {
 }
 
 /// Growth rates over guide angle and load.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VerdictMapEntry {
     /// Angles of the first guide, all guides moving with it.

@@ -1,5 +1,6 @@
 //! `fit.json`: a calibrated saw, how well its numbers are known, and what is left.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::campbell::even_speeds;
@@ -8,7 +9,7 @@ use crate::scene::{Scene, SceneFile, unusual};
 use crate::spectrum::SpectrumError;
 
 /// `fit.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitReport {
     /// Version of the program that wrote the report.
@@ -50,7 +51,7 @@ pub struct FitReport {
 }
 
 /// A number found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterEntry {
     /// JSON path in the scene.
@@ -73,7 +74,7 @@ pub struct ParameterEntry {
 }
 
 /// A measured frequency and the computed one that it is held against.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResidualEntry {
     /// Rotation speed.
@@ -91,7 +92,7 @@ pub struct ResidualEntry {
 }
 
 /// Lowest frequencies in ascending order, one row a speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvesEntry {
     /// Speeds.
@@ -103,7 +104,7 @@ pub struct CurvesEntry {
 }
 
 /// A start and where it led.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartEntry {
     /// Values it began with.

@@ -1,5 +1,6 @@
 //! The membrane stress of a scene and what its heat does, in numbers for a reader.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::plate::MembraneStress;
@@ -8,7 +9,7 @@ use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, HeatLimit, HeatLimits};
 
 /// Stress of heat, roll tension and manufacture over the radius.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MembraneEntry {
     /// Radii, ascending; twice where the hoop stress jumps.
@@ -22,7 +23,7 @@ pub struct MembraneEntry {
 }
 
 /// The temperature profile of the scene, scaled to other peaks.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatEntry {
     /// Peak of the profile in the scene: the rise of largest size, at the rim for a shape.
@@ -45,7 +46,7 @@ pub struct HeatEntry {
 }
 
 /// A temperature that the blade does not bear.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatLimitEntry {
     /// Peak of the profile.
@@ -57,7 +58,7 @@ pub struct HeatLimitEntry {
 }
 
 /// A critical speed over the peak of the temperature profile.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatCurveEntry {
     /// Nodal diameters, of a guided blade at the last peak.

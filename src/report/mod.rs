@@ -8,11 +8,14 @@ mod csv;
 mod cut;
 mod fit;
 mod membrane;
+mod mode;
 mod place;
 mod remarks;
 mod runup;
+mod schema;
 mod spline;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::check::{CheckReport, CriterionEntry};
@@ -21,17 +24,19 @@ pub use self::cut::{
 };
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
+pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
     GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
+pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::InstabilityKind;
 
 /// `report.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
     /// Version of the program that wrote the report.
@@ -74,7 +79,7 @@ pub struct Report {
 }
 
 /// A mode of the blade that does not spin.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RestMode {
     /// Natural frequency.
@@ -98,7 +103,7 @@ pub struct RestMode {
 }
 
 /// Share of n nodal diameters in a mode.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HarmonicEntry {
     /// n.
@@ -108,7 +113,7 @@ pub struct HarmonicEntry {
 }
 
 /// w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeEntry {
     /// n.
@@ -122,7 +127,7 @@ pub struct ShapeEntry {
 }
 
 /// A speed at which a wave stands still in space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriticalSpeedEntry {
     /// Rotation speed.
@@ -138,7 +143,7 @@ pub struct CriticalSpeedEntry {
 }
 
 /// A band of unstable speeds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InstabilityEntry {
     /// Divergence or flutter.
@@ -162,7 +167,7 @@ pub struct InstabilityEntry {
 }
 
 /// The operating speed against the lowest critical speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperatingEntry {
     /// The scene's operating speed.
@@ -178,7 +183,7 @@ pub struct OperatingEntry {
 }
 
 /// How fine the computation was.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyEntry {
     /// The name asked for.
@@ -198,7 +203,7 @@ pub struct AccuracyEntry {
 }
 
 /// Eigenproblems solved, largest first.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkEntry {
     /// Of the whole basis: Krylov iterations with a factorization each, or dense ones.
@@ -212,7 +217,7 @@ pub struct WorkEntry {
 }
 
 /// The Krein index held against the spectrum, see [`crate::stability`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateEntry {
     /// Speeds at which the index was compared; 0 for damped scenes, which have none.
@@ -226,7 +231,7 @@ pub struct CertificateEntry {
 }
 
 /// The Campbell diagram.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CampbellEntry {
     /// First speed.
@@ -240,7 +245,7 @@ pub struct CampbellEntry {
 }
 
 /// One mode followed over speed. All lists have one entry a speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchEntry {
     /// 1, 2, 3 … in the order of the list.
@@ -272,7 +277,7 @@ pub struct BranchEntry {
 }
 
 /// Eigenvalues around a flutter onset, in the complex plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RootLociEntry {
     /// Onset of the band.
@@ -287,7 +292,7 @@ pub struct RootLociEntry {
 }
 
 /// One eigenvalue over the speeds of a [`RootLociEntry`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RootPathEntry {
     /// Name of the branch.
@@ -301,7 +306,7 @@ pub struct RootPathEntry {
 }
 
 /// Relative change of speeds for a change of one number of the scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SensitivityEntry {
     /// JSON path of the number in the scene.

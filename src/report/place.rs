@@ -1,5 +1,6 @@
 //! `place.json`: the best place for the guides, what is next door, and a map.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
@@ -7,7 +8,7 @@ use crate::place::{Demands, Goal, Map, Neighbours, Outcome, Placement};
 use crate::scene::{Scene, SceneFile, rpm, unusual};
 
 /// `place.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceReport {
     /// Version of the program that wrote the report.
@@ -57,7 +58,7 @@ pub struct PlaceReport {
 }
 
 /// What is made large.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum GoalEntry {
     /// The flutter speed.
@@ -67,7 +68,7 @@ pub enum GoalEntry {
 }
 
 /// A number found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedEntry {
     /// JSON path in the scene.
@@ -91,7 +92,7 @@ pub struct PlacedEntry {
 }
 
 /// What a saw is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutcomeEntry {
     /// What is made large: the flutter speed, the end of the sweep where there is none, or the
@@ -108,7 +109,7 @@ pub struct OutcomeEntry {
 }
 
 /// A saw a little off the best one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NeighbourEntry {
     /// Values of the numbers, in their order.
@@ -118,7 +119,7 @@ pub struct NeighbourEntry {
 }
 
 /// The goal over two numbers, the others as they were best.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapEntry {
     /// JSON path of the number along x.

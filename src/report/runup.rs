@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, Report};
@@ -10,7 +11,7 @@ use crate::spectrum::SpectrumError;
 use crate::transient::RunningUp;
 
 /// `runup.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpReport {
     /// Version of the program that wrote the report.
@@ -40,7 +41,7 @@ pub struct RunUpReport {
 }
 
 /// A band of instability in a run-up.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpBand {
     /// The band.
@@ -54,7 +55,7 @@ pub struct RunUpBand {
 }
 
 /// |w/F| over speed and frequency.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseEntry {
     /// Rotation speeds.

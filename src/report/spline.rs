@@ -1,5 +1,6 @@
 //! The spline's part of `cut.json`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::cut::{Verdict, hertz};
@@ -7,7 +8,7 @@ use crate::scene::Scene;
 use crate::transient::OnSpline;
 
 /// The cut with the reaction of the simulated spline teeth.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SplineEntry {
     /// In the cut, by the eigenvalues with the simulated reaction.

@@ -62,6 +62,35 @@ impl Freed {
         Freed::new(&scene.file, path, from, to)
     }
 
+    /// What is hardly ever known of a saw: where the guides act and how stiff they are. Angles are
+    /// seen only between guides. Without guides: density.
+    pub fn usual_to_fit(scene: &SceneFile) -> Vec<String> {
+        let count = scene.guides.len();
+        if count == 0 {
+            return vec!["blade.material.density_kg_per_m3".into()];
+        }
+        let of = |index: usize| {
+            let mut names = vec!["radius_m", "stiffness_n_per_m"];
+            if index > 0 {
+                names.push("angle_deg");
+            }
+            names
+                .into_iter()
+                .map(move |name| format!("guides[{index}].{name}"))
+        };
+        (0..count).flat_map(of).collect()
+    }
+
+    /// What a designer may choose: radius, angle and stiffness of the first guide. Nothing
+    /// without guides.
+    pub fn usual_to_place(scene: &SceneFile) -> Vec<String> {
+        let of_first = ["radius_m", "angle_deg", "stiffness_n_per_m"];
+        let guides = scene.guides.iter().take(1);
+        guides
+            .flat_map(|_| of_first.map(|name| format!("guides[0].{name}")))
+            .collect()
+    }
+
     /// Whether the share is of the logarithm.
     pub fn is_logarithmic(&self) -> bool {
         self.from > 0.0 && self.to >= DECADE * self.from

@@ -7,8 +7,8 @@ use faer::{Col, Mat, Scale, c64};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-use super::SpectrumError;
 use super::deflation::Deflation;
+use super::{SpectrumError, Stop};
 
 /// λ, in 1/s, and q with (λ² + λD + K) q = 0.
 pub type Eigenpair = (c64, Col<c64>);
@@ -65,6 +65,7 @@ pub(super) fn deflated_companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<(Mat<f64>, f64, Option<Deflation>), SpectrumError> {
+    Stop::current().check()?;
     let (state, scale) = companion(system, speed_rad_per_s)?;
     let deflation = Deflation::new(system, speed_rad_per_s, scale);
     let state = match &deflation {
@@ -78,7 +79,7 @@ pub(super) fn deflated_companion(
 /// each rigid motion that nothing holds there is one, with λ = 0 exactly.
 ///
 /// # Errors
-/// [`SpectrumError::NotFinite`] or [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::NotFinite`], [`SpectrumError::NoConvergence`] or [`SpectrumError::Stopped`].
 pub fn companion_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,

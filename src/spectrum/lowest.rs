@@ -6,7 +6,7 @@ use crate::plate::Plate;
 use super::mode::{Mode, ModeKind, classify};
 use super::model::SPLITTING;
 use super::part::{Part, frequency_scale};
-use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs};
+use super::{SpectrumError, Stop, companion_eigenpairs, lowest_eigenpairs};
 
 /// A plate that is asked for its lowest modes.
 #[derive(Debug)]
@@ -36,6 +36,7 @@ impl LowestModes {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn at(&self, speed_rad_per_s: f64, count: usize) -> Result<Vec<Mode>, SpectrumError> {
+        Stop::current().check()?;
         let speed = speed_rad_per_s.max(SPLITTING * self.scale_rad_per_s);
         let mut modes = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {

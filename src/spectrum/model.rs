@@ -101,7 +101,7 @@ impl SpectralModel {
         range: (f64, f64),
         strategy: Strategy,
     ) -> Result<Self, SpectrumError> {
-        Self::stoppable(plate, critical, range, strategy, &Stop::default())
+        Self::stoppable(plate, critical, range, strategy, &Stop::current())
     }
 
     /// The same, which ends early when asked to, now and in all that is computed with it.

@@ -1,6 +1,7 @@
 //! What to call a mode: nodal diameters, nodal circles, and how it runs.
 
 use faer::{Col, c64};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::plate::Plate;
@@ -8,7 +9,7 @@ use crate::plate::Plate;
 use super::mode::{Mode, ModeKind};
 
 /// How a wave runs, seen from space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// With the rotation.

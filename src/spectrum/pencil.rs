@@ -6,7 +6,7 @@ use faer::{Col, Mat, Par, Scale, Side};
 
 use crate::system::GyroscopicSystem;
 
-use super::SpectrumError;
+use super::{SpectrumError, Stop};
 
 /// A speed at which K(Ω) is singular: a wave stands still in space.
 #[derive(Debug, Clone)]
@@ -47,6 +47,7 @@ pub fn singular_multiples(
     free: &[Col<f64>],
     softening: &Mat<f64>,
 ) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
+    Stop::current().check()?;
     let order = stiffness.nrows();
     let mut stiffness = stiffness.clone();
     let mean = stiffness.norm_l2() / (order as f64).sqrt();

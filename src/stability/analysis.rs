@@ -56,7 +56,7 @@ impl Analysis {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, SpectrumError> {
-        Self::stoppable(scene, Detail::Full, progress, &Stop::default())
+        Self::stoppable(scene, Detail::Full, progress, &Stop::current())
     }
 
     /// The same, which ends early when asked to.

@@ -1,5 +1,6 @@
 //! The stability chart of a saw: samples, branches and bands of a range of speeds.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::analysis::Detail;
@@ -11,7 +12,7 @@ use crate::campbell::{self, Campbell, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
 
 /// Kind of an instability.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum InstabilityKind {
     /// Exponential growth without oscillation.

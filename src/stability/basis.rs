@@ -55,7 +55,7 @@ impl ChosenBasis {
     /// not elastic any more, or when the largest basis does not hold the waves that are
     /// reflected within it.
     pub fn new(scene: &Scene, tolerance: f64) -> Result<Self, SpectrumError> {
-        Self::stoppable(scene, tolerance, &Stop::default())
+        Self::stoppable(scene, tolerance, &Stop::current())
     }
 
     /// The same, which ends early when asked to.

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use faer::{Mat, Side};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bands::{InstabilityKind, StabilityChart, chart};
@@ -14,7 +15,7 @@ use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy
 use crate::system::GyroscopicSystem;
 
 /// A way to the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// The whole chart from a projection: what `analyze` does.
@@ -28,7 +29,7 @@ pub enum Method {
 }
 
 /// One way, one size, and what it took.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Setting {
     /// The way.

@@ -147,6 +147,26 @@ impl Log {
     }
 }
 
+/// The saws of a study that the logs of a folder have, each at its number.
+///
+/// # Errors
+/// [`LogError`] where the folder cannot be read or a log belongs to another study.
+pub fn finished_in(folder: &Path, study: &Study) -> Result<Vec<Option<Saw>>, LogError> {
+    let mut finished = vec![None; study.count()];
+    for path in Log::all_in(folder)? {
+        keep(&mut finished, read_log(&path, study)?);
+    }
+    Ok(finished)
+}
+
+/// Puts saws in their places, where there is none yet.
+pub fn keep(finished: &mut [Option<Saw>], saws: Vec<Saw>) {
+    for saw in saws {
+        let index = saw.index;
+        finished[index].get_or_insert(saw);
+    }
+}
+
 /// The saws in a log that is only read.
 ///
 /// # Errors

@@ -39,7 +39,7 @@ mod statistics;
 pub use csv::csv;
 pub use file::{DistributionFile, LimitsFile, ParameterFile, StudyError, StudyFile, json_schema};
 pub use inputs::Inputs;
-pub use log::{Log, LogError, read_inputs, read_log};
+pub use log::{Log, LogError, finished_in, keep, read_inputs, read_log};
 #[cfg(feature = "parquet")]
 pub use parquet::parquet;
 pub use plan::{Shard, Study};

@@ -1,5 +1,6 @@
 //! The sum of a study: `study.json`.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::distribution::Distribution;
@@ -15,7 +16,7 @@ const LISTED: usize = 20;
 const MOST_BARS: usize = 40;
 
 /// Quantiles and probabilities of a study, and what it was asked.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyReport {
     /// Version of the program.
@@ -39,7 +40,7 @@ pub struct StudyReport {
 }
 
 /// Saws that belong together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Group {
     /// Where in the grid; empty for all saws.
@@ -59,7 +60,7 @@ pub struct Group {
 }
 
 /// A number of a point of the grid.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GridEntry {
     /// JSON path in the scene.
@@ -69,7 +70,7 @@ pub struct GridEntry {
 }
 
 /// How a speed is distributed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedEntry {
     /// Saws with such a speed.
@@ -85,7 +86,7 @@ pub struct SpeedEntry {
 }
 
 /// A speed below which a share of the saws lies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Quantile {
     /// The share.
@@ -95,7 +96,7 @@ pub struct Quantile {
 }
 
 /// Counts of saws in bars of equal width.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Histogram {
     /// Least speed.
@@ -107,7 +108,7 @@ pub struct Histogram {
 }
 
 /// How many saws keep all limits. A saw that was refused or failed keeps none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Passing {
     /// Saws that keep every limit.
@@ -125,7 +126,7 @@ pub struct Passing {
 }
 
 /// How many saws keep one limit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionEntry {
     /// In a word, as in the columns of the table.
@@ -139,7 +140,7 @@ pub struct CriterionEntry {
 }
 
 /// A saw that was not analysed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Refusal {
     /// Its number.

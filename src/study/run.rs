@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::plan::Study;
 use super::saw::Saw;
+use crate::spectrum::Stop;
 
 /// Analyses saws, each handed over as soon as it is done, in no order. Each thread has a saw of
 /// its own: a second thread makes one saw 1.3 times as fast, but two saws take no longer than one.
@@ -28,17 +29,16 @@ pub fn run<E: Send>(
         }
         Ok(())
     };
+    let stop = &Stop::current();
     std::thread::scope(|scope| {
         let threads = rayon::current_num_threads().clamp(1, indices.len().max(1));
         let workers: Vec<_> = (0..threads)
             .map(|_| {
-                scope.spawn(
-                    || match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-                        Ok(alone) => alone.install(work),
-                        // Where the system gives no more threads, saws share those there are.
-                        Err(_) => work(),
-                    },
-                )
+                scope.spawn(|| match stop.pool(1) {
+                    Ok(alone) => alone.install(work),
+                    // Where the system gives no more threads, saws share those there are.
+                    Err(_) => work(),
+                })
             })
             .collect();
         workers

@@ -2,13 +2,15 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use serde::{Deserialize, Serialize};
+
 use super::plan::Study;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::Onsets;
 
 /// A saw and what became of it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Saw {
     /// Its number in the study, from 0.
     pub index: usize,
@@ -19,7 +21,7 @@ pub struct Saw {
 }
 
 /// What became of a saw.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// It was analysed.
     Analysed(Found),
@@ -30,7 +32,7 @@ pub enum Outcome {
 }
 
 /// Speeds of a saw, and whether it keeps its limits.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Lowest critical speed; none where no wave has one.
     pub lowest_critical_rpm: Option<f64>,

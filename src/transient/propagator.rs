@@ -12,7 +12,7 @@ use faer::{Col, Mat};
 use nalgebra::{DMatrix, DVector};
 
 use crate::scene::rpm;
-use crate::spectrum::time_scale;
+use crate::spectrum::{Stop, time_scale};
 use crate::system::GyroscopicSystem;
 
 use super::TransientError;
@@ -56,13 +56,14 @@ impl Propagator {
     /// (order × count, in the unknowns of the system).
     ///
     /// # Errors
-    /// [`TransientError::NotFinite`].
+    /// [`TransientError::NotFinite`]; [`TransientError::Spectrum`] where it was stopped.
     pub fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
         loads: &[Col<f64>],
         step_s: f64,
     ) -> Result<Self, TransientError> {
+        Stop::current().check()?;
         let (order, count) = (system.order(), loads.len());
         let (stiffness, velocity) = (
             system.stiffness_at(speed_rad_per_s),

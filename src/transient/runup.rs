@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp};
-use crate::spectrum::{Mode, SpectralModel};
+use crate::spectrum::{Mode, SpectralModel, Stop};
 use crate::stability::Instability;
 use crate::system::GyroscopicSystem;
 
@@ -95,6 +95,7 @@ pub fn run_up(
         &load,
     );
     let stride = steps.div_ceil(MAX_SAMPLES);
+    let stop = Stop::current();
     let mut history = RunUpHistory {
         speed_rad_per_s: vec![speed_at(0)],
         deflection_m: vec![read.transpose() * &motion.displacement],
@@ -104,6 +105,7 @@ pub fn run_up(
         let speed = speed_at(step);
         motion = newmark.step(&motion, &load);
         if step % HELD_STEPS == 0 {
+            stop.check()?;
             newmark = held(step);
         }
         if step % stride == 0 || step == steps {

@@ -1,0 +1,65 @@
+"""Stability of thin, fast, guided circular saws in the frequency domain.
+
+>>> import sawflutter as sf
+>>> saw = sf.Scene.paper().replace({"accuracy": "draft"})
+>>> r = saw.run_campbell()
+>>> r
+<CampbellResults 'Guided spline arbor saw': lowest critical speed 1532 rpm, flutter from 2256 rpm, \
+11 bands of instability from 0 to 3000 rpm>
+>>> saw.check(operating_rpm=1250).passed
+True
+
+Numbers carry their units in their names. Reports are what the program writes, to the last bit.
+"""
+
+from __future__ import annotations
+
+from importlib.metadata import version as _version
+
+from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
+from ._scene_types import SceneDict, StudyDict
+from .errors import AnalysisError, ArgumentError, InputError, SceneError, StudyError
+from .results import (
+    CampbellResults,
+    CheckResults,
+    CutResults,
+    FitResults,
+    PlaceResults,
+    Result,
+    RunUpResults,
+    StudyResults,
+    TradeoffResults,
+    load,
+)
+from .scene import Matrices, Scene
+from .study import Study
+
+__version__ = _version("sawflutter")
+
+__all__ = [
+    "AnalysisError",
+    "ArgumentError",
+    "Branch",
+    "CampbellResults",
+    "CheckResults",
+    "CriticalSpeed",
+    "CutResults",
+    "FitResults",
+    "InputError",
+    "Instability",
+    "Matrices",
+    "Mode",
+    "PlaceResults",
+    "RestMode",
+    "Result",
+    "RunUpResults",
+    "Scene",
+    "SceneDict",
+    "SceneError",
+    "Study",
+    "StudyDict",
+    "StudyError",
+    "StudyResults",
+    "TradeoffResults",
+    "load",
+]

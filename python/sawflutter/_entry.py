@@ -1,0 +1,124 @@
+"""What all classes of a report share: they are made of the JSON that the library writes."""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+IntArray: TypeAlias = npt.NDArray[np.int64]
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+ComplexArray: TypeAlias = npt.NDArray[np.complex128]
+
+E = TypeVar("E", bound="Entry")
+Reader: TypeAlias = Callable[[Any], Any]
+
+
+class Entry:
+    """Base of the frozen dataclasses of a report.
+
+    Numbers that the JSON leaves out as null are ``None``, or NaN within an array. Arrays cannot be
+    written to. Two entries are equal where all of their numbers are.
+    """
+
+    @classmethod
+    def from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
+        """Makes an entry of an object of the JSON; keys that it does not know are left out."""
+        return cls(**{name: read(data[key]) for name, key, read in _readers(cls) if key in data})
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        names = [field.name for field in dataclasses.fields(self)]  # type: ignore[arg-type]
+        return all(_same(getattr(self, name), getattr(other, name)) for name in names)
+
+    def __hash__(self) -> int:
+        plain = (value for value in vars(self).values() if isinstance(value, (str, int, float)))
+        return hash((type(self), *plain))
+
+    def __repr__(self) -> str:
+        fields = dataclasses.fields(self)  # type: ignore[arg-type]
+        shown = (f"{field.name}={_short(getattr(self, field.name))}" for field in fields)
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _same(first: Any, second: Any) -> bool:
+    if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
+        return np.array_equal(first, second, equal_nan=first.dtype.kind == "f")
+    return bool(first == second)
+
+
+def _short(value: Any) -> str:
+    """A value on part of a line."""
+    if isinstance(value, np.ndarray):
+        shape = " x ".join(str(length) for length in value.shape)
+        return f"<{shape} numbers>"
+    if isinstance(value, tuple) and value and isinstance(value[0], Entry):
+        return f"<{len(value)} of {type(value[0]).__name__}>"
+    if isinstance(value, dict):
+        return f"<{value.get('name', 'dict')!r}>"
+    return repr(value)
+
+
+@lru_cache(maxsize=None)
+def _readers(cls: Any) -> tuple[tuple[str, str, Reader], ...]:
+    """Of each attribute its name, its key in the JSON, and how it is read."""
+    hints = get_type_hints(cls)
+    found = []
+    for field in dataclasses.fields(cls):  # type: ignore[arg-type]
+        key = field.metadata.get("key", field.name)
+        found.append((field.name, key, _reader(hints[field.name])))
+    return tuple(found)
+
+
+def _reader(hint: Any) -> Reader:
+    origin, arguments = get_origin(hint), get_args(hint)
+    if hint == FloatArray:
+        return _floats
+    if hint == IntArray:
+        return _integers
+    if hint == BoolArray:
+        return _truths
+    if origin in (Union, types.UnionType):
+        (inner,) = [_reader(of) for of in arguments if of is not type(None)]
+        return lambda value: None if value is None else inner(value)
+    if origin is tuple:
+        item = _reader(arguments[0])
+        return lambda values: tuple(item(value) for value in values)
+    if isinstance(hint, type) and issubclass(hint, Entry):
+        return hint.from_dict
+    if hint is float:
+        return float
+    return _as_it_is
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def _floats(values: list[Any]) -> FloatArray:
+    """Numbers in rows of one length: shorter ones and null are filled with NaN."""
+    if values and isinstance(values[0], list):
+        width = max(len(row) for row in values)
+        values = [row + [None] * (width - len(row)) for row in values]
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def _integers(values: list[Any]) -> IntArray:
+    array = np.array(values, dtype=np.int64)
+    array.setflags(write=False)
+    return array
+
+
+def _truths(values: list[Any]) -> BoolArray:
+    array = np.array(values, dtype=np.bool_)
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,67 @@
+"""Exceptions, by what went wrong.
+
+>>> import sawflutter as sf
+>>> try:
+...     sf.Scene.paper().replace({"blade.thickness_m": -1})
+... except sf.SceneError as error:
+...     print(error.key, error.value, error.allowed, sep="; ")
+blade.thickness_m; -1; above 0 and at most 1e12
+"""
+
+from __future__ import annotations
+
+__all__ = ["AnalysisError", "ArgumentError", "InputError", "SceneError", "StudyError"]
+
+
+class InputError(ValueError):
+    """Input that was refused.
+
+    Attributes
+    ----------
+    key : str or None
+        What was refused: the JSON path of a number, or the name of an argument.
+    value : str or None
+        What was given.
+    allowed : str or None
+        What it must be.
+    remedy : str or None
+        What to do about it.
+    """
+
+    key: str | None
+    value: str | None
+    allowed: str | None
+    remedy: str | None
+
+    def __init__(
+        self,
+        message: str,
+        key: str | None = None,
+        value: str | None = None,
+        allowed: str | None = None,
+        remedy: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.key = key
+        self.value = value
+        self.allowed = allowed
+        self.remedy = remedy
+
+    def __reduce__(self) -> tuple[type[InputError], tuple[str | None, ...]]:
+        return type(self), (str(self), self.key, self.value, self.allowed, self.remedy)
+
+
+class SceneError(InputError):
+    """A scene that is none, or a number of it that no saw has."""
+
+
+class StudyError(InputError):
+    """A study that is none, or a folder that belongs to another one."""
+
+
+class ArgumentError(InputError):
+    """An argument of a method that is out of range."""
+
+
+class AnalysisError(RuntimeError):
+    """A computation that failed: the message says on what and what to do."""

@@ -1,0 +1,246 @@
+//! Every command of the program that computes something of one saw: scene in, report out, both
+//! as JSON.
+
+use pyo3::prelude::*;
+use sawflutter::check::Check;
+use sawflutter::fit::{Fit, Measurement};
+use sawflutter::place::Placement;
+use sawflutter::report::{
+    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport,
+    SensitivityEntry,
+};
+use sawflutter::scene::{CutRun, Freed, Scene, rad_per_s, rpm};
+use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::stability::{Analysis, ChosenBasis, sensitivities};
+use sawflutter::transient::{Cutting, RunningUp};
+use serde::Serialize;
+
+use crate::arguments::{self, Bounds};
+use crate::failure::Failure;
+use crate::watch::compute;
+
+/// As the program writes its files.
+fn json(report: &impl Serialize) -> Result<String, Failure> {
+    Ok(serde_json::to_string_pretty(report)?)
+}
+
+/// `report.json` of a scene.
+#[pyfunction]
+#[pyo3(signature = (scene, *, sensitivity=false, progress=None))]
+pub fn analyze(
+    py: Python<'_>,
+    scene: &str,
+    sensitivity: bool,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |meter| {
+        let analysis = Analysis::new(&scene, &|done, of| meter.show(done, of))?;
+        let mut report = Report::new(&scene, &analysis)?;
+        if sensitivity {
+            let at = scene.operating_rad_per_s.unwrap_or(analysis.range.0);
+            let found = sensitivities(&scene, &analysis, at)?;
+            report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
+        }
+        json(&report)
+    })
+}
+
+/// Modes of a scene at a speed of its sweep, ascending by frequency.
+#[pyfunction]
+#[pyo3(signature = (scene, at_rpm, *, progress=None))]
+pub fn modes(
+    py: Python<'_>,
+    scene: &str,
+    at_rpm: f64,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |_| {
+        let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
+        let (from, to) = chosen.range;
+        let speed = rad_per_s(at_rpm);
+        // The end of a sweep is not told from its value in rpm.
+        if !(from <= speed * (1.0 + 1e-12) && speed <= to * (1.0 + 1e-12)) {
+            let allowed = format!("within the sweep, {} to {} rpm", rpm(from), rpm(to));
+            let remedy = "name another speed, or a longer sweep in the scene";
+            return Err(Failure::argument("rpm", at_rpm, allowed, remedy));
+        }
+        let (plate, critical) = (chosen.plate, chosen.critical);
+        let model = SpectralModel::with_critical(plate, critical, (from, to), Strategy::Reduced)?;
+        let found = model.describe(speed, model.modes(speed)?);
+        let entry = |mode| ModeEntry::new(&model.plate, speed, mode);
+        json(&found.iter().map(entry).collect::<Vec<_>>())
+    })
+}
+
+/// `check.json` of a scene.
+#[pyfunction]
+#[pyo3(signature = (scene, *, operating_rpm=None, margin=0.85, min_flutter_rpm=None,
+                    min_critical_rpm=None, progress=None))]
+pub fn check(
+    py: Python<'_>,
+    scene: &str,
+    operating_rpm: Option<f64>,
+    margin: f64,
+    min_flutter_rpm: Option<f64>,
+    min_critical_rpm: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let limits = arguments::limits(
+        &scene,
+        operating_rpm,
+        margin,
+        min_flutter_rpm,
+        min_critical_rpm,
+    )?;
+    compute(py, progress, move |_| {
+        let check = Check::new(&scene, &limits)?;
+        json(&CheckReport::new(&scene, &limits, &check))
+    })
+}
+
+/// `cut.json` of a scene, at speeds in place of the scene's if there are any.
+#[pyfunction]
+#[pyo3(signature = (scene, rpm, *, progress=None))]
+pub fn cut(
+    py: Python<'_>,
+    scene: &str,
+    rpm: Vec<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |meter| {
+        let cut = scene.cut.as_ref().ok_or_else(|| {
+            let allowed = "the forces on the teeth".to_owned();
+            missing("cut", allowed)
+        })?;
+        let asked = rpm.iter().map(|rpm| cut.at_rpm(*rpm));
+        let asked = asked.collect::<Result<Vec<CutRun>, _>>()?;
+        let runs = if asked.is_empty() { &cut.runs } else { &asked };
+        if runs.is_empty() {
+            return Err(missing("rpm", "a speed to cut at".to_owned()));
+        }
+        let cutting = Cutting::new(&scene, cut, runs, &|done, of| meter.show(done, of))?;
+        json(&CutReport::new(&scene, &cutting))
+    })
+}
+
+fn missing(key: &str, allowed: String) -> Failure {
+    Failure::argument(key, "missing", allowed, "add it to the scene")
+}
+
+/// `runup.json` of a scene.
+#[pyfunction]
+#[pyo3(signature = (scene, *, progress=None))]
+pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |meter| {
+        let runup = scene.runup.as_ref().ok_or_else(|| {
+            let allowed = "speeds, duration and force of the run-up".to_owned();
+            missing("runup", allowed)
+        })?;
+        let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
+        json(&RunUpReport::new(&scene, runup, &found)?)
+    })
+}
+
+/// `fit.json` of a scene. `measured` is a name and a table as comma-separated values; the scene's
+/// own frequencies without it.
+#[pyfunction]
+#[pyo3(signature = (scene, measured, free, *, to_rpm=None, confidence=0.95, starts=12, seed=0,
+                    progress=None))]
+#[allow(clippy::too_many_arguments, reason = "they are Python's")]
+pub fn fit(
+    py: Python<'_>,
+    scene: &str,
+    measured: Option<(String, String)>,
+    free: Vec<Bounds>,
+    to_rpm: Option<f64>,
+    confidence: f64,
+    starts: usize,
+    seed: u64,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let options = arguments::fit_options(confidence, starts, seed)?;
+    let to_rpm = match to_rpm {
+        Some(to_rpm) => rpm(arguments::speed("to_rpm", to_rpm)?),
+        None => f64::INFINITY,
+    };
+    let measurement = measurement(&scene, measured)?;
+    let fitted = measurement.up_to(to_rpm);
+    if fitted.count() == 0 {
+        let allowed = "a table with frequencies up to to_rpm".to_owned();
+        let remedy = "give another table, or another to_rpm";
+        return Err(Failure::argument("measured", "empty", allowed, remedy).into());
+    }
+    let freed = arguments::freed(&scene, free, Freed::usual_to_fit(&scene.file))?;
+    compute(py, progress, move |meter| {
+        let progress = |done, of| meter.show(done, of);
+        let fit = Fit::new(&scene, &fitted, &freed, &options, &progress)?;
+        let confidence = options.confidence;
+        json(&FitReport::new(
+            &scene,
+            &measurement,
+            to_rpm,
+            confidence,
+            &fit,
+        )?)
+    })
+}
+
+fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Measurement, Failure> {
+    match (measured, &scene.file.measured) {
+        (Some((name, table)), _) => Ok(Measurement::from_csv(&name, &table)?),
+        (None, Some(own)) => Ok(Measurement::of_scene(own)),
+        (None, None) => Err(missing("measured", "a table of frequencies".to_owned())),
+    }
+}
+
+/// `place.json` of a scene.
+#[pyfunction]
+#[pyo3(signature = (scene, free, *, goal="flutter", min_critical_rpm=None, samples=64, refine=60,
+                    map=17, progress=None))]
+#[allow(clippy::too_many_arguments, reason = "they are Python's")]
+pub fn place(
+    py: Python<'_>,
+    scene: &str,
+    free: Vec<Bounds>,
+    goal: &str,
+    min_critical_rpm: Option<f64>,
+    samples: usize,
+    refine: u64,
+    map: usize,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let demands = arguments::demands(&scene, goal, min_critical_rpm)?;
+    let options = arguments::place_options(samples, refine, map)?;
+    let usual = Freed::usual_to_place(&scene.file);
+    if usual.is_empty() && free.is_empty() {
+        return Err(missing("guides", "a guide to be placed".to_owned()).into());
+    }
+    let freed = arguments::freed(&scene, free, usual)?;
+    compute(py, progress, move |meter| {
+        let progress = |what, done, of| meter.show_of(what, done, of);
+        let found = Placement::new(&scene, &freed, &demands, &options, &progress)?;
+        json(&PlaceReport::new(&demands, &found))
+    })
+}
+
+/// `tradeoff.json` of a scene.
+#[pyfunction]
+#[pyo3(signature = (scene, *, progress=None))]
+pub fn tradeoff(
+    py: Python<'_>,
+    scene: &str,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |meter| {
+        let progress = |done, of| meter.show(done, of);
+        json(&sawflutter::stability::tradeoff(&scene, &progress)?)
+    })
+}

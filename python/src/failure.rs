@@ -1,0 +1,212 @@
+//! Why a computation failed, and which Python exception says so.
+
+use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use sawflutter::figure::FigureError;
+use sawflutter::fit::FitError;
+use sawflutter::place::PlaceError;
+use sawflutter::scene::SceneError;
+use sawflutter::spectrum::SpectrumError;
+use sawflutter::stability::SensitivityError;
+use sawflutter::study::{LogError, StudyError};
+use sawflutter::transient::TransientError;
+
+/// Why a computation failed.
+#[derive(Debug)]
+pub enum Failure {
+    /// Input that is refused.
+    Refused(Refusal),
+    /// A file that cannot be read.
+    Unreadable(std::io::Error, String),
+    /// A folder in place of a file.
+    Directory(String),
+    /// The computation itself.
+    Failed(String),
+    /// The library has a fault.
+    Fault(String),
+}
+
+/// What is wrong with an input, for the attributes of the exception.
+#[derive(Debug)]
+pub struct Refusal {
+    /// Name of the exception in `sawflutter.errors`.
+    pub class: &'static str,
+    pub message: String,
+    pub key: Option<String>,
+    pub value: Option<String>,
+    pub allowed: Option<String>,
+    pub remedy: Option<String>,
+}
+
+impl Refusal {
+    /// Of which only the message is known.
+    fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Self {
+        Refusal {
+            class,
+            message: message.to_string(),
+            key,
+            value: None,
+            allowed: None,
+            remedy: None,
+        }
+    }
+}
+
+impl Failure {
+    /// An argument of a method that is out of range.
+    pub fn argument(key: &str, value: impl ToString, allowed: String, remedy: &str) -> Self {
+        let value = value.to_string();
+        Failure::Refused(Refusal {
+            class: "ArgumentError",
+            message: format!("{key} is {value}, but must be {allowed}; {remedy}"),
+            key: Some(key.to_owned()),
+            value: Some(value),
+            allowed: Some(allowed),
+            remedy: Some(remedy.to_owned()),
+        })
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        let message = error.to_string();
+        let class = "SceneError";
+        match error {
+            SceneError::Read { source, .. } => Failure::Unreadable(source, message),
+            SceneError::Directory { .. } => Failure::Directory(message),
+            SceneError::Syntax { key, .. } => {
+                Failure::Refused(Refusal::saying(class, message, Some(key)))
+            }
+            SceneError::Value {
+                key,
+                value,
+                allowed,
+                remedy,
+            } => Failure::Refused(Refusal {
+                class,
+                message,
+                key: Some(key),
+                value: Some(value),
+                allowed: Some(allowed),
+                remedy: Some(remedy.to_owned()),
+            }),
+            _ => Failure::Refused(Refusal::saying(class, message, None)),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        let message = error.to_string();
+        let class = "StudyError";
+        match error {
+            StudyError::Syntax { key, .. } => {
+                Failure::Refused(Refusal::saying(class, message, Some(key)))
+            }
+            StudyError::Value {
+                key,
+                value,
+                allowed,
+                remedy,
+            } => Failure::Refused(Refusal {
+                class,
+                message,
+                key: Some(key),
+                value: Some(value),
+                allowed: Some(allowed),
+                remedy: Some(remedy.to_owned()),
+            }),
+            StudyError::Scene { key, source } => match Failure::from(source) {
+                Failure::Refused(refusal) => Failure::Refused(Refusal {
+                    message,
+                    key: Some(key),
+                    ..refusal
+                }),
+                other => other,
+            },
+            StudyError::Nominal(source) => source.into(),
+        }
+    }
+}
+
+impl From<FitError> for Failure {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Scene(source) => source.into(),
+            FitError::Spectrum(source) => source.into(),
+            other => Failure::Refused(Refusal::saying("ArgumentError", other, None)),
+        }
+    }
+}
+
+impl From<PlaceError> for Failure {
+    fn from(error: PlaceError) -> Self {
+        match error {
+            PlaceError::Scene(source) => source.into(),
+            PlaceError::Spectrum(source) => source.into(),
+            other => Failure::Refused(Refusal::saying("ArgumentError", other, None)),
+        }
+    }
+}
+
+impl From<LogError> for Failure {
+    fn from(error: LogError) -> Self {
+        let message = error.to_string();
+        match error {
+            LogError::Io { source, .. } => Failure::Unreadable(source, message),
+            _ => Failure::Refused(Refusal::saying("StudyError", message, None)),
+        }
+    }
+}
+
+/// Of errors that say all there is to say.
+macro_rules! failed {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                Failure::Failed(error.to_string())
+            }
+        })*
+    };
+}
+failed!(
+    SensitivityError,
+    SpectrumError,
+    TransientError,
+    FigureError,
+    serde_json::Error
+);
+
+impl From<Failure> for PyErr {
+    fn from(failure: Failure) -> Self {
+        Python::attach(|py| exception(py, failure).unwrap_or_else(|error| error))
+    }
+}
+
+fn exception(py: Python<'_>, failure: Failure) -> PyResult<PyErr> {
+    let class = |name: &str| -> PyResult<Bound<'_, PyType>> {
+        let class = py.import("sawflutter.errors")?.getattr(name)?;
+        Ok(class.cast_into::<PyType>()?)
+    };
+    Ok(match failure {
+        Failure::Refused(refusal) => PyErr::from_type(
+            class(refusal.class)?,
+            (
+                refusal.message,
+                refusal.key,
+                refusal.value,
+                refusal.allowed,
+                refusal.remedy,
+            ),
+        ),
+        // Python makes FileNotFoundError and its like of the number.
+        Failure::Unreadable(source, message) => match source.raw_os_error() {
+            Some(number) => PyOSError::new_err((number, message)),
+            None => PyOSError::new_err(message),
+        },
+        Failure::Directory(message) => PyIsADirectoryError::new_err(message),
+        Failure::Failed(message) => PyErr::from_type(class("AnalysisError")?, (message,)),
+        Failure::Fault(message) => PyRuntimeError::new_err(message),
+    })
+}

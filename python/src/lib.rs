@@ -1,0 +1,70 @@
+//! `sawflutter._native`: scenes and options come as JSON and plain numbers, reports go as JSON
+//! and matrices as bytes of doubles. What Python sees is made of them by the package around it.
+
+mod arguments;
+mod commands;
+mod failure;
+mod figures;
+mod matrices;
+mod study;
+mod watch;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::commands::{analyze, check, cut, fit, modes, place, runup, tradeoff};
+    #[pymodule_export]
+    use super::figures::{campbell_csv, palette, picture, summary};
+    #[pymodule_export]
+    use super::matrices::matrices;
+    #[pymodule_export]
+    use super::study::{Study, StudyLog};
+    #[pymodule_export]
+    use super::{panic, paper, program, read_scene, scene, schema};
+}
+
+/// The scene of a JSON text, validated, as JSON.
+#[pyfunction]
+fn scene(text: &str) -> PyResult<String> {
+    let scene = arguments::scene(text)?;
+    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+}
+
+/// The scene that comes with the program.
+#[pyfunction]
+fn paper() -> PyResult<String> {
+    let scene = sawflutter::scene::Scene::paper();
+    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+}
+
+/// The scene of a file, validated, as JSON.
+#[pyfunction]
+fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
+    let scene = sawflutter::scene::Scene::from_path(&path).map_err(failure::Failure::from)?;
+    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+}
+
+/// JSON schemas of scenes, studies and reports, as one JSON object.
+#[pyfunction]
+fn schema() -> String {
+    serde_json::json!({
+        "scene": sawflutter::scene::json_schema(),
+        "study": sawflutter::study::json_schema(),
+        "reports": sawflutter::report::json_schema(),
+    })
+    .to_string()
+}
+
+/// Runs the program with arguments, the first being its name; its exit code.
+#[pyfunction]
+fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| sawflutter::cli::run(arguments))
+}
+
+/// Panics as a fault of the library would: for the test that this is an exception.
+#[pyfunction]
+fn panic(py: Python<'_>) -> PyResult<()> {
+    watch::compute(py, None, |_| panic!("asked for by a test"))
+}

@@ -1,0 +1,73 @@
+//! The matrices of the equation of motion.
+
+use faer::Mat;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::stability::ChosenBasis;
+use sawflutter::system::GyroscopicSystem;
+
+use crate::arguments;
+use crate::failure::Failure;
+use crate::watch::compute;
+
+/// Most diameters and most radial functions: beyond them digits are lost or memory is.
+const LARGEST: (usize, usize) = (64, 14);
+
+/// The matrices by name, row by row as little-endian doubles, and the size of their basis.
+/// Bytes and no array: NumPy reads them without a copy, and rust-numpy would have the whole library
+/// built a second time, for features of its dependencies that the program does without.
+#[pyfunction]
+#[pyo3(signature = (scene, *, basis=None))]
+pub fn matrices<'py>(
+    py: Python<'py>,
+    scene: &str,
+    basis: Option<(usize, usize)>,
+) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
+    let scene = arguments::scene(scene)?;
+    let basis = basis.map(resolution).transpose()?;
+    let (named, resolution) = compute(py, None, move |_| {
+        let plate = match basis {
+            Some(resolution) => Plate::new(&scene, resolution),
+            None => ChosenBasis::new(&scene, scene.tolerance())?.plate,
+        };
+        let system = GyroscopicSystem::of_plate(&plate);
+        let mut named = vec![
+            ("stiffness", bytes(&system.stiffness)),
+            ("spin", bytes(&system.spin)),
+            ("gyroscopic", bytes(&system.gyroscopic)),
+        ];
+        named.extend(system.damping.iter().map(|m| ("damping", bytes(m))));
+        named.extend(system.circulatory.iter().map(|m| ("circulatory", bytes(m))));
+        Ok((named, plate.resolution))
+    })?;
+    let found = PyDict::new(py);
+    for (name, matrix) in named {
+        found.set_item(name, PyBytes::new(py, &matrix))?;
+    }
+    Ok((found, resolution.max_diameters, resolution.radial_functions))
+}
+
+fn resolution((max_diameters, radial_functions): (usize, usize)) -> Result<Resolution, Failure> {
+    let (diameters, functions) = LARGEST;
+    if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {
+        return Ok(Resolution {
+            max_diameters,
+            radial_functions,
+        });
+    }
+    Err(Failure::argument(
+        "basis",
+        format!("({max_diameters}, {radial_functions})"),
+        format!("diameters 2 to {diameters} and radial functions 2 to {functions}"),
+        "(16, 8) is usual",
+    ))
+}
+
+fn bytes(matrix: &Mat<f64>) -> Vec<u8> {
+    let (rows, columns) = (matrix.nrows(), matrix.ncols());
+    let places = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
+    places
+        .flat_map(|(i, k)| matrix[(i, k)].to_le_bytes())
+        .collect()
+}

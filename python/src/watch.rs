@@ -1,0 +1,121 @@
+//! Computations beside the interpreter: without its lock, with progress, and until Ctrl-C.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use sawflutter::spectrum::Stop;
+
+use crate::failure::Failure;
+
+/// How often Ctrl-C is looked for and progress is told.
+const BEAT: Duration = Duration::from_millis(50);
+
+/// How far a computation has come.
+#[derive(Debug, Default)]
+pub struct Meter {
+    done: AtomicUsize,
+    of: AtomicUsize,
+    what: Mutex<&'static str>,
+}
+
+impl Meter {
+    /// So many of so many are done.
+    pub fn show(&self, done: usize, of: usize) {
+        self.of.store(of, Ordering::Relaxed);
+        self.done.store(done, Ordering::Relaxed);
+    }
+
+    /// The same, of something else.
+    pub fn show_of(&self, what: &'static str, done: usize, of: usize) {
+        *lock(&self.what) = what;
+        self.show(done, of);
+    }
+
+    fn state(&self) -> (usize, usize, &'static str) {
+        let what = *lock(&self.what);
+        let (done, of) = (&self.done, &self.of);
+        (
+            done.load(Ordering::Relaxed),
+            of.load(Ordering::Relaxed),
+            what,
+        )
+    }
+}
+
+/// Runs work on threads of its own and waits for it without the interpreter's lock. When Python
+/// raises an exception meanwhile (Ctrl-C, or `progress` itself), that is returned at once, and the
+/// work ends at the next eigenproblem.
+///
+/// # Errors
+/// The exception of a [`Failure`], or the one that Python raised.
+pub fn compute<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<Bound<'_, PyAny>>,
+    work: impl FnOnce(&Meter) -> Result<T, Failure> + Send + 'static,
+) -> PyResult<T> {
+    let (stop, meter) = (Stop::default(), Arc::new(Meter::default()));
+    let (sender, receiver) = channel();
+    // A receiver is for one thread; the compiler wants to see that only one has it here.
+    let receiver = Mutex::new(receiver);
+    let (flag, gauge) = (stop.clone(), meter.clone());
+    std::thread::spawn(move || {
+        // Nobody listens any more where the computation was stopped.
+        let _ = sender.send(guarded(&flag, || work(&gauge)));
+    });
+    let mut told = (0, 0, "");
+    let mut tell = |state| match &progress {
+        Some(progress) if state != told => {
+            told = state;
+            progress.call1(state).map(|_| ())
+        }
+        _ => Ok(()),
+    };
+    loop {
+        match py.detach(|| lock(&receiver).recv_timeout(BEAT)) {
+            Ok(found) => {
+                tell(meter.state())?;
+                return Ok(found?);
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                let raised = py.check_signals().and_then(|()| tell(meter.state()));
+                if let Err(raised) = raised {
+                    stop.ask();
+                    return Err(raised);
+                }
+            }
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(Failure::Fault("the computation has no result".into()).into());
+            }
+        }
+    }
+}
+
+/// The work's result, a panic being a fault.
+fn guarded<T: Send>(
+    stop: &Stop,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let watched = catch_unwind(AssertUnwindSafe(|| stop.watched(work)));
+    match watched {
+        Ok(Ok(found)) => found,
+        Ok(Err(error)) => Err(Failure::Failed(error.to_string())),
+        Err(panic) => {
+            let said = panic
+                .downcast_ref::<String>()
+                .map(String::as_str)
+                .or(panic.downcast_ref::<&str>().copied());
+            Err(Failure::Fault(format!(
+                "a fault of sawflutter, please report it with the scene: {}",
+                said.unwrap_or("no message")
+            )))
+        }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

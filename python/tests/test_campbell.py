@@ -1,0 +1,178 @@
+"""Charts: the numbers that the library's own tests hold, and what Python makes of them."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sawflutter as sf
+
+
+def test_the_free_blade_has_the_critical_speed_of_the_paper() -> None:
+    # Exact, 1476.6 rpm; the paper's finite elements: 1475 rpm.
+    free = sf.Scene.paper().replace({"guides": []})
+    lowest = free.run_campbell().critical_rpm[0]
+    assert lowest == pytest.approx(1476.6, abs=0.2)
+
+
+def test_the_guided_saw_has_its_bands() -> None:
+    r = sf.Scene.paper().run_campbell()
+    assert r.critical_rpm[:4] == pytest.approx([1530.7, 1551.6, 2090.7, 2129.8], rel=1e-3)
+    assert r.flutter_rpm is not None and r.flutter_rpm == pytest.approx(2256.0, rel=1e-3)
+    first = r.bands[0]
+    assert (first.kind, first.closed) == ("divergence", True)
+    assert [first.from_rpm, first.to_rpm] == pytest.approx(r.critical_rpm[:2])
+    assert r.certificate.krein_violations == 0 and r.certificate.speeds_checked > 50
+
+
+def test_branches_are_arrays_that_cannot_be_written_to(report: sf.CampbellResults) -> None:
+    for branch in report.branches:
+        names = ("rpm", "frequency_hz", "body_frequency_hz", "growth_per_s")
+        arrays = [getattr(branch, name) for name in names]
+        assert all(array.dtype == np.float64 for array in arrays)
+        assert {array.shape for array in arrays} == {branch.rpm.shape}
+        assert branch.krein_sign.dtype == np.int64
+        assert branch.dominant_harmonics.shape == (len(branch.rpm), 2)
+        with pytest.raises(ValueError):
+            branch.rpm[0] = 1.0
+        assert np.all(np.diff(branch.rpm) > 0.0)
+    with pytest.raises(AttributeError):
+        report.bands[0].from_rpm = 3.0  # type: ignore[misc]
+
+
+def test_numpy_finds_the_same_eigenvalues(draft: sf.Scene) -> None:
+    """The modes of the package against NumPy's eigenvalues of the exported matrices."""
+    matrices = draft.matrices()
+    for rpm in (0.0, 1200.0, 1800.0, 2975.0):
+        eigenvalues = np.linalg.eigvals(matrices.companion(rpm))
+        modes = draft.modes(rpm)
+        for mode in modes[:6]:
+            value = mode.growth_per_s + 2j * np.pi * mode.frequency_hz
+            off = np.min(np.abs(eigenvalues - value))
+            assert off < 1e-4 * max(abs(value), 1.0), (rpm, mode.name, off)
+        fastest = max((mode.growth_per_s for mode in modes), default=0.0)
+        low = eigenvalues[np.abs(eigenvalues.imag) < 2 * np.pi * modes[-1].frequency_hz]
+        assert fastest == pytest.approx(max(low.real), abs=2e-3)
+
+
+def test_modes_lie_on_the_branches(draft: sf.Scene, report: sf.CampbellResults) -> None:
+    speeds = report.branches[0].rpm
+    rpm = float(speeds[np.argmin(abs(speeds - 1000.0))])
+    modes = draft.modes(rpm)
+    drawn = sorted(float(b.at(rpm)[0]) for b in report.branches if not np.isnan(b.at(rpm)[0]))
+    for mode, frequency in zip(modes, drawn):
+        assert mode.frequency_hz == pytest.approx(frequency, abs=1e-3)
+    assert [m.frequency_hz for m in report.modes(rpm)] == [m.frequency_hz for m in modes]
+
+
+def test_a_mode_at_rest_of_the_free_blade_has_its_nodal_diameters() -> None:
+    free = sf.Scene.paper().replace({"guides": [], "accuracy": "draft"})
+    mode = next(m for m in free.run_campbell().modes_at_rest if m.nodal_circles == 0 and m.nodal_diameters == 2)
+    around = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
+    w = mode.shape(0.355, around)
+    assert np.max(np.abs(w)) == pytest.approx(1.0, abs=1e-2)
+    assert np.count_nonzero(np.diff(np.sign(w))) in (3, 4)
+    assert np.isnan(mode.shape(0.36, 0.0)) and np.isnan(mode.shape(0.09, 0.0))
+
+
+def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(draft: sf.Scene) -> None:
+    """The phase of the dominant harmonic along θ, from the shape alone."""
+    turned = {"reflected": 1, "forward": 1, "backward": -1}
+    seen = set()
+    for mode in draft.modes(rpm=1800.0):
+        if mode.direction not in turned:
+            continue
+        n = mode.harmonics[0].nodal_diameters
+        around = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
+        w = mode.shape(0.35, around)
+        # e^{i(ωt − nθ)} runs forward.
+        forward = abs(np.mean(w * np.exp(1j * n * around)))
+        backward = abs(np.mean(w * np.exp(-1j * n * around)))
+        assert (forward > backward) == (turned[mode.direction] > 0), mode.name
+        seen.add(mode.direction)
+    assert {"reflected", "backward"} <= seen
+
+
+def test_a_speed_outside_the_sweep_is_refused(draft: sf.Scene) -> None:
+    for rpm in (-1.0, 3001.0, float("nan")):
+        with pytest.raises(sf.ArgumentError) as caught:
+            draft.modes(rpm)
+        assert caught.value.key == "rpm" and "3000" in str(caught.value)
+
+
+def test_every_key_of_the_report_is_an_attribute(report: sf.CampbellResults) -> None:
+    for key, value in report.raw.items():
+        found = getattr(report, key)
+        if isinstance(value, (str, int, float, type(None))):
+            assert found == value, key
+    raw = report.raw["campbell"]["branches"][3]
+    for key, value in raw.items():
+        found = getattr(report.branches[3], key)
+        assert (found.tolist() if isinstance(value, list) else found) == value, key
+
+
+def test_a_report_with_keys_that_are_not_known_yet_is_read(report: sf.CampbellResults) -> None:
+    import json
+
+    data = report.raw
+    data["of_tomorrow"] = {"x": 1}
+    data["bands_of_tomorrow"] = []
+    data["certificate"]["of_tomorrow"] = 3
+    read = sf.CampbellResults.from_json(json.dumps(data))
+    assert read.raw["of_tomorrow"] == {"x": 1}
+    assert read.bands == report.bands
+
+
+def test_a_result_is_saved_loaded_and_pickled(report: sf.CampbellResults, tmp_path: Path) -> None:
+    report.save(tmp_path / "report.json")
+    loaded = sf.load(tmp_path / "report.json")
+    assert loaded == report and hash(loaded) == hash(report)
+    copy = pickle.loads(pickle.dumps(report))
+    assert copy == report and copy.bands == report.bands
+    assert pickle.loads(pickle.dumps(report.bands[0])) == report.bands[0]
+    report.saw.save(tmp_path / "scene.json")
+    with pytest.raises(ValueError, match="no report"):
+        sf.load(tmp_path / "scene.json")
+
+
+def test_a_table_has_a_row_a_branch_and_speed(report: sf.CampbellResults, tmp_path: Path) -> None:
+    frame = report.to_dataframe()
+    assert len(frame) == sum(len(branch.rpm) for branch in report.branches)
+    third = frame[frame["branch"] == 3]
+    assert np.array_equal(third["frequency_hz"].to_numpy(), report.branches[3].frequency_hz)
+    report.to_csv(tmp_path / "campbell.csv")
+    assert (tmp_path / "campbell.csv").read_text().startswith("branch,name,rpm,frequency_hz")
+
+
+def test_a_notebook_shows_the_verdict_and_the_chart(report: sf.CampbellResults) -> None:
+    assert "lowest critical speed" in repr(report) and "flutter from" in repr(report)
+    shown = report._repr_html_()
+    assert "data:image/svg+xml;base64," in shown
+    assert report.saw.name in shown and "<script" not in shown
+    assert report.summary() in shown.replace("&#x27;", "'").replace("&lt;", "<")
+
+
+def test_sensitivities_are_asked_for(draft: sf.Scene) -> None:
+    r = draft.run_campbell(sensitivity=True)
+    paths = [s.parameter for s in r.sensitivities]
+    assert "blade.thickness_m" in paths
+    thickness = r.sensitivities[paths.index("blade.thickness_m")]
+    # Held against the critical speed of a blade that is 1 % thicker.
+    thicker = draft.replace({"blade.thickness_m": 1.01 * draft["blade.thickness_m"]})
+    moved = 100.0 * (thicker.run_campbell().critical_rpm[0] / r.critical_rpm[0] - 1.0)
+    assert thickness.critical_speeds_percent[0] == pytest.approx(moved, rel=0.05)
+
+
+def test_accuracy_and_tolerance_are_chosen(draft: sf.Scene) -> None:
+    r = draft.run_campbell(tolerance=3e-3)
+    assert r.accuracy.tolerance == 3e-3
+    assert draft.run_campbell(accuracy="design").accuracy.name == "design"
+    with pytest.raises(TypeError):
+        draft.run_campbell(accuracy="design", tolerance=1e-3)
+    with pytest.raises(sf.SceneError):
+        draft.run_campbell(tolerance=7.0)
+    with pytest.raises(sf.SceneError):
+        draft.run_campbell(accuracy="perfect")  # type: ignore[arg-type]

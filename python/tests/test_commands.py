@@ -1,0 +1,193 @@
+"""Every command of the program has its method; the numbers are those of the library's tests."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sawflutter as sf
+
+
+def test_check_holds_a_saw_against_limits(draft: sf.Scene) -> None:
+    passed = draft.check(operating_rpm=1250, min_critical_rpm=1500, min_flutter_rpm=2200)
+    assert passed.passed and passed.failures == ()
+    failed = draft.check(operating_rpm=1250, min_critical_rpm=1600, min_flutter_rpm=2500)
+    assert not failed.passed
+    assert [c.key for c in failed.criteria if not c.passed] == ["min_critical", "min_flutter"]
+    asked = {c.key: c.asked_rpm for c in failed.criteria}
+    assert asked["min_flutter"] == pytest.approx(2500.0)
+    assert asked["margin"] == pytest.approx(1250.0 / 0.85)
+    assert list(failed.to_dataframe()["passed"]) == [c.passed for c in failed.criteria]
+    # Without a speed, that of the scene counts: 1800 rpm.
+    assert draft.check().operating_rpm == pytest.approx(1800.0)
+
+
+def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:
+    for arguments, key in [
+        ({"operating_rpm": -3.0}, "operating_rpm"),
+        ({"operating_rpm": float("nan")}, "operating_rpm"),
+        ({"margin": 1.2}, "margin"),
+        ({"min_flutter_rpm": 0.0}, "min_flutter_rpm"),
+        ({"min_critical_rpm": float("inf")}, "min_critical_rpm"),
+    ]:
+        with pytest.raises(sf.ArgumentError) as caught:
+            draft.check(**arguments)
+        assert caught.value.key == key
+        assert caught.value.allowed is not None and caught.value.allowed in str(caught.value)
+    nowhere = draft.replace({"operating_rpm": None, "cut": None})
+    with pytest.raises(sf.ArgumentError, match="operating_rpm"):
+        nowhere.check()
+
+
+def test_cut_is_stable_at_1800_and_flutters_at_2800() -> None:
+    # README, table of the cut: 6.04 1/s at 4.53 Hz.
+    cut = sf.Scene.paper().run_cut()
+    slow, fast = cut.runs
+    assert [slow.verdict, fast.verdict] == ["stable", "unstable"]
+    assert [slow.rpm, fast.rpm] == pytest.approx([1800.0, 2800.0])
+    assert fast.growth_per_s == pytest.approx(6.04, abs=0.03)
+    assert fast.frequency_hz == pytest.approx(4.53, abs=0.02)
+    assert fast.time_s.shape == fast.deflection_m.shape
+    shape = (len(fast.map.load_level), len(fast.map.guide_angle_deg))
+    assert fast.map.growth_per_s.shape == shape
+    assert "stable at 1800 rpm, unstable at 2800 rpm" in repr(cut)
+    assert len(cut.to_dataframe()) == 2
+
+
+def test_cut_takes_other_speeds(draft: sf.Scene) -> None:
+    cut = draft.run_cut(2000.0)
+    assert [run.rpm for run in cut.runs] == pytest.approx([2000.0])
+    with pytest.raises(sf.SceneError):
+        draft.run_cut(-1.0)
+    with pytest.raises(sf.ArgumentError, match="cut"):
+        draft.replace({"cut": None}).run_cut()
+
+
+def test_run_up_crosses_bands(draft: sf.Scene) -> None:
+    up = draft.run_up()
+    assert up.rpm.shape == up.deflection_m.shape
+    assert up.bands and up.bands[0].band.kind == "divergence"
+    assert up.bands[0].growth_exponent > 0.0
+    response = up.response
+    shape = (len(response.rpm), len(response.frequency_hz))
+    assert response.receptance_m_per_n.shape == shape
+    assert len(up.to_dataframe()) == len(up.rpm)
+    with pytest.raises(sf.ArgumentError, match="runup"):
+        draft.replace({"runup": None}).run_up()
+
+
+def test_fit_finds_the_guide_of_the_paper(tmp_path: Path) -> None:
+    # README: 0.194 m and 2.08e7 N/m at 0.983 Hz rms.
+    saw = sf.Scene.paper()
+    found = saw.fit(to_rpm=1250, starts=3)
+    values = {parameter.path: parameter.value for parameter in found.parameters}
+    assert values["guides[0].radius_m"] == pytest.approx(0.194, abs=0.001)
+    assert values["guides[0].stiffness_n_per_m"] == pytest.approx(2.08e7, rel=0.01)
+    assert found.rms_hz == pytest.approx(0.983, abs=0.002)
+    assert found.saw["guides[0].radius_m"] == values["guides[0].radius_m"]
+    # The same table as rows, as a file and as an array.
+    rows = [(row["rpm"], row["frequencies_hz"]) for row in saw["measured"]["rows"]]
+    again = saw.fit(rows, to_rpm=1250, starts=3)
+    assert again.rms_hz == found.rms_hz
+    path = tmp_path / "measured.csv"
+    path.write_text("rpm,hz\n" + "\n".join(f"{r},{','.join(map(str, f))}" for r, f in rows))
+    assert saw.fit(path, to_rpm=1250, starts=3).rms_hz == found.rms_hz
+
+
+def test_fit_frees_what_is_named(draft: sf.Scene) -> None:
+    table = np.array([[0.0, 10.0, np.nan, 26.0], [500.0, 4.5, 15.5, 28.0]])
+    found = draft.fit(table, free={"guides[0].stiffness_n_per_m": (1e6, 1e8)}, starts=2)
+    assert [p.path for p in found.parameters] == ["guides[0].stiffness_n_per_m"]
+    assert (found.parameters[0].bound_from, found.parameters[0].bound_to) == (1e6, 1e8)
+    assert found.measured_frequencies == 5
+
+
+def test_what_cannot_be_fitted_is_refused(draft: sf.Scene, tmp_path: Path) -> None:
+    with pytest.raises(sf.ArgumentError, match="confidence"):
+        draft.fit(confidence=1.0)
+    with pytest.raises(sf.ArgumentError, match="starts"):
+        draft.fit(starts=0)
+    with pytest.raises(sf.SceneError, match="range"):
+        draft.fit(free={"guides[0].radius_m": (0.3, 0.2)})
+    with pytest.raises(sf.SceneError, match="guides\\[4\\]"):
+        draft.fit(free=["guides[4].radius_m"])
+    with pytest.raises(sf.ArgumentError, match="measured"):
+        draft.replace({"measured": None}).fit()
+    with pytest.raises(FileNotFoundError):
+        draft.fit("no-such-table.csv")
+    table = tmp_path / "measured.csv"
+    table.write_text("rpm,hz\n100,20,30\n200,21,thirty\n")
+    with pytest.raises(sf.InputError, match="line 3"):
+        draft.fit(table)
+
+
+def test_place_never_finds_less_than_the_start(draft: sf.Scene) -> None:
+    found = draft.place(
+        free={"guides[0].radius_m": (0.18, 0.28)}, samples=4, refine=6, map=0, progress=None
+    )
+    assert found.best.goal_rpm >= found.before.goal_rpm
+    assert found.goal == "flutter_speed"
+    radius = found.parameters[0].value
+    assert found.saw["guides[0].radius_m"] == radius and 0.18 <= radius <= 0.28
+
+
+def test_what_cannot_be_placed_is_refused(draft: sf.Scene) -> None:
+    with pytest.raises(sf.ArgumentError, match="goal"):
+        draft.place(goal="noise")  # type: ignore[arg-type]
+    with pytest.raises(sf.ArgumentError, match="guides"):
+        draft.replace({"guides": []}).place()
+    with pytest.raises(sf.ArgumentError, match="operating_rpm"):
+        draft.replace({"operating_rpm": None, "cut": None}).place(goal="window")
+    with pytest.raises(sf.ArgumentError, match="map"):
+        draft.place(map=1)
+
+
+def test_tradeoff_measures_time_and_error(draft: sf.Scene, tmp_path: Path) -> None:
+    found = draft.replace({"sweep.to_rpm": 1600}).tradeoff()
+    assert {s.method for s in found.settings} >= {"reduced", "dense", "critical_speeds"}
+    coarse, fine = found.recommended(1e-2), found.recommended(1e-3)
+    assert coarse is not None and fine is not None and coarse.seconds <= fine.seconds
+    assert found.recommended(0.0) is None
+    found.save(tmp_path / "tradeoff.json")
+    read = sf.load(tmp_path / "tradeoff.json")
+    assert isinstance(read, sf.TradeoffResults) and read == found
+    assert pickle.loads(pickle.dumps(found)) == found
+    assert len(found.to_dataframe()) == len(found.settings)
+
+
+def test_matrices_are_symmetric_and_skew(draft: sf.Scene) -> None:
+    m = draft.matrices(basis=(6, 4))
+    size = 4 * (2 * 6 + 1)
+    assert m.stiffness.shape == m.spin.shape == m.gyroscopic.shape == (size, size)
+    assert np.allclose(m.stiffness, m.stiffness.T) and np.allclose(m.spin, m.spin.T)
+    assert np.allclose(m.gyroscopic, -m.gyroscopic.T)
+    assert np.array_equal(m.mass, np.eye(size))
+    assert m.damping is None and m.circulatory is None
+    with pytest.raises(sf.ArgumentError, match="basis"):
+        draft.matrices(basis=(1, 4))
+
+
+def test_a_critical_speed_makes_the_stiffness_singular() -> None:
+    saw = sf.Scene.paper()
+    m = saw.matrices()
+    for rpm in saw.run_campbell().critical_rpm[:4]:
+        speed = rpm * np.pi / 30.0
+        eigenvalues = np.linalg.eigvalsh(m.stiffness + speed**2 * m.spin)
+        assert np.min(np.abs(eigenvalues)) < 1e-9 * np.max(np.abs(eigenvalues))
+
+
+def test_every_result_is_saved_loaded_and_pickled(draft: sf.Scene, tmp_path: Path) -> None:
+    for result in (draft.check(), draft.run_cut(1800.0), draft.run_up(), draft.fit(starts=1)):
+        result.save(tmp_path / "result.json")
+        loaded = sf.load(tmp_path / "result.json")
+        assert loaded == result and type(loaded) is type(result)
+        assert pickle.loads(pickle.dumps(result)) == result
+        assert "<img" in result._repr_html_()
+
+
+def test_a_saw_that_cannot_be_analysed_says_why(draft: sf.Scene) -> None:
+    with pytest.raises(sf.AnalysisError, match="sweep.to_rpm"):
+        draft.replace({"sweep.to_rpm": 900000}).run_campbell()

@@ -1,0 +1,95 @@
+"""Results equal the program's to the last bit."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import sawflutter as sf
+
+
+def ran(program: str, *arguments: object) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run([program, *map(str, arguments)], capture_output=True, timeout=300)
+
+
+def same(folder: Path, name: str, content: bytes) -> None:
+    assert (folder / name).read_bytes() == content, f"{name} differs"
+
+
+@pytest.mark.parametrize("scene", ["paper", "collar-400mm-tensioned", "free-blade", "two-pads"])
+def test_the_report_of_a_chart(
+    scene: str, programs: list[str], scenes: Path, tmp_path: Path
+) -> None:
+    path = scenes / f"{scene}.json"
+    r = sf.Scene.load(path).run_campbell(accuracy="draft")
+    for number, program in enumerate(programs):
+        out = tmp_path / str(number)
+        done = ran(program, "analyze", path, "--accuracy", "draft", "--out", out)
+        assert done.returncode == 0, done.stderr
+        r.save(tmp_path / "ours.json")
+        same(out, "report.json", (tmp_path / "ours.json").read_bytes())
+        r.to_csv(tmp_path / "ours.csv")
+        same(out, "campbell.csv", (tmp_path / "ours.csv").read_bytes())
+        for name in r.figure_names:
+            picture = r.figure(name)
+            assert (out / name).exists() == (picture is not None), name
+            if picture is not None:
+                same(out, name, picture)
+        assert done.stdout.decode().startswith(r.summary())
+
+
+def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    path = scenes / "paper.json"
+    saw = sf.Scene.load(path)
+    results: list[tuple[str, str, sf.Result]] = [
+        ("cut", "cut.json", saw.run_cut(accuracy="draft")),
+        ("runup", "runup.json", saw.run_up(accuracy="draft")),
+    ]
+    for program in programs:
+        for command, name, result in results:
+            done = ran(program, command, path, "--accuracy", "draft", "--out", tmp_path)
+            assert done.returncode == 0, done.stderr
+            same(tmp_path, name, result.to_json().encode())
+            for picture in result.figure_names:
+                content = result.figure(picture)
+                assert content is None or (tmp_path / picture).read_bytes() == content, picture
+
+
+def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    saw = sf.Scene.load(scenes / "paper.json")
+    check = saw.check(operating_rpm=1400, min_flutter_rpm=2000, accuracy="draft")
+    for program in programs:
+        done = ran(
+            program, "check", scenes / "paper.json", "--operating-rpm", 1400,
+            "--min-flutter-rpm", 2000, "--accuracy", "draft", "--json",
+        )  # fmt: skip
+        assert done.returncode == (0 if check.passed else 1)
+        assert done.stdout.decode().strip() == check.to_json()
+
+
+def test_the_matrices(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    import numpy as np
+
+    saw = sf.Scene.load(scenes / "paper.json").replace(
+        {"damping": {"material_retardation_time_s": 1e-6, "air_n_s_per_m3": 1.0}}
+    )
+    saw.save(tmp_path / "scene.json")
+    found = saw.matrices(basis=(6, 4))
+    for program in programs:
+        done = ran(
+            program, "export", "--matrices", tmp_path / "scene.json", "--basis", "6,4",
+            "--out", tmp_path,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        for name in ("stiffness", "spin", "gyroscopic", "damping", "circulatory"):
+            assert np.array_equal(np.load(tmp_path / f"{name}.npy"), getattr(found, name)), name
+
+
+def test_the_program_that_pip_installs_is_the_program(programs: list[str]) -> None:
+    helps = {ran(program, "--help").stdout for program in programs}
+    assert len(helps) == 1
+    text = helps.pop().decode()
+    assert "explore" in text and "analyze" in text
+    assert all(ran(program, "analyze", "no-such-file.json").returncode == 2 for program in programs)

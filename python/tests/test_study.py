@@ -1,0 +1,125 @@
+"""Studies: the same files as the program's, wherever the saws are computed."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sawflutter as sf
+
+VARIED: dict[str, Any] = {
+    "name": "Thickness and modulus",
+    "saws": 24,
+    "parameters": [
+        {
+            "path": "blade.thickness_m",
+            "distribution": {"kind": "tolerance", "plus_minus": 5e-5},
+        },
+        {
+            "path": "blade.material.youngs_modulus_pa",
+            "distribution": {"kind": "uniform", "from": 2.0e11, "to": 2.1e11},
+        },
+    ],
+    "limits": {"operating_rpm": 1200, "min_critical_rpm": 1470},
+}
+
+
+@pytest.fixture(scope="module")
+def study(draft: sf.Scene) -> sf.Study:
+    return sf.Study(draft.replace({"guides": []}), VARIED)
+
+
+def test_the_files_are_those_of_the_program(
+    study: sf.Study, programs: list[str], tmp_path: Path
+) -> None:
+    import json
+
+    result = study.run(tmp_path / "ours")
+    study.scene.save(tmp_path / "scene.json")
+    (tmp_path / "study-file.json").write_text(json.dumps(study.to_dict()))
+    for number, program in enumerate(programs):
+        out = tmp_path / str(number)
+        arguments = ["study", tmp_path / "scene.json", tmp_path / "study-file.json", "--out", out]
+        done = subprocess.run([program, *map(str, arguments)], capture_output=True)
+        assert done.returncode == 0, done.stderr
+        for name in ("study.json", "study.csv", "study.parquet", "study.png", "study.svg"):
+            assert (out / name).read_bytes() == (tmp_path / "ours" / name).read_bytes(), name
+    assert sf.load(tmp_path / "ours" / "study.json") == result
+
+
+def test_executors_give_the_same_saws(study: sf.Study, tmp_path: Path) -> None:
+    alone = study.run(tmp_path / "alone")
+    told: list[tuple[int, int]] = []
+    with ThreadPoolExecutor(2) as threads:
+        threaded = study.run(
+            tmp_path / "threads", executor=threads, progress=lambda done, of: told.append((done, of))
+        )
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+        spread = study.run(tmp_path / "processes", executor=processes)
+    assert alone == threaded == spread
+    assert told[-1] == (24, 24)
+
+
+def test_a_stopped_study_goes_on(study: sf.Study, tmp_path: Path) -> None:
+    class Enough(Exception):
+        pass
+
+    def stop(done: int, of: int) -> None:
+        if done >= 8:
+            raise Enough
+
+    with ThreadPoolExecutor(1) as threads, pytest.raises(Enough):
+        study.run(tmp_path, executor=threads, progress=stop)
+    logged = len((tmp_path / "study.log").read_text().splitlines()) - 2
+    assert 0 < logged < 24 and not (tmp_path / "study.json").exists()
+    told: list[int] = []
+    result = study.run(tmp_path, progress=lambda done, of: told.append(done))
+    assert result.all.saws == 24 and min(told) >= logged
+
+
+def test_saws_vary_as_they_are_told(study: sf.Study, tmp_path: Path) -> None:
+    values = study.values()
+    assert values.shape == (24, 2)
+    assert np.all(abs(values[:, 0] - 0.0028) <= 5e-5)
+    assert np.all((2.0e11 <= values[:, 1]) & (values[:, 1] <= 2.1e11))
+    frame = study.run(tmp_path).to_dataframe()
+    assert np.array_equal(frame["blade.thickness_m"].to_numpy(), values[:, 0])
+    # A free blade's critical speeds go with thickness and the root of the modulus.
+    scale = values[:, 0] * np.sqrt(values[:, 1])
+    speeds = frame["lowest_critical_rpm"].to_numpy()
+    assert np.allclose(speeds / scale, speeds[0] / scale[0], rtol=1e-6)
+    assert np.allclose(study.values([3, 5]), values[[3, 5]])
+
+
+def test_what_is_no_study_is_refused(draft: sf.Scene, tmp_path: Path) -> None:
+    with pytest.raises(sf.StudyError) as caught:
+        sf.Study(draft, {**VARIED, "saws": 0})
+    assert caught.value.key == "saws"
+    with pytest.raises(sf.StudyError, match="parameters"):
+        sf.Study(draft, {"name": "nothing", "parameters": []})
+    with pytest.raises(sf.StudyError, match="swas"):
+        sf.Study(draft, {**VARIED, "swas": 3})
+    with pytest.raises(FileNotFoundError):
+        sf.Study(draft, tmp_path / "none.json")
+
+
+def test_a_folder_of_another_study_is_refused(study: sf.Study, tmp_path: Path) -> None:
+    study.run(tmp_path)
+    other = sf.Study(study.scene, {**VARIED, "seed": 7})
+    with pytest.raises(sf.StudyError, match="another study"):
+        other.run(tmp_path)
+
+
+def test_a_study_is_pickled(study: sf.Study) -> None:
+    copy = pickle.loads(pickle.dumps(study))
+    assert copy == study and copy.count == 24
+    assert "24 saws" in repr(copy)
+    with pytest.raises(sf.ArgumentError):
+        study.values([24])

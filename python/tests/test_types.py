@@ -1,0 +1,42 @@
+"""Types that are generated are those of the library."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import sys
+from pathlib import Path
+
+import pytest
+
+import sawflutter as sf
+from sawflutter import _native, _report_types
+
+GENERATOR = Path(__file__).resolve().parents[1] / "tools" / "generate_types.py"
+
+
+def test_the_generated_types_are_up_to_date(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", [str(GENERATOR), "--check"])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_path(str(GENERATOR), run_name="__main__")
+    assert ended.value.code == 0, "run python/tools/generate_types.py"
+
+
+def test_every_object_of_the_reports_has_a_class_with_a_docstring() -> None:
+    reports = json.loads(_native.schema())["reports"]
+    assert set(reports) == {
+        "analyze", "check", "cut", "fit", "modes", "place", "runup", "study", "tradeoff"
+    }  # fmt: skip
+    for name in vars(_report_types):
+        of = getattr(_report_types, name)
+        if isinstance(of, type) and of.__module__ == _report_types.__name__:
+            assert of.__doc__, name
+
+
+def test_everything_public_has_a_docstring() -> None:
+    for name in sf.__all__:
+        found = getattr(sf, name)
+        assert found.__doc__, name
+        for method, value in vars(found).items() if isinstance(found, type) else ():
+            if callable(value) and not method.startswith("_"):
+                assert value.__doc__, f"{name}.{method}"

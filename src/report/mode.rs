@@ -1,0 +1,109 @@
+//! One mode at one speed, with its shape.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::plate::Plate;
+use crate::scene::rpm;
+use crate::spectrum::{DescribedMode, Direction};
+
+/// w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModeEntry {
+    /// Its harmonics in words, with shares where none dominates.
+    pub name: String,
+    /// How the wave runs, seen from space.
+    pub direction: Direction,
+    /// Rotation speed.
+    pub rpm: f64,
+    /// |Im λ|/2π in the space-fixed frame.
+    pub frequency_hz: f64,
+    /// Frequency of the dominant harmonic on the blade.
+    pub body_frequency_hz: f64,
+    /// Re λ.
+    pub growth_per_s: f64,
+    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    pub krein_sign: i8,
+    /// Radii of the profiles.
+    pub radius_m: Vec<f64>,
+    /// Harmonics that can be seen, largest first.
+    pub harmonics: Vec<WaveEntry>,
+}
+
+/// n nodal diameters of a mode.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WaveEntry {
+    /// n.
+    pub nodal_diameters: usize,
+    /// Share in the kinetic energy, between 0 and 1.
+    pub share: f64,
+    /// Coefficient of cos nθ at the radii.
+    pub cosine: ComplexEntry,
+    /// Coefficient of sin nθ at the radii.
+    pub sine: ComplexEntry,
+}
+
+/// A list of complex numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComplexEntry {
+    /// Real parts.
+    pub re: Vec<f64>,
+    /// Imaginary parts.
+    pub im: Vec<f64>,
+}
+
+/// Harmonics with a smaller share of the energy cannot be seen moving.
+const LEAST_SHARE: f64 = 1e-3;
+
+impl ModeEntry {
+    /// A mode at a speed.
+    pub fn new(plate: &Plate, speed_rad_per_s: f64, described: &DescribedMode) -> Self {
+        let (mode, name) = (&described.mode, &described.name);
+        let seen = name.harmonics.iter().filter(|h| h.share >= LEAST_SHARE);
+        ModeEntry {
+            name: name.in_shares(),
+            direction: name.direction,
+            rpm: rpm(speed_rad_per_s),
+            frequency_hz: mode.frequency_rad_per_s() / TAU,
+            body_frequency_hz: name.body_frequency_rad_per_s / TAU,
+            growth_per_s: mode.growth_per_s(),
+            krein_sign: mode.krein_sign(),
+            radius_m: plate.sampled_radii_m().collect(),
+            harmonics: seen
+                .map(|h| wave(plate, described, h.diameters, h.share))
+                .collect(),
+        }
+    }
+}
+
+fn wave(plate: &Plate, described: &DescribedMode, n: usize, share: f64) -> WaveEntry {
+    let (first, size) = (plate.offset(n), plate.basis.count());
+    let profile = |offset: usize| {
+        let at = |radial: &Vec<f64>| -> c64 {
+            let terms = radial.iter().zip(offset..);
+            let sum: c64 = terms.map(|(r, i)| described.shape[i] * *r).sum();
+            sum / plate.angular_norm(n)
+        };
+        let values: Vec<c64> = plate.sampled_functions(n).iter().map(at).collect();
+        ComplexEntry {
+            re: values.iter().map(|c| c.re).collect(),
+            im: values.iter().map(|c| c.im).collect(),
+        }
+    };
+    let none = || ComplexEntry {
+        re: vec![0.0; plate.sampled_functions(n).len()],
+        im: vec![0.0; plate.sampled_functions(n).len()],
+    };
+    WaveEntry {
+        nodal_diameters: n,
+        share,
+        cosine: profile(first),
+        sine: if n > 0 { profile(first + size) } else { none() },
+    }
+}

@@ -1,0 +1,34 @@
+//! JSON schemas of the reports, for whoever reads them in another language.
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::{Value, json};
+
+use super::{CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport};
+use crate::stability::Setting;
+use crate::study::StudyReport;
+
+/// The JSON schema of each report, by the command that writes it; `modes` is the list of modes
+/// at one speed.
+pub fn json_schema() -> Value {
+    json!({
+        "analyze": of::<Report>(),
+        "check": of::<CheckReport>(),
+        "cut": of::<CutReport>(),
+        "fit": of::<FitReport>(),
+        "modes": of::<Vec<ModeEntry>>(),
+        "place": of::<PlaceReport>(),
+        "runup": of::<RunUpReport>(),
+        "study": of::<StudyReport>(),
+        "tradeoff": of::<Vec<Setting>>(),
+    })
+}
+
+/// As the reports are written: what is always there is required.
+fn of<T: JsonSchema>() -> Value {
+    let settings = SchemaSettings::default().for_serialize();
+    settings
+        .into_generator()
+        .into_root_schema_for::<T>()
+        .to_value()
+}
