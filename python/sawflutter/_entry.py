@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -67,7 +67,7 @@ def _short(value: Any) -> str:
 
 
 @lru_cache(maxsize=None)
-def _readers(cls: Any) -> tuple[tuple[str, str, Reader], ...]:
+def _readers(cls: Hashable) -> tuple[tuple[str, str, Reader], ...]:
     """Of each attribute its name, its key in the JSON, and how it is read."""
     hints = get_type_hints(cls)
     found = []

@@ -33,7 +33,9 @@ class RestModeMethods(Entry):
         ndarray of float, of the broadcast shape
             NaN off the blade.
         """
-        radius, theta = np.broadcast_arrays(np.asarray(radius_m, float), np.asarray(theta_rad, float))
+        radius, theta = np.broadcast_arrays(
+            np.asarray(radius_m, float), np.asarray(theta_rad, float)
+        )
         total = np.zeros(radius.shape)
         for part in self.profiles:
             n = part.nodal_diameters
@@ -78,7 +80,9 @@ class ModeMethods(Entry):
         >>> mode.shape(0.3, np.linspace(0, np.pi, 4)).shape
         (4,)
         """
-        radius, theta = np.broadcast_arrays(np.asarray(radius_m, float), np.asarray(theta_rad, float))
+        radius, theta = np.broadcast_arrays(
+            np.asarray(radius_m, float), np.asarray(theta_rad, float)
+        )
         total = np.zeros(radius.shape, complex)
         for wave in self.harmonics:
             n = wave.nodal_diameters

@@ -205,8 +205,12 @@ class CampbellResults(Result, CampbellReport):
     def _facts(self) -> str:
         first, last = self.campbell.from_rpm, self.campbell.to_rpm
         lowest = self.critical_rpm[:1]
-        critical = f"lowest critical speed {lowest[0]:.0f} rpm" if len(lowest) else "no critical speed"
-        flutter = "no flutter" if self.flutter_rpm is None else f"flutter from {self.flutter_rpm:.0f} rpm"
+        critical = (
+            f"lowest critical speed {lowest[0]:.0f} rpm" if len(lowest) else "no critical speed"
+        )
+        flutter = (
+            "no flutter" if self.flutter_rpm is None else f"flutter from {self.flutter_rpm:.0f} rpm"
+        )
         return (
             f"{critical}, {flutter}, {len(self.bands)} bands of instability "
             f"from {first:.0f} to {last:.0f} rpm"
@@ -364,7 +368,9 @@ class StudyResults(Result, StudyReport):
     def to_dataframe(self) -> pd.DataFrame:
         """One row a saw, from ``study.csv`` beside the report; needs pandas."""
         if self._folder is None:
-            raise FileNotFoundError("the table of the saws is study.csv beside the report: load it there")
+            raise FileNotFoundError(
+                "the table of the saws is study.csv beside the report: load it there"
+            )
         return read((self._folder / "study.csv").read_text(encoding="utf-8"))
 
     def chart(self) -> Chart:

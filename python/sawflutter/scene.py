@@ -35,9 +35,7 @@ if TYPE_CHECKING:
 # Paths of the scene and their bounds, or paths with the usual bounds.
 Free: TypeAlias = "Mapping[str, tuple[float, float] | None] | Iterable[str] | None"
 # A file, or rows of a speed in rpm and frequencies in Hz.
-Measured: TypeAlias = (
-    "str | os.PathLike[str] | npt.NDArray[np.float64] | Iterable[tuple[float, Sequence[float]]] | None"
-)
+Measured: TypeAlias = "str | os.PathLike[str] | npt.NDArray[np.float64] | Iterable[tuple[float, Sequence[float]]] | None"
 
 
 @dataclass(frozen=True)
@@ -462,9 +460,7 @@ class Scene:
         stiffness, spin, gyroscopic = (array(n) for n in ("stiffness", "spin", "gyroscopic"))
         assert stiffness is not None and spin is not None and gyroscopic is not None
         damping, circulatory = array("damping"), array("circulatory")
-        return Matrices(
-            stiffness, spin, gyroscopic, damping, circulatory, diameters, functions
-        )
+        return Matrices(stiffness, spin, gyroscopic, damping, circulatory, diameters, functions)
 
     def animate(
         self, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
@@ -559,7 +555,9 @@ def _bounds(free: Free) -> list[tuple[str, tuple[float, float] | None]]:
     if isinstance(free, str):
         return [(free, None)]
     if isinstance(free, Mapping):
-        return [(path, None if b is None else (float(b[0]), float(b[1]))) for path, b in free.items()]
+        return [
+            (path, None if b is None else (float(b[0]), float(b[1]))) for path, b in free.items()
+        ]
     return [(path, None) for path in free]
 
 

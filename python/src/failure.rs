@@ -16,7 +16,7 @@ use sawflutter::transient::TransientError;
 #[derive(Debug)]
 pub enum Failure {
     /// Input that is refused.
-    Refused(Refusal),
+    Refused(Box<Refusal>),
     /// A file that cannot be read.
     Unreadable(std::io::Error, String),
     /// A folder in place of a file.
@@ -41,15 +41,15 @@ pub struct Refusal {
 
 impl Refusal {
     /// Of which only the message is known.
-    fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Self {
-        Refusal {
+    fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Failure {
+        Failure::Refused(Box::new(Refusal {
             class,
             message: message.to_string(),
             key,
             value: None,
             allowed: None,
             remedy: None,
-        }
+        }))
     }
 }
 
@@ -57,14 +57,14 @@ impl Failure {
     /// An argument of a method that is out of range.
     pub fn argument(key: &str, value: impl ToString, allowed: String, remedy: &str) -> Self {
         let value = value.to_string();
-        Failure::Refused(Refusal {
+        Failure::Refused(Box::new(Refusal {
             class: "ArgumentError",
             message: format!("{key} is {value}, but must be {allowed}; {remedy}"),
             key: Some(key.to_owned()),
             value: Some(value),
             allowed: Some(allowed),
             remedy: Some(remedy.to_owned()),
-        })
+        }))
     }
 }
 
@@ -75,23 +75,21 @@ impl From<SceneError> for Failure {
         match error {
             SceneError::Read { source, .. } => Failure::Unreadable(source, message),
             SceneError::Directory { .. } => Failure::Directory(message),
-            SceneError::Syntax { key, .. } => {
-                Failure::Refused(Refusal::saying(class, message, Some(key)))
-            }
+            SceneError::Syntax { key, .. } => Refusal::saying(class, message, Some(key)),
             SceneError::Value {
                 key,
                 value,
                 allowed,
                 remedy,
-            } => Failure::Refused(Refusal {
+            } => Failure::Refused(Box::new(Refusal {
                 class,
                 message,
                 key: Some(key),
                 value: Some(value),
                 allowed: Some(allowed),
                 remedy: Some(remedy.to_owned()),
-            }),
-            _ => Failure::Refused(Refusal::saying(class, message, None)),
+            })),
+            _ => Refusal::saying(class, message, None),
         }
     }
 }
@@ -101,28 +99,26 @@ impl From<StudyError> for Failure {
         let message = error.to_string();
         let class = "StudyError";
         match error {
-            StudyError::Syntax { key, .. } => {
-                Failure::Refused(Refusal::saying(class, message, Some(key)))
-            }
+            StudyError::Syntax { key, .. } => Refusal::saying(class, message, Some(key)),
             StudyError::Value {
                 key,
                 value,
                 allowed,
                 remedy,
-            } => Failure::Refused(Refusal {
+            } => Failure::Refused(Box::new(Refusal {
                 class,
                 message,
                 key: Some(key),
                 value: Some(value),
                 allowed: Some(allowed),
                 remedy: Some(remedy.to_owned()),
-            }),
+            })),
             StudyError::Scene { key, source } => match Failure::from(source) {
-                Failure::Refused(refusal) => Failure::Refused(Refusal {
+                Failure::Refused(refusal) => Failure::Refused(Box::new(Refusal {
                     message,
                     key: Some(key),
-                    ..refusal
-                }),
+                    ..*refusal
+                })),
                 other => other,
             },
             StudyError::Nominal(source) => source.into(),
@@ -135,7 +131,7 @@ impl From<FitError> for Failure {
         match error {
             FitError::Scene(source) => source.into(),
             FitError::Spectrum(source) => source.into(),
-            other => Failure::Refused(Refusal::saying("ArgumentError", other, None)),
+            other => Refusal::saying("ArgumentError", other, None),
         }
     }
 }
@@ -145,7 +141,7 @@ impl From<PlaceError> for Failure {
         match error {
             PlaceError::Scene(source) => source.into(),
             PlaceError::Spectrum(source) => source.into(),
-            other => Failure::Refused(Refusal::saying("ArgumentError", other, None)),
+            other => Refusal::saying("ArgumentError", other, None),
         }
     }
 }
@@ -155,7 +151,7 @@ impl From<LogError> for Failure {
         let message = error.to_string();
         match error {
             LogError::Io { source, .. } => Failure::Unreadable(source, message),
-            _ => Failure::Refused(Refusal::saying("StudyError", message, None)),
+            _ => Refusal::saying("StudyError", message, None),
         }
     }
 }

@@ -70,7 +70,11 @@ def test_modes_lie_on_the_branches(draft: sf.Scene, report: sf.CampbellResults) 
 
 def test_a_mode_at_rest_of_the_free_blade_has_its_nodal_diameters() -> None:
     free = sf.Scene.paper().replace({"guides": [], "accuracy": "draft"})
-    mode = next(m for m in free.run_campbell().modes_at_rest if m.nodal_circles == 0 and m.nodal_diameters == 2)
+    mode = next(
+        m
+        for m in free.run_campbell().modes_at_rest
+        if m.nodal_circles == 0 and m.nodal_diameters == 2
+    )
     around = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
     w = mode.shape(0.355, around)
     assert np.max(np.abs(w)) == pytest.approx(1.0, abs=1e-2)
@@ -78,7 +82,9 @@ def test_a_mode_at_rest_of_the_free_blade_has_its_nodal_diameters() -> None:
     assert np.isnan(mode.shape(0.36, 0.0)) and np.isnan(mode.shape(0.09, 0.0))
 
 
-def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(draft: sf.Scene) -> None:
+def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(
+    draft: sf.Scene,
+) -> None:
     """The phase of the dominant harmonic along θ, from the shape alone."""
     turned = {"reflected": 1, "forward": 1, "backward": -1}
     seen = set()

@@ -50,7 +50,9 @@ def test_replace_begins_and_removes_blocks() -> None:
         saw["damping"]
 
 
-@pytest.mark.parametrize("path", ["guides[7].radius_m", "guides.radius_m", "blade[0]", "", "name.x"])
+@pytest.mark.parametrize(
+    "path", ["guides[7].radius_m", "guides.radius_m", "blade[0]", "", "name.x"]
+)
 def test_a_path_that_no_scene_has_is_named(path: str) -> None:
     with pytest.raises(KeyError) as error:
         sf.Scene.paper().replace({path: 1.0})

@@ -59,7 +59,9 @@ def test_executors_give_the_same_saws(study: sf.Study, tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
     with ThreadPoolExecutor(2) as threads:
         threaded = study.run(
-            tmp_path / "threads", executor=threads, progress=lambda done, of: told.append((done, of))
+            tmp_path / "threads",
+            executor=threads,
+            progress=lambda done, of: told.append((done, of)),
         )
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
         spread = study.run(tmp_path / "processes", executor=processes)

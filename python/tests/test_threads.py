@@ -115,7 +115,9 @@ print("not interrupted", flush=True)
 )
 def test_ctrl_c_arrives_within_a_fifth_of_a_second_and_stops_the_computation(work: str) -> None:
     script = INTERRUPTED.format(work=work)
-    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+    with subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, text=True
+    ) as child:
         assert child.stdout is not None
         assert child.stdout.readline() == "ready\n"
         time.sleep(0.3)

@@ -114,7 +114,9 @@ class SceneTypes:
             union = []
             for option in schema["oneOf"]:
                 kind = option["properties"]["kind"]["const"]
-                union.append(self.typed_dict(name.removesuffix("Dict") + kind.title() + "Dict", option))
+                union.append(
+                    self.typed_dict(name.removesuffix("Dict") + kind.title() + "Dict", option)
+                )
             self.written[name] = [f"{name}: TypeAlias = {' | '.join(union)}"]
         else:
             self.typed_dict(name, schema)

@@ -1,0 +1,236 @@
+"""The Campbell diagram and root loci."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._report_types import Branch
+from .chart import STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
+
+if TYPE_CHECKING:
+    from ..results import CampbellResults
+
+# Smaller growth rates are rounding of the eigenvalues, as in the program's figures.
+NEGLIGIBLE_PER_S = 1e-3
+LOWEST_BRANCHES = 6
+HEADROOM = 1.1
+# Narrower bands, as a share of the axis, get a stronger colour.
+NARROW = 0.004
+
+
+def campbell(r: CampbellResults) -> Chart:
+    """Frequencies over speed, growth rates below."""
+    speeds = (r.campbell.from_rpm, r.campbell.to_rpm)
+    marks: list[Item] = [*bands(r, speeds), *_uprights(r)]
+    upper = Panel(
+        x_name="rotation speed Ω [rpm]",
+        y_name="Im λ / 2π [Hz]",
+        items=[*marks, *_branches(r), *_measured(r), _critical(r)],
+        x_range=speeds,
+        y_range=(0.0, highest_shown_hz(r)),
+        share=2.0,
+    )
+    growth, range_per_s = _growth(r)
+    lower = Panel(
+        x_name="rotation speed Ω [rpm]",
+        y_name="Re λ [1/s], square root scale",
+        items=[*marks, *growth],
+        x_range=speeds,
+        y_range=range_per_s,
+        y_root=True,
+    )
+    return Chart(r.scene["name"], r._facts(), (upper, lower))
+
+
+def colour_of(branch: Branch) -> str:
+    """Blue forward, red backward, grey standing."""
+    named = "backward" if branch.direction == "reflected" else branch.direction
+    return colours()[named]
+
+
+def label_of(branch: Branch) -> str:
+    """Short name: "2/1 backward" has two diameters and one circle."""
+    circles = f"/{branch.nodal_circles}" if branch.nodal_circles else ""
+    return f"{branch.nodal_diameters}{circles} {branch.direction}"
+
+
+def bands(r: CampbellResults, speeds: tuple[float, float]) -> list[Shade]:
+    """Bands of instability, narrow ones in a stronger colour and on top."""
+    found = []
+    for band in r.bands:
+        narrow = band.to_rpm - band.from_rpm < NARROW * (speeds[1] - speeds[0])
+        colour = colours()[f"{band.kind}_{'streak' if narrow else 'shade'}"]
+        name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
+        found.append((narrow, Shade(band.from_rpm, band.to_rpm, colour, name)))
+    return [shade for _, shade in sorted(found, key=lambda pair: pair[0])]
+
+
+def highest_shown_hz(r: CampbellResults) -> float:
+    """High enough for the lowest branches, reflected waves, bands and measured points."""
+    first = r.campbell.from_rpm
+    starts = sorted(b.frequency_hz[0] for b in r.branches if len(b.rpm) and b.rpm[0] == first)
+    wanted = [*starts[:LOWEST_BRANCHES], *(band.frequency_hz for band in r.bands)]
+    for branch in r.branches:
+        wanted += branch.frequency_hz[branch.krein_sign < 0].tolist()
+    measured = r.scene.get("measured")
+    for row in measured["rows"] if measured else []:
+        wanted += row["frequencies_hz"]
+    top = HEADROOM * max(wanted, default=0.0)
+    complete = r.campbell.complete_to_hz
+    top = min(top, complete) if complete > 0.0 else top
+    return top if top > 0.0 else 1.0
+
+
+def _uprights(r: CampbellResults) -> list[Upright]:
+    quiet = colours()["divergence"]
+    lines = [Upright(c.rpm, quiet, name=f"critical {c.rpm:.0f} rpm") for c in r.critical_speeds]
+    if r.operating is not None:
+        rpm = r.operating.rpm
+        lines.append(Upright(rpm, colours()["ink"], dashed=False, name=f"operating {rpm:.0f} rpm"))
+    return lines
+
+
+def _hover(branch: Branch) -> list[str]:
+    rows = zip(branch.rpm, branch.frequency_hz, branch.growth_per_s, branch.krein_sign)
+    signs = {1: "+1", -1: "−1, reflected", 0: "0"}
+    return [
+        f"{branch.name}<br>{rpm:.1f} rpm<br>{hz:.3f} Hz<br>growth {growth:.3g} 1/s"
+        f"<br>Krein sign {signs[int(sign)]}"
+        for rpm, hz, growth, sign in rows
+    ]
+
+
+def _branches(r: CampbellResults) -> list[Item]:
+    """Solid where a wave has positive energy, dashed where reflected, thick where unstable."""
+    items: list[Item] = []
+    last = r.campbell.to_rpm
+    # From the highest down, so that the lowest branches lie on top.
+    for branch in reversed(r.branches):
+        hover = _hover(branch)
+        if len(branch.rpm) == 1:
+            items.append(Points(branch.rpm, branch.frequency_hz, colour_of(branch), hover=hover))
+        looks = _looks(r, branch)
+        for look, dashed, width in (
+            ("plain", False, 1.6),
+            ("reflected", True, 1.6),
+            ("unstable", False, STRONG_CURVE),
+        ):
+            places = _stretches(looks == look)
+            if not len(places):
+                continue
+            ends = look == looks[-1] and branch.rpm[-1] == last
+            x, y = (_picked(values, places) for values in (branch.rpm, branch.frequency_hz))
+            said = [hover[place] if place >= 0 else "" for place in places]
+            items.append(
+                Line(
+                    x,
+                    y,
+                    colour_of(branch),
+                    branch.name,
+                    width,
+                    dashed,
+                    said,
+                    label_of(branch) if ends else "",
+                )
+            )
+    return items
+
+
+def _looks(r: CampbellResults, branch: Branch) -> np.ndarray[tuple[int], np.dtype[np.str_]]:
+    """What each segment of a branch looks like."""
+    grows = branch.growth_per_s > NEGLIGIBLE_PER_S
+    reflected = branch.krein_sign == -1
+    middle = (branch.rpm[:-1] + branch.rpm[1:]) / 2.0
+    within = np.zeros(len(middle), bool)
+    for band in r.bands:
+        within |= (band.from_rpm <= middle) & (middle <= band.to_rpm)
+    unstable = within & (grows[:-1] | grows[1:])
+    dashed = reflected[:-1] | reflected[1:]
+    return np.where(unstable, "unstable", np.where(dashed, "reflected", "plain"))
+
+
+def _stretches(
+    chosen: np.ndarray[tuple[int], np.dtype[np.bool_]],
+) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """Places of the ends of the chosen segments, −1 between stretches."""
+    places: list[int] = []
+    for segment in np.flatnonzero(chosen):
+        if places and places[-1] == segment:
+            places.append(int(segment) + 1)
+        else:
+            places += [-1] * bool(places) + [int(segment), int(segment) + 1]
+    return np.array(places, dtype=np.int64)
+
+
+def _picked(
+    values: np.ndarray[tuple[int], np.dtype[np.float64]],
+    places: np.ndarray[tuple[int], np.dtype[np.int64]],
+) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    return np.where(places >= 0, values[np.maximum(places, 0)], np.nan)
+
+
+def _measured(r: CampbellResults) -> list[Item]:
+    measured = r.scene.get("measured")
+    if not measured:
+        return []
+    pairs = [(row["rpm"], hz) for row in measured["rows"] for hz in row["frequencies_hz"]]
+    x, y = np.array(pairs, float).reshape(-1, 2).T
+    hover = [f"{measured['source']}<br>{rpm:.0f} rpm<br>{hz:g} Hz" for rpm, hz in pairs]
+    return [Points(x, y, colours()["ink"], measured["source"], hollow=True, hover=hover)]
+
+
+def _critical(r: CampbellResults) -> Points:
+    speeds = r.critical_rpm
+    hover = [f"critical speed {rpm:.1f} rpm" for rpm in speeds]
+    return Points(speeds, np.zeros(len(speeds)), colours()["ink"], "critical speed", hover=hover)
+
+
+def _growth(r: CampbellResults) -> tuple[list[Item], tuple[float, float]]:
+    """Growth rates; of an undamped saw those above zero alone, for each has a mirror image."""
+    damped = any("damping" in term for term in r.terms)
+    items: list[Item] = []
+    for branch in r.branches:
+        grows = branch.growth_per_s > NEGLIGIBLE_PER_S
+        chosen = np.ones(len(grows), bool) if damped else grows
+        segments = chosen[:-1] | chosen[1:]
+        places = _stretches(segments)
+        if not len(places):
+            continue
+        hover = _hover(branch)
+        x, y = (_picked(values, places) for values in (branch.rpm, branch.growth_per_s))
+        said = [hover[place] if place >= 0 else "" for place in places]
+        standing = bool(np.all(branch.frequency_hz[grows] < 1e-6)) if grows.any() else False
+        kind = "divergence" if standing else "flutter"
+        colour = colour_of(branch) if damped else colours()[kind]
+        items.append(Line(x, y, colour, branch.name, hover=said))
+    for band in r.bands:
+        said = f"{band.kind}, largest growth<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz<br>{band.peak_growth_per_s:.3g} 1/s"
+        peak = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))
+        items.append(Points(*peak, colours()[band.kind], band.kind, hover=[said]))
+    top = max([band.peak_growth_per_s for band in r.bands], default=NEGLIGIBLE_PER_S)
+    top = max(top, NEGLIGIBLE_PER_S)
+    decay = [float(-np.min(b.growth_per_s)) for b in r.branches if len(b.rpm)]
+    low = -min(max(decay, default=0.0), 4.0 * top) if damped else 0.0
+    return items, (1.15 * low, 1.15 * top)
+
+
+def root_loci(r: CampbellResults) -> Chart:
+    """The two modes that meet at the flutter speed, in the complex plane."""
+    loci = r.root_loci
+    if loci is None:
+        return Chart(r.scene["name"], "no two modes meet within the sweep")
+    items: list[Item] = []
+    for path, name in zip(loci.paths, ("forward", "backward")):
+        rows = zip(loci.rpm, path.frequency_hz, path.growth_per_s)
+        hover = [
+            f"{path.name}<br>{rpm:.1f} rpm<br>{hz:.3f} Hz<br>{growth:.3g} 1/s"
+            for rpm, hz, growth in rows
+        ]
+        items.append(
+            Line(path.growth_per_s, path.frequency_hz, colours()[name], path.name, hover=hover)
+        )
+    panel = Panel("Re λ [1/s]", "Im λ / 2π [Hz]", [Upright(0.0, colours()["quiet"]), *items])
+    facts = f"{loci.rpm[0]:.0f} to {loci.rpm[-1]:.0f} rpm, flutter from {loci.onset_rpm:.1f} to {loci.end_rpm:.1f} rpm"
+    return Chart(r.scene["name"], facts, (panel,))

@@ -1,0 +1,144 @@
+"""What a figure shows, as numbers and words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from types import MappingProxyType
+from typing import TypeAlias
+
+from .. import _native
+from .._entry import FloatArray
+
+# Width of curves and of the stretches that matter most, in the units of the program's figures.
+CURVE = 1.6
+STRONG_CURVE = 3.4
+# From low to high: lightness rises evenly, so that grey prints read too.
+LOW_TO_HIGH = ("#341842", "#3a528b", "#21918c", "#7ad151", "#f0ec78")
+
+
+@lru_cache(maxsize=None)
+def colours() -> Mapping[str, str]:
+    """The colours of the program's figures, by what is drawn, as #rrggbb.
+
+    >>> from sawflutter.plot import colours
+    >>> colours()["forward"]
+    '#1f5fa8'
+    """
+    palette = json.loads(_native.palette())
+    named = {name: "#" + "".join(f"{c:02x}" for c in rgb) for name, rgb in palette.items()}
+    return MappingProxyType(named)
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve; NaN interrupts it."""
+
+    x: FloatArray
+    y: FloatArray
+    colour: str
+    name: str = ""
+    width: float = CURVE
+    dashed: bool = False
+    hover: Sequence[str] = ()
+    """What is said of each point."""
+    end: str = ""
+    """Label at the last point."""
+
+
+@dataclass(frozen=True)
+class Points:
+    """Dots or rings."""
+
+    x: FloatArray
+    y: FloatArray
+    colour: str
+    name: str = ""
+    hollow: bool = False
+    size: float = 7.0
+    hover: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Bars:
+    """A histogram."""
+
+    edges: FloatArray
+    heights: FloatArray
+    colour: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Values over two axes: one row of z for each y; NaN is left blank."""
+
+    x: FloatArray
+    y: FloatArray
+    z: FloatArray
+    name: str
+    scale: Sequence[str] = LOW_TO_HIGH
+    range: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Shade:
+    """A stretch of the x axis, coloured over the height of the panel."""
+
+    start: float
+    end: float
+    colour: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class Upright:
+    """A line across the height of the panel."""
+
+    x: float
+    colour: str
+    dashed: bool = True
+    name: str = ""
+
+
+Item: TypeAlias = "Line | Points | Bars | Heat | Shade | Upright"
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Axes and what is drawn into them."""
+
+    x_name: str
+    y_name: str
+    items: Sequence[Item]
+    x_range: tuple[float, float] | None = None
+    y_range: tuple[float, float] | None = None
+    x_log: bool = False
+    y_log: bool = False
+    y_root: bool = False
+    """Whether the y axis shows signed square roots, so that small values next to large ones are
+    seen."""
+    share: float = 1.0
+    """Height beside that of the other panels."""
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Panels one above the other, the x axis shared where they name it alike."""
+
+    title: str
+    facts: str
+    panels: Sequence[Panel] = field(default_factory=tuple)
+
+
+def root_ticks(low: float, high: float) -> list[float]:
+    """Round values for an axis of signed square roots."""
+    top = max(abs(low), abs(high))
+    decades = [10.0**k for k in range(-6, 13)]
+    steps = [m * d for d in decades for m in (1.0, 3.0)]
+    positive = [step for step in steps if 0.02 * top <= step <= top]
+    values = [-step for step in reversed(positive)] + [0.0] + positive
+    return [value for value in values if low <= value <= high]

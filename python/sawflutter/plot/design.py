@@ -1,0 +1,181 @@
+"""Checks, fits, places, studies, and what accuracy takes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._report_types import Speed
+from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+
+if TYPE_CHECKING:
+    from ..results import CheckResults, FitResults, PlaceResults, StudyResults, TradeoffResults
+
+UNITS = {
+    "_n_s_per_m": "N·s/m",
+    "_n_per_m": "N/m",
+    "_kg_per_m3": "kg/m³",
+    "_deg": "°",
+    "_pa": "Pa",
+    "_rpm": "rpm",
+    "_s": "s",
+    "_m": "m",
+}
+
+
+def named(path: str) -> str:
+    """The path of a number as the name of an axis, with its unit.
+
+    >>> named("guides[0].radius_m")
+    'guides[0].radius [m]'
+    """
+    for ending, unit in UNITS.items():
+        if path.endswith(ending):
+            return f"{path.removesuffix(ending).replace('_', ' ')} [{unit}]"
+    return path.replace("_", " ")
+
+
+def check(r: CheckResults) -> Chart:
+    """Of each limit the speed asked for (line) and the one found (dot)."""
+    items: list[Item] = []
+    for band in r.instabilities:
+        if band.peak_growth_per_s >= r.flutter_threshold_per_s or band.kind == "divergence":
+            name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
+            items.append(Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name))
+    items.append(
+        Upright(r.operating_rpm, colours()["ink"], False, f"operating {r.operating_rpm:.0f} rpm")
+    )
+    for place, criterion in enumerate(reversed(r.criteria), start=1):
+        word = "kept" if criterion.passed else "NOT kept"
+        colour = colours()["forward" if criterion.passed else "alarm"]
+        level = np.array([float(place)])
+        asked = np.array([criterion.asked_rpm])
+        said = [f"{criterion.name}: asked {criterion.asked_rpm:.1f} rpm, {word}"]
+        items.append(Points(asked, level, colours()["ink"], "asked", hollow=True, hover=said))
+        if criterion.found_rpm is not None:
+            found = np.array([criterion.found_rpm])
+            said = [f"{criterion.name}: found {criterion.found_rpm:.1f} rpm, {word}"]
+            ends = np.array([criterion.asked_rpm, criterion.found_rpm])
+            items.append(Line(ends, np.full(2, float(place)), colour, criterion.name))
+            items.append(Points(found, level, colour, criterion.name, hover=said))
+    panel = Panel("rotation speed [rpm]", "limits", items, y_range=(0.0, len(r.criteria) + 1.0))
+    return Chart(r.scene["name"], r._facts(), (panel,))
+
+
+def fit(r: FitResults) -> Chart:
+    """Measured frequencies over the computed ones, before and after; what is left below."""
+    items: list[Item] = []
+    for values, colour, dashed, name in (
+        (r.curves.before_hz, colours()["standing"], True, "before"),
+        (r.curves.fitted_hz, colours()["forward"], False, "fitted"),
+    ):
+        for place, column in enumerate(values.T, start=1):
+            items.append(
+                Line(r.curves.rpm, column, colour, f"{name}, frequency {place}", dashed=dashed)
+            )
+    rows = [(s.rpm, s.measured_hz, s.fitted_hz - s.measured_hz, s.fitted) for s in r.residuals]
+    table = np.array(rows, float).reshape(-1, 4)
+    hover = [
+        f"{rpm:.0f} rpm<br>{hz:g} Hz measured<br>{off:+.2f} Hz computed"
+        for rpm, hz, off, _ in table
+    ]
+    items.append(
+        Points(table[:, 0], table[:, 1], colours()["ink"], r.source, hollow=True, hover=hover)
+    )
+    left = [
+        Line(
+            np.array([table[:, 0].min(initial=0.0), table[:, 0].max(initial=1.0)]),
+            np.zeros(2),
+            colours()["quiet"],
+            width=1.0,
+        ),
+        Points(
+            table[:, 0], table[:, 2], colours()["forward"], "computed minus measured", hover=hover
+        ),
+    ]
+    name = "rotation speed Ω [rpm]"
+    upper = Panel(name, "frequency [Hz]", items, share=2.0)
+    return Chart(
+        r.scene["name"], r._facts(), (upper, Panel(name, "computed − measured [Hz]", left))
+    )
+
+
+def place(r: PlaceResults) -> Chart:
+    """The goal over one or two numbers, the best saw marked."""
+    found = r.map
+    if found is None:
+        return Chart(r.scene["name"], f"{r._facts()}; no map was asked for")
+    goal = "flutter speed [rpm]" if r.goal == "flutter_speed" else "stable window [rpm]"
+    values = {parameter.path: parameter.value for parameter in r.parameters}
+    kept = np.where(found.kept, found.goal_rpm, np.nan)
+    x = np.array([values.get(found.x_path, np.nan)])
+    said = [f"best saw: {r.best.goal_rpm:.0f} rpm"]
+    if found.y_path is None:
+        best = Points(x, np.array([r.best.goal_rpm]), colours()["alarm"], "best saw", hover=said)
+        line = Line(found.x, kept[0], colours()["forward"], goal)
+        panel = Panel(named(found.x_path), goal, [line, best])
+    else:
+        y = np.array([values.get(found.y_path, np.nan)])
+        best = Points(x, y, colours()["alarm"], "best saw", hover=said)
+        panel = Panel(
+            named(found.x_path), named(found.y_path), [Heat(found.x, found.y, kept, goal), best]
+        )
+    return Chart(r.scene["name"], r._facts(), (panel,))
+
+
+def tradeoff(r: TradeoffResults) -> Chart:
+    """Computing time against true error."""
+    shades = {"reduced": "forward", "dense": "backward", "critical_speeds": "divergence"}
+    items: list[Item] = []
+    for method in dict.fromkeys(setting.method for setting in r.settings):
+        own = sorted((s for s in r.settings if s.method == method), key=lambda s: s.error)
+        x, y = np.array([s.error for s in own]), np.array([s.seconds for s in own])
+        said = [
+            f"{method.replace('_', ' ')}<br>{s.functions} functions, {s.speeds} speeds<br>{1e3 * s.seconds:.1f} ms<br>error {s.error:.2g}"
+            for s in own
+        ]
+        colour = colours()[shades.get(method, "standing")]
+        items.append(Points(x, y, colour, method.replace("_", " "), hover=said))
+    front = sorted((s for s in r.settings if s.on_front), key=lambda s: s.error)
+    x, y = np.array([s.error for s in front]), np.array([s.seconds for s in front])
+    items.append(Line(x, y, colours()["forward"], "best at their price", width=1.0))
+    panel = Panel("true relative error", "time [s]", items, x_log=True, y_log=True)
+    return Chart(
+        r.name or "Time against accuracy", "true error of critical speeds and onsets", (panel,)
+    )
+
+
+def study(r: StudyResults) -> Chart:
+    """Saws by their lowest critical and their flutter speed."""
+    asked = {} if r.all.passing is None else {c.key: c.asked_rpm for c in r.all.passing.criteria}
+    panels = []
+    for speed, colour, name, keys in (
+        (
+            r.all.lowest_critical,
+            "forward",
+            "lowest critical speed [rpm]",
+            ("margin", "min_critical"),
+        ),
+        (r.all.flutter, "flutter_streak", "flutter speed [rpm]", ("min_flutter",)),
+    ):
+        limits = [
+            Upright(asked[key], colours()["alarm"], name=f"asked {asked[key]:.0f} rpm")
+            for key in keys
+            if key in asked
+        ]
+        panels.append(Panel(name, "saws", [*_histogram(speed, colours()[colour]), *limits]))
+    return Chart(r.study["name"], r._facts(), tuple(panels))
+
+
+def _histogram(speed: Speed, colour: str) -> list[Any]:
+    bars = speed.histogram
+    if bars is None:
+        return []
+    edges = np.linspace(bars.from_rpm, bars.to_rpm, len(bars.counts) + 1)
+    quantiles = [
+        Upright(q.rpm, colours()["quiet"], name=f"{1e2 * q.share:g} % below {q.rpm:.0f} rpm")
+        for q in speed.quantiles
+        if q.rpm is not None and q.share in (0.05, 0.5, 0.95)
+    ]
+    return [Bars(edges, bars.counts.astype(float), colour, f"{speed.saws} saws"), *quantiles]

@@ -1,0 +1,89 @@
+"""What the probe sees: in the cut, and in a run-up."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .campbell import colour_of
+from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+
+if TYPE_CHECKING:
+    from ..results import CutResults, RunUpResults
+
+
+def cut(r: CutResults) -> Chart:
+    """Deflection at the probe over time, one panel a speed."""
+    panels = []
+    for run in r.runs:
+        colour = colours()["flutter" if run.verdict == "unstable" else "forward"]
+        frequency = "" if run.frequency_hz is None else f" at {run.frequency_hz:.2f} Hz"
+        hover = [f"{t:.3f} s<br>{1e3 * w:.4g} mm" for t, w in zip(run.time_s, run.deflection_m)]
+        items: list[Item] = [
+            Shade(run.forces_from_s, run.forces_to_s, colours()["grid"], "forces act"),
+            Line(run.time_s, 1e3 * run.deflection_m, colour, f"{run.rpm:.0f} rpm", hover=hover),
+        ]
+        title = f"{run.rpm:.0f} rpm: {run.verdict}, {run.growth_per_s:.3g} 1/s{frequency}"
+        panels.append(Panel("time [s]", "deflection [mm]", items, title=title))
+    return Chart(r.scene["name"], r._facts(), tuple(panels))
+
+
+def cut_map(r: CutResults, run: int) -> Chart:
+    """Growth over guide angle and load."""
+    of = r.runs[run]
+    growth = np.maximum(of.map.growth_per_s, 0.0)
+    heat = Heat(of.map.guide_angle_deg, of.map.load_level, growth, "growth [1/s]")
+    name = "angle of the first guide, all guides moving with it [°]"
+    panel = Panel(name, "multiple of the forces", [heat])
+    return Chart(r.scene["name"], f"growth at {of.rpm:.0f} rpm", (panel,))
+
+
+def run_up(r: RunUpResults) -> Chart:
+    """Deflection at the probe over speed, on a scale of signed roots."""
+    shades: list[Item] = []
+    for entry in r.bands:
+        band = entry.band
+        name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
+        shades.append(Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name))
+    critical = [Upright(c.rpm, colours()["divergence"]) for c in r.critical_speeds]
+    millimetres = 1e3 * r.deflection_m
+    hover = [f"{rpm:.1f} rpm<br>{w:.4g} mm" for rpm, w in zip(r.rpm, millimetres)]
+    line = Line(r.rpm, millimetres, colours()["forward"], "deflection at the probe", hover=hover)
+    thickness = 1e3 * r.scene["blade"]["thickness_m"]
+    largest = float(np.nanmax(np.abs(millimetres), initial=0.0))
+    # Past five thicknesses a linear plate is no guide: the axis ends a little beyond.
+    top = max(min(largest, 6.0 * thickness), 1e-9)
+    panel = Panel(
+        "rotation speed Ω [rpm]",
+        "deflection [mm], square root scale",
+        [*shades, *critical, line],
+        x_range=(float(r.rpm[0]), float(r.rpm[-1])),
+        y_range=(-1.1 * top, 1.1 * top),
+        y_root=True,
+    )
+    return Chart(r.scene["name"], r._facts(), (panel,))
+
+
+def response(r: RunUpResults) -> Chart:
+    """Deflection per newton over speed and frequency, with the branches on top."""
+    of = r.response
+    micrometres = 1e6 * of.receptance_m_per_n.T
+    decades = np.log10(np.maximum(micrometres, 1e-12))
+    top = float(np.max(decades))
+    heat = Heat(of.rpm, of.frequency_hz, decades, "log₁₀ of µm/N", range=(top - 4.0, top))
+    items: list[Item] = [heat]
+    limit = float(of.frequency_hz[-1])
+    for branch in r.campbell.branches:
+        shown = np.where(branch.frequency_hz <= limit, branch.frequency_hz, np.nan)
+        items.append(Line(branch.rpm, shown, colour_of(branch), branch.name, width=1.0))
+    measured = r.scene.get("measured")
+    for row in measured["rows"] if measured else []:
+        below = np.array([hz for hz in row["frequencies_hz"] if hz <= limit])
+        speed = np.full(len(below), row["rpm"])
+        items.append(Points(speed, below, colours()["ink"], hollow=True))
+    speeds = (float(of.rpm[0]), float(of.rpm[-1]))
+    panel = Panel(
+        "rotation speed Ω [rpm]", "frequency of the force [Hz]", items, speeds, (0.0, limit)
+    )
+    return Chart(r.scene["name"], "deflection at the probe per newton", (panel,))

@@ -1,0 +1,128 @@
+"""Charts drawn with matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours, root_ticks
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# The program's figures are 1200 units wide, matplotlib's 12 inches.
+WIDTH_INCHES = 10.0
+FONTS = ["Inter", "Helvetica", "Arial", "DejaVu Sans"]
+
+
+def draw(chart: Chart, ax: Axes | None = None) -> Axes:
+    """Draws the panels of a chart into a new figure, or the first into axes that are there."""
+    if ax is not None:
+        for panel in chart.panels[:1]:
+            _panel(ax, panel, last=True)
+        return ax
+    import matplotlib.pyplot as plt
+
+    panels = chart.panels or (Panel("", "", ()),)
+    together = len({panel.x_name for panel in panels}) == 1
+    figure, axes = plt.subplots(
+        len(panels),
+        1,
+        figsize=(WIDTH_INCHES, 2.2 + 2.2 * sum(panel.share for panel in panels)),
+        height_ratios=[panel.share for panel in panels],
+        sharex=together,
+        squeeze=False,
+        layout="constrained",
+    )
+    for number, panel in enumerate(panels, start=1):
+        _panel(axes[number - 1, 0], panel, last=number == len(panels) or not together)
+    title = f"{chart.title}\n"
+    figure.suptitle(
+        title, x=0.02, ha="left", fontsize=15, fontweight="semibold", color=colours()["ink"]
+    )
+    figure.text(0.02, 1.0, f"\n\n\n{chart.facts}", va="top", fontsize=10, color=colours()["quiet"])
+    first: Axes = axes[0, 0]
+    return first
+
+
+def _panel(ax: Axes, panel: Panel, last: bool) -> None:
+    for item in panel.items:
+        _add(ax, item)
+    if panel.x_log:
+        ax.set_xscale("log")
+    if panel.y_log:
+        ax.set_yscale("log")
+    if panel.x_range is not None:
+        ax.set_xlim(*panel.x_range)
+    if panel.y_root and panel.y_range is not None:
+        ax.set_yscale("function", functions=(_root, _square))
+        ax.set_yticks(root_ticks(*panel.y_range))
+        ax.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    if panel.y_range is not None:
+        ax.set_ylim(*panel.y_range)
+    if last:
+        ax.set_xlabel(panel.x_name, color=colours()["ink"])
+    ax.set_ylabel(panel.y_name, color=colours()["ink"])
+    if panel.title:
+        ax.set_title(panel.title, loc="left", fontsize=11, color=colours()["ink"])
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.spines[["left", "bottom"]].set_color(colours()["quiet"])
+    ax.tick_params(colors=colours()["quiet"])
+    if not any(isinstance(item, Heat) for item in panel.items):
+        ax.grid(axis="y", color=colours()["grid"])
+    ax.set_axisbelow(True)
+
+
+def _root(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    return np.sign(values) * np.sqrt(np.abs(values))
+
+
+def _square(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    return np.sign(values) * np.square(values)
+
+
+def _add(ax: Axes, item: Item) -> None:
+    if isinstance(item, Shade):
+        ax.axvspan(item.start, item.end, color=item.colour, linewidth=0, zorder=0.5)
+    elif isinstance(item, Upright):
+        style: Any = (0, (4, 4)) if item.dashed else "solid"
+        ax.axvline(item.x, color=item.colour, linewidth=0.8, linestyle=style, zorder=1.5)
+    elif isinstance(item, Heat):
+        _heat(ax, item)
+    elif isinstance(item, Bars):
+        ax.stairs(item.heights, item.edges, fill=True, color=item.colour, label=item.name)
+    elif isinstance(item, Points):
+        inside = "none" if item.hollow else item.colour
+        ax.scatter(
+            item.x, item.y, s=0.6 * item.size**2, facecolors=inside, edgecolors=item.colour,
+            linewidths=0.9, zorder=3.0, label=item.name,
+        )  # fmt: skip
+    else:
+        style = (0, (4, 2.5)) if item.dashed else "solid"
+        width = 0.85 * item.width
+        ax.plot(
+            item.x, item.y, color=item.colour, linewidth=width, linestyle=style, label=item.name
+        )
+        if item.end:
+            _end(ax, item)
+
+
+def _end(ax: Axes, item: Line) -> None:
+    """The label at the last point, where that is within the axes."""
+    text = ax.annotate(
+        item.end, (float(item.x[-1]), float(item.y[-1])), (6, 0), textcoords="offset points",
+        va="center", fontsize=9, color=item.colour, annotation_clip=True,
+    )  # fmt: skip
+    text.set_in_layout(True)
+
+
+def _heat(ax: Axes, item: Heat) -> None:
+    from matplotlib.colors import LinearSegmentedColormap
+
+    low, high = item.range or (None, None)
+    scale = LinearSegmentedColormap.from_list(item.name, list(item.scale))
+    mesh = ax.pcolormesh(item.x, item.y, item.z, cmap=scale, vmin=low, vmax=high, shading="nearest")
+    bar = ax.figure.colorbar(mesh, ax=ax, label=item.name)
+    bar.outline.set_visible(False)
