@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import types
-from collections.abc import Callable, Hashable, Mapping
-from functools import lru_cache
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -66,15 +65,19 @@ def _short(value: Any) -> str:
     return repr(value)
 
 
-@lru_cache(maxsize=None)
-def _readers(cls: Hashable) -> tuple[tuple[str, str, Reader], ...]:
+_KNOWN: dict[type[Entry], list[tuple[str, str, Reader]]] = {}
+
+
+def _readers(cls: type[Entry]) -> list[tuple[str, str, Reader]]:
     """Of each attribute its name, its key in the JSON, and how it is read."""
-    hints = get_type_hints(cls)
-    found = []
-    for field in dataclasses.fields(cls):  # type: ignore[arg-type]
-        key = field.metadata.get("key", field.name)
-        found.append((field.name, key, _reader(hints[field.name])))
-    return tuple(found)
+    if cls not in _KNOWN:
+        hints = get_type_hints(cls)
+        fields = dataclasses.fields(cls)  # type: ignore[arg-type]
+        _KNOWN[cls] = [
+            (field.name, field.metadata.get("key", field.name), _reader(hints[field.name]))
+            for field in fields
+        ]
+    return _KNOWN[cls]
 
 
 def _reader(hint: Any) -> Reader:

@@ -2,12 +2,12 @@
 
 import os
 from collections.abc import Callable, Sequence
-from typing import final
+from typing import TypeAlias, final
 
 # Called with what is done, of how many, and a word for it.
-_Progress = Callable[[int, int, str], object] | None
+_Progress: TypeAlias = Callable[[int, int, str], object] | None
 # A path of the scene, and its bounds if they are not the usual ones.
-_Bounds = tuple[str, tuple[float, float] | None]
+_Bounds: TypeAlias = tuple[str, tuple[float, float] | None]
 
 def scene(text: str) -> str: ...
 def paper() -> str: ...

@@ -61,7 +61,7 @@ pub fn limits(
     min_flutter_rpm: Option<f64>,
     min_critical_rpm: Option<f64>,
 ) -> Result<Limits, Failure> {
-    let operating = some_speed("operating_rpm", operating_rpm)?.or(scene.operating_rad_per_s);
+    let operating = some_speed("operating_rpm", operating_rpm)?.or(scene.operating_rad_per_s());
     let operating = operating.ok_or_else(|| {
         let allowed = "the speed at which the saw is run".to_owned();
         let remedy = "give it, or operating_rpm in the scene";
@@ -97,7 +97,7 @@ pub fn freed(scene: &Scene, asked: Vec<Bounds>, usual: Vec<String>) -> Result<Ve
     let mut freed = Vec::new();
     for (path, bounds) in asked {
         let one = match bounds {
-            Some((from, to)) => Freed::new(&scene.file, &path, from, to)?,
+            Some((from, to)) => Freed::new(scene.file(), &path, from, to)?,
             None => Freed::with_usual_bounds(scene, &path)?,
         };
         if !seen.insert(path.clone()) {
@@ -134,7 +134,7 @@ pub fn demands(
     goal: &str,
     min_critical_rpm: Option<f64>,
 ) -> Result<Demands, Failure> {
-    let goal = match (goal, scene.operating_rad_per_s) {
+    let goal = match (goal, scene.operating_rad_per_s()) {
         ("flutter", _) => Goal::FlutterSpeed,
         ("window", Some(around_rad_per_s)) => Goal::StableWindow { around_rad_per_s },
         ("window", None) => {

@@ -38,7 +38,7 @@ pub fn analyze(
         let analysis = Analysis::new(&scene, &|done, of| meter.show(done, of))?;
         let mut report = Report::new(&scene, &analysis)?;
         if sensitivity {
-            let at = scene.operating_rad_per_s.unwrap_or(analysis.range.0);
+            let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
             let found = sensitivities(&scene, &analysis, at)?;
             report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
         }
@@ -112,7 +112,7 @@ pub fn cut(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let cut = scene.cut.as_ref().ok_or_else(|| {
+        let cut = scene.cut().ok_or_else(|| {
             let allowed = "the forces on the teeth".to_owned();
             missing("cut", allowed)
         })?;
@@ -137,7 +137,7 @@ fn missing(key: &str, allowed: String) -> Failure {
 pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let runup = scene.runup.as_ref().ok_or_else(|| {
+        let runup = scene.runup().ok_or_else(|| {
             let allowed = "speeds, duration and force of the run-up".to_owned();
             missing("runup", allowed)
         })?;
@@ -176,7 +176,7 @@ pub fn fit(
         let remedy = "give another table, or another to_rpm";
         return Err(Failure::argument("measured", "empty", allowed, remedy).into());
     }
-    let freed = arguments::freed(&scene, free, Freed::usual_to_fit(&scene.file))?;
+    let freed = arguments::freed(&scene, free, Freed::usual_to_fit(scene.file()))?;
     compute(py, progress, move |meter| {
         let progress = |done, of| meter.show(done, of);
         let fit = Fit::new(&scene, &fitted, &freed, &options, &progress)?;
@@ -192,7 +192,7 @@ pub fn fit(
 }
 
 fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Measurement, Failure> {
-    match (measured, &scene.file.measured) {
+    match (measured, &scene.file().measured) {
         (Some((name, table)), _) => Ok(Measurement::from_csv(&name, &table)?),
         (None, Some(own)) => Ok(Measurement::of_scene(own)),
         (None, None) => Err(missing("measured", "a table of frequencies".to_owned())),
@@ -218,7 +218,7 @@ pub fn place(
     let scene = arguments::scene(scene)?;
     let demands = arguments::demands(&scene, goal, min_critical_rpm)?;
     let options = arguments::place_options(samples, refine, map)?;
-    let usual = Freed::usual_to_place(&scene.file);
+    let usual = Freed::usual_to_place(scene.file());
     if usual.is_empty() && free.is_empty() {
         return Err(missing("guides", "a guide to be placed".to_owned()).into());
     }

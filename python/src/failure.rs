@@ -3,6 +3,7 @@
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
+use sawflutter::check::CheckError;
 use sawflutter::figure::FigureError;
 use sawflutter::fit::FitError;
 use sawflutter::place::PlaceError;
@@ -146,6 +147,24 @@ impl From<PlaceError> for Failure {
     }
 }
 
+impl From<TransientError> for Failure {
+    fn from(error: TransientError) -> Self {
+        match error {
+            TransientError::Scene(source) => source.into(),
+            other => Failure::Failed(other.to_string()),
+        }
+    }
+}
+
+impl From<CheckError> for Failure {
+    fn from(error: CheckError) -> Self {
+        match error {
+            CheckError::Scene(source) => source.into(),
+            CheckError::Spectrum(source) => source.into(),
+        }
+    }
+}
+
 impl From<LogError> for Failure {
     fn from(error: LogError) -> Self {
         let message = error.to_string();
@@ -169,7 +188,6 @@ macro_rules! failed {
 failed!(
     SensitivityError,
     SpectrumError,
-    TransientError,
     FigureError,
     serde_json::Error
 );

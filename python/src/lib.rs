@@ -29,21 +29,21 @@ mod _native {
 #[pyfunction]
 fn scene(text: &str) -> PyResult<String> {
     let scene = arguments::scene(text)?;
-    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
 }
 
 /// The scene that comes with the program.
 #[pyfunction]
 fn paper() -> PyResult<String> {
     let scene = sawflutter::scene::Scene::paper();
-    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
 }
 
 /// The scene of a file, validated, as JSON.
 #[pyfunction]
 fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
     let scene = sawflutter::scene::Scene::from_path(&path).map_err(failure::Failure::from)?;
-    Ok(serde_json::to_string(&scene.file).map_err(failure::Failure::from)?)
+    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
 }
 
 /// JSON schemas of scenes, studies and reports, as one JSON object.

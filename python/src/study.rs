@@ -24,7 +24,7 @@ impl Study {
         let scene = arguments::scene(scene)?;
         let file = StudyFile::from_json(study).map_err(Failure::from)?;
         // Without an end of the sweep, the saw of the scene itself is analysed for one.
-        let study = compute(py, None, move |_| Ok(study::Study::new(scene.file, file)?))?;
+        let study = compute(py, None, move |_| Ok(study::Study::new(scene, file)?))?;
         Ok(Study(Arc::new(study)))
     }
 

@@ -34,7 +34,7 @@ def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:
         ({"min_critical_rpm": float("inf")}, "min_critical_rpm"),
     ]:
         with pytest.raises(sf.ArgumentError) as caught:
-            draft.check(**arguments)
+            draft.check(**arguments)  # type: ignore[arg-type]
         assert caught.value.key == key
         assert caught.value.allowed is not None and caught.value.allowed in str(caught.value)
     nowhere = draft.replace({"operating_rpm": None, "cut": None})

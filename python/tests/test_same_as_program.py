@@ -11,7 +11,9 @@ import sawflutter as sf
 
 
 def ran(program: str, *arguments: object) -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([program, *map(str, arguments)], capture_output=True, timeout=300)
+    return subprocess.run(
+        [program, *map(str, arguments)], check=False, capture_output=True, timeout=300
+    )
 
 
 def same(folder: Path, name: str, content: bytes) -> None:

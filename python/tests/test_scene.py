@@ -62,7 +62,7 @@ def test_a_path_that_no_scene_has_is_named(path: str) -> None:
 def test_a_scene_cannot_be_changed_and_is_pickled() -> None:
     saw = sf.Scene.paper()
     with pytest.raises(AttributeError):
-        saw.thickness = 3  # type: ignore[attr-defined]
+        saw.thickness = 3
     copy = pickle.loads(pickle.dumps(saw))
     assert copy == saw and hash(copy) == hash(saw)
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
+from .._entry import BoolArray, FloatArray, IntArray
 from .._report_types import Branch
 from .chart import STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
 
@@ -138,7 +140,7 @@ def _branches(r: CampbellResults) -> list[Item]:
     return items
 
 
-def _looks(r: CampbellResults, branch: Branch) -> np.ndarray[tuple[int], np.dtype[np.str_]]:
+def _looks(r: CampbellResults, branch: Branch) -> npt.NDArray[np.str_]:
     """What each segment of a branch looks like."""
     grows = branch.growth_per_s > NEGLIGIBLE_PER_S
     reflected = branch.krein_sign == -1
@@ -152,8 +154,8 @@ def _looks(r: CampbellResults, branch: Branch) -> np.ndarray[tuple[int], np.dtyp
 
 
 def _stretches(
-    chosen: np.ndarray[tuple[int], np.dtype[np.bool_]],
-) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    chosen: BoolArray,
+) -> IntArray:
     """Places of the ends of the chosen segments, −1 between stretches."""
     places: list[int] = []
     for segment in np.flatnonzero(chosen):
@@ -165,9 +167,9 @@ def _stretches(
 
 
 def _picked(
-    values: np.ndarray[tuple[int], np.dtype[np.float64]],
-    places: np.ndarray[tuple[int], np.dtype[np.int64]],
-) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    values: FloatArray,
+    places: IntArray,
+) -> FloatArray:
     return np.where(places >= 0, values[np.maximum(places, 0)], np.nan)
 
 
@@ -206,9 +208,9 @@ def _growth(r: CampbellResults) -> tuple[list[Item], tuple[float, float]]:
         colour = colour_of(branch) if damped else colours()[kind]
         items.append(Line(x, y, colour, branch.name, hover=said))
     for band in r.bands:
-        said = f"{band.kind}, largest growth<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz<br>{band.peak_growth_per_s:.3g} 1/s"
+        peaks = f"{band.kind}, largest growth<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz<br>{band.peak_growth_per_s:.3g} 1/s"
         peak = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))
-        items.append(Points(*peak, colours()[band.kind], band.kind, hover=[said]))
+        items.append(Points(*peak, colours()[band.kind], band.kind, hover=[peaks]))
     top = max([band.peak_growth_per_s for band in r.bands], default=NEGLIGIBLE_PER_S)
     top = max(top, NEGLIGIBLE_PER_S)
     decay = [float(-np.min(b.growth_per_s)) for b in r.branches if len(b.rpm)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -19,7 +19,7 @@ STRONG_CURVE = 3.4
 LOW_TO_HIGH = ("#341842", "#3a528b", "#21918c", "#7ad151", "#f0ec78")
 
 
-@lru_cache(maxsize=None)
+@cache
 def colours() -> Mapping[str, str]:
     """The colours of the program's figures, by what is drawn, as #rrggbb.
 

@@ -83,7 +83,7 @@ def fit(r: FitResults) -> Chart:
     items.append(
         Points(table[:, 0], table[:, 1], colours()["ink"], r.source, hollow=True, hover=hover)
     )
-    left = [
+    left: list[Item] = [
         Line(
             np.array([table[:, 0].min(initial=0.0), table[:, 0].max(initial=1.0)]),
             np.zeros(2),

@@ -1,0 +1,179 @@
+"""Figures: what they show is what the report says, in the colours of the program."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import sawflutter as sf
+from sawflutter import _native
+from sawflutter.plot import Heat, Line, Points, Shade, Upright, colours
+from sawflutter.plot.chart import root_ticks
+from sawflutter.plot.motion import deflections, grid
+
+
+@pytest.fixture(autouse=True)
+def closed() -> Iterator[None]:
+    yield
+    plt.close("all")
+
+
+def test_colours_are_those_of_the_program() -> None:
+    palette = json.loads(_native.palette())
+    for name, rgb in palette.items():
+        assert colours()[name] == "#{:02x}{:02x}{:02x}".format(*rgb)
+    assert {"forward", "backward", "divergence_shade", "flutter_streak"} <= set(palette)
+
+
+def test_every_point_of_the_chart_is_one_of_the_report(report: sf.CampbellResults) -> None:
+    chart = report.chart()
+    points = {
+        (rpm, hz) for b in report.branches for rpm, hz in zip(b.rpm.tolist(), b.frequency_hz.tolist())
+    }
+    upper = chart.panels[0]
+    drawn: set[tuple[float, float]] = set()
+    for line in (item for item in upper.items if isinstance(item, Line)):
+        kept = ~np.isnan(line.x)
+        assert len(line.hover) == len(line.x)
+        drawn |= set(zip(line.x[kept].tolist(), line.y[kept].tolist()))
+    assert drawn == {point for point in points if point in drawn} == points
+    shades = [item for item in upper.items if isinstance(item, Shade)]
+    assert sorted((s.start, s.end) for s in shades) == sorted((b.from_rpm, b.to_rpm) for b in report.bands)
+    uprights = [item.x for item in upper.items if isinstance(item, Upright)]
+    assert set(report.critical_rpm.tolist()) <= set(uprights)
+
+
+def test_signs_and_colours_of_the_branches(report: sf.CampbellResults) -> None:
+    upper = report.chart().panels[0]
+    for branch in report.branches:
+        lines = [i for i in upper.items if isinstance(i, Line) and i.name == branch.name]
+        assert lines
+        expected = "backward" if branch.direction == "reflected" else branch.direction
+        assert {line.colour for line in lines} <= {colours()[expected]} | set(
+            colours()[b.direction] for b in report.branches if b.name == branch.name
+        )
+    dashed = [i for i in upper.items if isinstance(i, Line) and i.dashed]
+    reflected = {
+        (rpm, hz)
+        for b in report.branches
+        for rpm, hz, sign in zip(b.rpm.tolist(), b.frequency_hz.tolist(), b.krein_sign)
+        if sign < 0
+    }
+    shown = {(x, y) for line in dashed for x, y in zip(line.x.tolist(), line.y.tolist())}
+    unstable = [i for i in upper.items if isinstance(i, Line) and i.width > 3.0]
+    shown |= {(x, y) for line in unstable for x, y in zip(line.x.tolist(), line.y.tolist())}
+    assert reflected <= shown
+
+
+def test_no_curve_of_growth_exceeds_the_peaks(report: sf.CampbellResults) -> None:
+    lower = report.chart().panels[1]
+    peaks = max(band.peak_growth_per_s for band in report.bands)
+    for line in (item for item in lower.items if isinstance(item, Line)):
+        assert np.nanmax(line.y) <= peaks * (1.0 + 1e-9)
+    dots = [item for item in lower.items if isinstance(item, Points)]
+    assert len(dots) == len(report.bands)
+
+
+def test_plotly_says_speed_frequency_growth_and_name(report: sf.CampbellResults) -> None:
+    figure = report.plot()
+    text = figure.to_json()
+    hovers = [
+        said
+        for trace in figure.data
+        for said in (trace.hovertext if trace.hovertext is not None else trace.text) or ()
+        if said
+    ]
+    some = next(said for said in hovers if "reflected" in said)
+    assert all(part in some for part in ("rpm", "Hz", "growth", "diameter"))
+    assert colours()["flutter_shade"] in text or colours()["flutter_streak"] in text
+    assert figure.layout.yaxis.title.text == "Im λ / 2π [Hz]"
+    assert figure.layout.xaxis2.title.text == "rotation speed Ω [rpm]"
+
+
+def test_matplotlib_draws_a_figure_or_into_axes(report: sf.CampbellResults) -> None:
+    axes = report.plot_matplotlib()
+    assert axes.get_ylabel() == "Im λ / 2π [Hz]"
+    assert len(axes.figure.axes) == 2
+    axes.figure.canvas.draw()
+    _, own = plt.subplots()
+    assert report.plot_matplotlib(ax=own) is own
+    assert own.get_xlabel() == "rotation speed Ω [rpm]"
+    drawn = {line.get_color() for line in own.lines}
+    assert colours()["backward"] in drawn
+
+
+def test_every_result_is_drawn_by_both(draft: sf.Scene, report: sf.CampbellResults) -> None:
+    cut, up = draft.run_cut([1800.0, 2800.0]), draft.run_up()
+    charts = [
+        report.chart(),
+        report.root_loci_chart(),
+        draft.check().chart(),
+        cut.chart(),
+        cut.map_chart(1),
+        up.chart(),
+        up.response_chart(),
+        draft.fit(to_rpm=1250, starts=1).chart(),
+        draft.replace({"guides": []}).run_campbell().chart(),
+        draft.replace({"guides": []}).run_campbell().root_loci_chart(),
+        draft.replace({"guides[0].damping_n_s_per_m": 20.0}).run_campbell().chart(),
+    ]
+    from sawflutter.plot import with_matplotlib, with_plotly
+
+    for chart in charts:
+        assert chart.title
+        figure = with_plotly.draw(chart)
+        assert "NaN" not in figure.to_json()
+        axes = with_matplotlib.draw(chart)
+        axes.figure.canvas.draw()
+    heat = next(item for item in up.response_chart().panels[0].items if isinstance(item, Heat))
+    assert heat.z.shape == (len(heat.y), len(heat.x))
+    assert cut.plot_map(1).data and up.plot_response().data and report.plot_root_loci().data
+
+
+def test_place_and_tradeoff_are_drawn(draft: sf.Scene) -> None:
+    placed = draft.place(
+        free={"guides[0].radius_m": (0.18, 0.28), "guides[0].angle_deg": (-60.0, -50.0)},
+        samples=3,
+        refine=2,
+        map=2,
+    )
+    found = draft.replace({"sweep.to_rpm": 1600}).tradeoff()
+    assert placed.plot().layout.title.text and found.plot().data
+    placed.plot_matplotlib().figure.canvas.draw()
+    found.plot_matplotlib().figure.canvas.draw()
+
+
+def test_a_reflected_wave_is_seen_to_turn(draft: sf.Scene) -> None:
+    mode = draft.modes(rpm=1800.0)[0]
+    assert mode.direction == "reflected"
+    radius, theta = grid(mode)
+    pictures = deflections(mode, radius, theta, 48)
+    assert pictures.shape == (48, *radius.shape)
+    assert np.max(np.abs(pictures)) == pytest.approx(1.0)
+    # Over the period its nodal lines advance by one wave length, with the rotation.
+    n = mode.harmonics[0].nodal_diameters
+    phase = np.unwrap(np.angle(np.mean(pictures[:, -1, :-1] * np.exp(-1j * n * theta[-1, :-1]), axis=1)))
+    assert phase[-1] - phase[0] == pytest.approx(-2.0 * np.pi * 47 / 48, abs=0.6)
+
+
+def test_a_mode_is_animated_by_both(draft: sf.Scene) -> None:
+    mode = draft.modes(rpm=1800.0)[0]
+    figure = draft.animate(mode, frames=12)
+    assert len(figure.frames) == 12
+    assert "1800 rpm" in figure.layout.title.text
+    moving = draft.animate(mode, backend="matplotlib", frames=4)
+    moving._draw_frame(2)
+    moving.pause()
+    with pytest.raises(ValueError, match="backend"):
+        draft.animate(mode, backend="paper")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="frames"):
+        draft.animate(mode, frames=1)
+
+
+def test_ticks_of_a_root_scale_are_round() -> None:
+    assert root_ticks(0.0, 3.5) == [0.0, 0.1, 0.3, 1.0, 3.0]
+    assert root_ticks(-1.0, 1.0)[0] == -1.0
