@@ -440,14 +440,11 @@ class DistributionToleranceDict(TypedDict):
 
 
 # Evenly between two values.
-DistributionUniformDict = TypedDict(
-    "DistributionUniformDict",
-    {
-        "kind": Literal["uniform"],
-        "from": float,
-        "to": float,
-    },
-)
+DistributionUniformDict = TypedDict("DistributionUniformDict", {
+    "kind": Literal["uniform"],
+    "from": float,
+    "to": float,
+})
 
 
 class _DistributionNormalDict(TypedDict):
@@ -480,12 +477,7 @@ class DistributionGridDict(TypedDict):
     """The values."""
 
 
-DistributionDict: TypeAlias = (
-    DistributionToleranceDict
-    | DistributionUniformDict
-    | DistributionNormalDict
-    | DistributionGridDict
-)
+DistributionDict: TypeAlias = DistributionToleranceDict | DistributionUniformDict | DistributionNormalDict | DistributionGridDict
 
 
 class ParameterDict(TypedDict):

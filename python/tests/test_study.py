@@ -95,8 +95,12 @@ def test_saws_vary_as_they_are_told(study: sf.Study, tmp_path: Path) -> None:
     assert np.array_equal(frame["blade.thickness_m"].to_numpy(), values[:, 0])
     # A free blade's critical speeds go with thickness and the root of the modulus.
     scale = values[:, 0] * np.sqrt(values[:, 1])
-    speeds = frame["lowest_critical_rpm"].to_numpy()
-    assert np.allclose(speeds / scale, speeds[0] / scale[0], rtol=1e-6)
+    ratios = frame["lowest_critical_rpm"].to_numpy() / scale
+    # Not every saw gets the same basis; on one basis this is exact, between them to the estimate.
+    for functions in set(frame["functions"]):
+        own = ratios[frame["functions"] == functions]
+        assert np.allclose(own, own[0], rtol=1e-9)
+    assert np.allclose(ratios, ratios[0], rtol=frame["estimated_relative_error"].max())
     assert np.allclose(study.values([3, 5]), values[[3, 5]])
 
 

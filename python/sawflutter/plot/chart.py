@@ -137,8 +137,7 @@ class Chart:
 def root_ticks(low: float, high: float) -> list[float]:
     """Round values for an axis of signed square roots."""
     top = max(abs(low), abs(high))
-    decades = [10.0**k for k in range(-6, 13)]
-    steps = [m * d for d in decades for m in (1.0, 3.0)]
+    steps = [float(f"{digit}e{power}") for power in range(-6, 13) for digit in (1, 3)]
     positive = [step for step in steps if 0.02 * top <= step <= top]
     values = [-step for step in reversed(positive)] + [0.0] + positive
     return [value for value in values if low <= value <= high]

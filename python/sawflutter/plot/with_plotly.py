@@ -54,13 +54,15 @@ def _scaled(values: Any, panel: Panel) -> Any:
 
 def _add(go: Any, figure: Figure, item: Item, panel: Panel, row: int) -> None:
     at = {"row": row, "col": 1}
+    # Plotly leaves out what is drawn into panels that are still empty.
+    always = {**at, "exclude_empty_subplots": False}
     if isinstance(item, Shade):
         figure.add_vrect(
-            item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **at
+            item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **always
         )
     elif isinstance(item, Upright):
         dash = "dash" if item.dashed else "solid"
-        figure.add_vline(item.x, line={"color": item.colour, "width": 1, "dash": dash}, **at)
+        figure.add_vline(item.x, line={"color": item.colour, "width": 1, "dash": dash}, **always)
     elif isinstance(item, Heat):
         low, high = item.range or (None, None)
         scale = [[k / (len(item.scale) - 1), colour] for k, colour in enumerate(item.scale)]
