@@ -67,7 +67,11 @@ class RestMode(RestModeMethods):
     """Nodal circles of the dominant harmonic."""
 
     name: str
-    """In words."""
+    """In words; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45 %)"."""
+
+    branch: int | None
+    """Number of the branch of the Campbell diagram that begins with it, if the sweep does at
+    rest."""
 
     backward_error: float
     """‖L(λ)q‖ relative to the size of its terms."""
@@ -86,11 +90,17 @@ class CriticalSpeed(Entry):
     rpm: float
     """Rotation speed."""
 
+    branch: int | None
+    """Number of the branch that stands still, where the chart shows which."""
+
+    name: str
+    """Name of that branch, or of the wave that stands still where the branch is not known."""
+
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic."""
+    """Nodal diameters of the dominant harmonic of the wave that stands still."""
 
     nodal_circles: int
-    """Nodal circles of the dominant harmonic."""
+    """Nodal circles of that harmonic."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -118,8 +128,11 @@ class Instability(Entry):
     frequency_hz: float
     """Frequency at the peak."""
 
+    branches: IntArray
+    """Numbers of the branches that meet; none where no chart was drawn."""
+
     modes: tuple[str, ...]
-    """Names of the modes that meet."""
+    """Their names."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -206,17 +219,26 @@ class Certificate(Entry):
 class Branch(BranchMethods):
     """One mode followed over speed. All lists have one entry a speed."""
 
+    branch: int
+    """1, 2, 3 … in the order of the list."""
+
     name: str
-    """In words: "2 diameters, backward"."""
+    """What the branch is called wherever it is met, by its mode at the first of its speeds: of
+    a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters", or
+    shares of harmonics where none dominates."""
+
+    label: str
+    """Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45
+    %)"."""
 
     nodal_diameters: int
-    """Nodal diameters along most of the branch."""
+    """Nodal diameters of the dominant harmonic at the first of its speeds."""
 
     nodal_circles: int
-    """Nodal circles along most of the branch."""
+    """Nodal circles of that harmonic."""
 
-    direction: Direction
-    """Direction on the blade along most of the branch: never `Reflected`."""
+    direction: tuple[Direction, ...]
+    """How the wave runs on the blade at each speed: never `Reflected`."""
 
     rpm: FloatArray
     """Rotation speeds, ascending."""
@@ -259,7 +281,7 @@ class RootPath(Entry):
     """One eigenvalue over the speeds of a [RootLociEntry]."""
 
     name: str
-    """Name of the mode before the onset."""
+    """Name of the branch."""
 
     growth_per_s: FloatArray
     """Re λ."""
@@ -899,7 +921,7 @@ class Mode(ModeMethods):
     """w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 
     name: str
-    """In words, with the direction seen from space at this speed."""
+    """Its harmonics in words, with shares where none dominates."""
 
     direction: Direction
     """How the wave runs, seen from space."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 from .._entry import BoolArray, FloatArray, IntArray
-from .._report_types import Branch
-from .chart import STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
+from .._report_types import Branch, Direction, Instability
+from .chart import CURVE, STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
 
 if TYPE_CHECKING:
     from ..results import CampbellResults
@@ -46,16 +45,9 @@ def campbell(r: CampbellResults) -> Chart:
     return Chart(r.scene["name"], r._facts(), (upper, lower))
 
 
-def colour_of(branch: Branch) -> str:
-    """Blue forward, red backward, grey standing."""
-    named = "backward" if branch.direction == "reflected" else branch.direction
-    return colours()[named]
-
-
-def label_of(branch: Branch) -> str:
-    """Short name: "2/1 backward" has two diameters and one circle."""
-    circles = f"/{branch.nodal_circles}" if branch.nodal_circles else ""
-    return f"{branch.nodal_diameters}{circles} {branch.direction}"
+def colour_of(direction: Direction) -> str:
+    """Blue forward, red backward, grey standing; a reflected wave is a backward one."""
+    return colours()["backward" if direction == "reflected" else direction]
 
 
 def bands(r: CampbellResults, speeds: tuple[float, float]) -> list[Shade]:
@@ -112,36 +104,24 @@ def _branches(r: CampbellResults) -> list[Item]:
     for branch in reversed(r.branches):
         hover = _hover(branch)
         if len(branch.rpm) == 1:
-            items.append(Points(branch.rpm, branch.frequency_hz, colour_of(branch), hover=hover))
+            colour = colour_of(branch.direction[0])
+            items.append(Points(branch.rpm, branch.frequency_hz, colour, branch.name, hover=hover))
+            continue
         looks = _looks(r, branch)
-        for look, dashed, width in (
-            ("plain", False, 1.6),
-            ("reflected", True, 1.6),
-            ("unstable", False, STRONG_CURVE),
-        ):
-            places = _stretches(looks == look)
-            if not len(places):
-                continue
-            ends = look == looks[-1] and branch.rpm[-1] == last
+        for look in dict.fromkeys(looks):
+            stretch, colour = look
+            places = _stretches(np.array([other == look for other in looks]))
             x, y = (_picked(values, places) for values in (branch.rpm, branch.frequency_hz))
             said = [hover[place] if place >= 0 else "" for place in places]
-            items.append(
-                Line(
-                    x,
-                    y,
-                    colour_of(branch),
-                    branch.name,
-                    width,
-                    dashed,
-                    said,
-                    label_of(branch) if ends else "",
-                )
-            )
+            end = branch.label if look == looks[-1] and branch.rpm[-1] == last else ""
+            width = STRONG_CURVE if stretch == "unstable" else CURVE
+            dashed = stretch == "reflected"
+            items.append(Line(x, y, colour, branch.name, width, dashed, said, end))
     return items
 
 
-def _looks(r: CampbellResults, branch: Branch) -> npt.NDArray[np.str_]:
-    """What each segment of a branch looks like."""
+def _looks(r: CampbellResults, branch: Branch) -> list[tuple[str, str]]:
+    """What each segment of a branch looks like: what it is, and its colour."""
     grows = branch.growth_per_s > NEGLIGIBLE_PER_S
     reflected = branch.krein_sign == -1
     middle = (branch.rpm[:-1] + branch.rpm[1:]) / 2.0
@@ -150,7 +130,10 @@ def _looks(r: CampbellResults, branch: Branch) -> npt.NDArray[np.str_]:
         within |= (band.from_rpm <= middle) & (middle <= band.to_rpm)
     unstable = within & (grows[:-1] | grows[1:])
     dashed = reflected[:-1] | reflected[1:]
-    return np.where(unstable, "unstable", np.where(dashed, "reflected", "plain"))
+    looks = np.where(unstable, "unstable", np.where(dashed, "reflected", "plain"))
+    # Guides let waves stand at rest, whatever they do from there on: the end of a segment counts.
+    runs = (colour_of(direction) for direction in branch.direction[1:])
+    return list(zip(looks.tolist(), runs))
 
 
 def _stretches(
@@ -190,32 +173,48 @@ def _critical(r: CampbellResults) -> Points:
 
 
 def _growth(r: CampbellResults) -> tuple[list[Item], tuple[float, float]]:
-    """Growth rates; of an undamped saw those above zero alone, for each has a mirror image."""
+    """Growth rates; of an undamped saw within the bands alone, for each has a mirror image."""
     damped = any("damping" in term for term in r.terms)
     items: list[Item] = []
-    for branch in r.branches:
-        grows = branch.growth_per_s > NEGLIGIBLE_PER_S
-        chosen = np.ones(len(grows), bool) if damped else grows
-        segments = chosen[:-1] | chosen[1:]
-        places = _stretches(segments)
-        if not len(places):
-            continue
-        hover = _hover(branch)
-        x, y = (_picked(values, places) for values in (branch.rpm, branch.growth_per_s))
-        said = [hover[place] if place >= 0 else "" for place in places]
-        standing = bool(np.all(branch.frequency_hz[grows] < 1e-6)) if grows.any() else False
-        kind = "divergence" if standing else "flutter"
-        colour = colour_of(branch) if damped else colours()[kind]
-        items.append(Line(x, y, colour, branch.name, hover=said))
+    if damped:
+        for branch in r.branches:
+            colour = colour_of(branch.direction[-1])
+            hover = _hover(branch)
+            items.append(Line(branch.rpm, branch.growth_per_s, colour, branch.name, hover=hover))
     for band in r.bands:
-        peaks = f"{band.kind}, largest growth<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz<br>{band.peak_growth_per_s:.3g} 1/s"
-        peak = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))
-        items.append(Points(*peak, colours()[band.kind], band.kind, hover=[peaks]))
+        colour = colours()[band.kind]
+        x, y = _band_growth(r, band)
+        hover = [f"{band.kind}<br>{rpm:.1f} rpm<br>{growth:.3g} 1/s" for rpm, growth in zip(x, y)]
+        if not damped:
+            items.append(Line(x, y, colour, band.kind, hover=hover))
+        peak = (
+            f"{band.kind} of {' and '.join(band.modes)}<br>largest growth "
+            f"{band.peak_growth_per_s:.3g} 1/s<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz"
+        )
+        at = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))
+        items.append(Points(*at, colour, band.kind, hover=[peak]))
     top = max([band.peak_growth_per_s for band in r.bands], default=NEGLIGIBLE_PER_S)
     top = max(top, NEGLIGIBLE_PER_S)
     decay = [float(-np.min(b.growth_per_s)) for b in r.branches if len(b.rpm)]
     low = -min(max(decay, default=0.0), 4.0 * top) if damped else 0.0
     return items, (1.15 * low, 1.15 * top)
+
+
+def _band_growth(r: CampbellResults, band: Instability) -> tuple[FloatArray, FloatArray]:
+    """Growth within a band: from zero at its edges, through the growing branch and the peak."""
+    first, last = r.campbell.from_rpm, r.campbell.to_rpm
+    points = {band.peak_rpm: band.peak_growth_per_s}
+    for number in band.branches:
+        branch = r.branches[number - 1]
+        inside = (band.from_rpm < branch.rpm) & (branch.rpm < band.to_rpm)
+        for rpm, growth in zip(branch.rpm[inside], branch.growth_per_s[inside]):
+            if growth > 0.0:
+                points[float(rpm)] = max(points.get(float(rpm), 0.0), float(growth))
+    for edge in (band.from_rpm, band.to_rpm):
+        if band.closed or first < edge < last:
+            points[edge] = 0.0
+    rows = np.array(sorted(points.items()))
+    return rows[:, 0], rows[:, 1]
 
 
 def root_loci(r: CampbellResults) -> Chart:

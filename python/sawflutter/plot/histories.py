@@ -76,7 +76,9 @@ def response(r: RunUpResults) -> Chart:
     limit = float(of.frequency_hz[-1])
     for branch in r.campbell.branches:
         shown = np.where(branch.frequency_hz <= limit, branch.frequency_hz, np.nan)
-        items.append(Line(branch.rpm, shown, colour_of(branch), branch.name, width=1.0))
+        items.append(
+            Line(branch.rpm, shown, colour_of(branch.direction[-1]), branch.name, width=1.0)
+        )
     measured = r.scene.get("measured")
     for row in measured["rows"] if measured else []:
         below = np.array([hz for hz in row["frequencies_hz"] if hz <= limit])
