@@ -566,8 +566,7 @@ def _table(measured: Measured) -> tuple[str, str] | None:
     if measured is None:
         return None
     if isinstance(measured, (str, os.PathLike)):
-        path = Path(measured)
-        return path.name, path.read_text(encoding="utf-8-sig")
+        return Path(measured).name, _native.read_text(measured, True)
     if isinstance(measured, np.ndarray):
         measured = [(row[0], row[1:]) for row in measured]
     rows = []

@@ -51,7 +51,7 @@ class Study:
         self, scene: Scene, study: StudyDict | Mapping[str, Any] | str | os.PathLike[str]
     ) -> None:
         if isinstance(study, (str, os.PathLike)):
-            text = Path(study).read_text(encoding="utf-8-sig")
+            text = _native.read_text(study, False)
         else:
             text = _json(study)
         self._setup(scene, text)

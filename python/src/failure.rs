@@ -11,6 +11,7 @@ use sawflutter::scene::SceneError;
 use sawflutter::spectrum::SpectrumError;
 use sawflutter::stability::SensitivityError;
 use sawflutter::study::{LogError, StudyError};
+use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
 
 /// Why a computation failed.
@@ -74,8 +75,7 @@ impl From<SceneError> for Failure {
         let message = error.to_string();
         let class = "SceneError";
         match error {
-            SceneError::Read { source, .. } => Failure::Unreadable(source, message),
-            SceneError::Directory { .. } => Failure::Directory(message),
+            SceneError::File(source) => file(class, source),
             SceneError::Syntax { key, .. } => Refusal::saying(class, message, Some(key)),
             SceneError::Value {
                 key,
@@ -92,6 +92,16 @@ impl From<SceneError> for Failure {
             })),
             _ => Refusal::saying(class, message, None),
         }
+    }
+}
+
+/// A file that gave no text.
+pub fn file(class: &'static str, error: FileError) -> Failure {
+    let message = error.to_string();
+    match error {
+        FileError::Read { source, .. } => Failure::Unreadable(source, message),
+        FileError::Directory { .. } => Failure::Directory(message),
+        _ => Refusal::saying(class, message, None),
     }
 }
 

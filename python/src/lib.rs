@@ -10,6 +10,7 @@ mod study;
 mod watch;
 
 use pyo3::prelude::*;
+use sawflutter::text::{Kind, OtherEncodings, read_path};
 
 #[pymodule]
 mod _native {
@@ -22,7 +23,7 @@ mod _native {
     #[pymodule_export]
     use super::study::{Study, StudyLog};
     #[pymodule_export]
-    use super::{panic, paper, program, read_scene, scene, schema};
+    use super::{panic, paper, program, read_scene, read_text, scene, schema};
 }
 
 /// The scene of a JSON text, validated, as JSON.
@@ -44,6 +45,21 @@ fn paper() -> PyResult<String> {
 fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
     let scene = sawflutter::scene::Scene::from_path(&path).map_err(failure::Failure::from)?;
     Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+}
+
+/// The text of the file of a study, or of a table of frequencies, whatever its encoding.
+#[pyfunction]
+fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
+    let (class, other_encodings) = match table {
+        true => ("ArgumentError", OtherEncodings::AsLatin1),
+        false => ("StudyError", OtherEncodings::Refused),
+    };
+    let kind = Kind {
+        limit: sawflutter::scene::MAX_SCENE_BYTES,
+        other_encodings,
+    };
+    let text = read_path(&path, kind).map_err(|error| failure::file(class, error))?;
+    Ok(text)
 }
 
 /// JSON schemas of scenes, studies and reports, as one JSON object.
