@@ -24,7 +24,9 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     KeyedError {
         key,
         message,
-        of_keys: said.starts_with("missing field") || said.starts_with("unknown field"),
+        of_keys: error.is_eof()
+            || said.starts_with("missing field")
+            || said.starts_with("unknown field"),
     }
 }
 
