@@ -263,6 +263,7 @@ mod tests {
             goal: GoalEntry::FlutterSpeed,
             min_critical_rpm: Some(1500.0),
             kept: true,
+            improved: true,
             from_rpm: 0.0,
             to_rpm: 3000.0,
             flutter_threshold_per_s: 0.25,

@@ -176,11 +176,10 @@ impl Fit {
             .collect::<Result<_, _>>()?;
         let best = lowest(refined.into_iter().flatten()).unwrap_or_else(|| best.clone());
         let spread = statistics(&fine, &best.shares, options.confidence)?;
-        let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
-        let before = fine.residuals_hz(&own)?;
+        let before = fine.residuals_of_saw_hz(scene)?;
         Ok(Fit {
             scene: calibrated(scene, measurement, &freed, &best)?,
-            parameters: parameters(&freed, &own, &best.shares, &spread.half_widths),
+            parameters: parameters(scene, &freed, &best.shares, &spread.half_widths)?,
             without_effect,
             correlation: spread.correlation,
             degrees_of_freedom: spread.degrees_of_freedom,
@@ -211,17 +210,20 @@ impl Fit {
 
 /// Every number with what was found for it, from shares of its bounds.
 fn parameters(
+    scene: &Scene,
     freed: &[Freed],
-    own: &[f64],
     shares: &[f64],
     half_widths: &[Option<f64>],
-) -> Vec<FittedParameter> {
-    let numbers = freed.iter().enumerate().map(|(k, freed)| FittedParameter {
-        freed: freed.clone(),
-        start: freed.value(own[k]),
-        value: freed.value(shares[k]),
-        interval: half_widths[k].map(|h| (freed.value(shares[k] - h), freed.value(shares[k] + h))),
-        at_bound: at_bound(shares[k]),
+) -> Result<Vec<FittedParameter>, SceneError> {
+    let numbers = freed.iter().enumerate().map(|(k, freed)| {
+        let end = |half_width: f64| freed.value(shares[k] + half_width);
+        Ok(FittedParameter {
+            freed: freed.clone(),
+            start: freed.parameter.get(scene.file())?,
+            value: freed.value(shares[k]),
+            interval: half_widths[k].map(|h| (end(-h), end(h))),
+            at_bound: at_bound(shares[k]),
+        })
     });
     numbers.collect()
 }

@@ -4,7 +4,7 @@ use basin::DenseMatrix;
 use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Freed, SceneError, SceneFile, scene_at};
+use crate::scene::{Freed, Scene, SceneError, SceneFile, scene_at};
 use crate::spectrum::{LowestModes, Mode, Part, SpectrumError, derivative};
 use crate::system::GyroscopicSystem;
 
@@ -37,7 +37,13 @@ impl Model<'_> {
         }
     }
 
-    /// The same with its derivative by every share, exact in the eigenvalues; the matrices are
+    /// The same of a saw whose numbers need not lie between the bounds.
+    pub fn residuals_of_saw_hz(&self, saw: &Scene) -> Result<Vec<f64>, SpectrumError> {
+        let lowest = LowestModes::new(&Plate::new(saw, self.resolution));
+        self.residuals_of(&lowest, |_, _| ())
+    }
+
+    /// The same as [`Model::residuals_hz`] with its derivative by every share, exact in the eigenvalues; the matrices are
     /// differentiated by differences of the assembly, as in
     /// [`sensitivities`](crate::stability::sensitivities).
     pub fn residuals_and_slopes(
@@ -168,7 +174,6 @@ fn slope_hz(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
 
     #[test]
     fn slopes_are_those_of_differences() {

@@ -141,6 +141,9 @@ pub fn statistics(
         correlation: vec![vec![0.0; shares.len()]; shares.len()],
         degrees_of_freedom,
     };
+    if free.is_empty() {
+        return Ok(spread);
+    }
     let jacobian = DMatrix::from_fn(residuals.len(), free.len(), |i, k| slopes.get(i, free[k]));
     let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
     let student = StudentsT::new(0.0, 1.0, degrees_of_freedom as f64);

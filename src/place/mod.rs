@@ -136,8 +136,12 @@ pub struct PlacedParameter {
 /// The best saw found.
 #[derive(Debug, Clone)]
 pub struct Placement {
-    /// The saw.
+    /// The saw: the best that was found, or the scene as it was where none between the bounds is
+    /// better.
     pub scene: Scene,
+    /// Whether it is better than the scene as it was. It can be worse where that one does not
+    /// lie within the bounds.
+    pub improved: bool,
     /// Numbers found.
     pub parameters: Vec<PlacedParameter>,
     /// Freed numbers that move nothing, or nothing that the others do not move as well.
@@ -161,8 +165,8 @@ pub struct Placement {
 /// Told what is being done, how many of it are done, and of how many.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
-/// The search may be this far off; what it finds is refined on the basis asked for. Basis
-/// errors move all saws of a search alike, so that better ones stay the better.
+/// The search may be this far off; the best that it finds are held against each other, and
+/// refined, on the basis asked for.
 const COARSE_TOLERANCE: f64 = 5e-2;
 /// How far apart places to refine are at least, as a share of the bounds.
 const APART: f64 = 0.08;
@@ -174,6 +178,8 @@ const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
 const SETTLED: u64 = 3;
 /// A map that still finds better saws is not drawn again for ever.
 const MAP_ROUNDS: usize = 3;
+/// So many samples more than were refined are candidates for the finer basis.
+const MORE_SAMPLES: usize = 2;
 /// Nearer to a bound than this a share rests on it.
 const AT_BOUND: f64 = 1e-3;
 /// Speeds that move by less than this share of themselves do not move.
@@ -210,14 +216,9 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let (candidate, map) = look_everywhere(&coarse, &own, options, progress)?;
+        let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
         if options.resolution.is_none() {
-            let near = scene_at(scene.file(), &freed, &candidate.shares)?;
-            let near = near.swept(SpeedRange {
-                from_rad_per_s: question.range.0,
-                to_rad_per_s: question.range.1,
-            })?;
-            question.resolution = ChosenBasis::new(&near, scene.tolerance())?.plate.resolution;
+            question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
         }
         let fine = Search {
             scene: scene.file(),
@@ -225,18 +226,17 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let best = settle(&fine, &candidate, options.refine / SETTLED, progress);
-        let (Some(found), Some(before)) = (fine.outcome(&best.shares), fine.outcome(&own)) else {
-            let tried = evaluations.into_inner();
-            return Err(PlaceError::NoSaw { tried });
-        };
-        let neighbours = Neighbours::new(&fine, &best.shares, &found, progress);
+        let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
+        let before = fine.question.ask(scene)?;
+        let chosen = Choice::between(scene, &freed, settled, before.clone())?;
+        let neighbours = Neighbours::new(&fine, &chosen.shares, &chosen.outcome, progress);
         Ok(Placement {
-            scene: placed(scene, &freed, &best)?,
-            parameters: parameters(&freed, &own, &best.shares),
+            parameters: parameters(scene, &freed, &chosen)?,
+            scene: chosen.scene,
+            improved: chosen.improved,
             without_effect,
             before,
-            best: found,
+            best: chosen.outcome,
             neighbours,
             map,
             range: question.range,
@@ -246,71 +246,156 @@ impl Placement {
     }
 }
 
-/// Every number with what was found for it, from shares of its bounds.
-fn parameters(freed: &[Freed], own: &[f64], shares: &[f64]) -> Vec<PlacedParameter> {
-    let numbers = freed.iter().enumerate().map(|(k, freed)| PlacedParameter {
-        freed: freed.clone(),
-        start: freed.value(own[k]),
-        value: freed.value(shares[k]),
-        at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&shares[k]),
+/// The saw that is answered.
+struct Choice {
+    scene: Scene,
+    shares: Vec<f64>,
+    outcome: Outcome,
+    improved: bool,
+}
+
+impl Choice {
+    /// The best saw found, or the scene's own where that is within the bounds and none is better.
+    fn between(
+        scene: &Scene,
+        freed: &[Freed],
+        settled: Option<(Tried, Outcome)>,
+        before: Outcome,
+    ) -> Result<Self, PlaceError> {
+        let better = |found: &Outcome| found.cost() < before.cost() - IDLE * before.cost().abs();
+        let own_is_allowed = freed.iter().all(|f| {
+            let own = f.parameter.get(scene.file());
+            own.is_ok_and(|own| (f.from..=f.to).contains(&own))
+        });
+        match settled {
+            Some((tried, outcome)) if better(&outcome) || !own_is_allowed => Ok(Choice {
+                scene: placed(scene, freed, &tried)?,
+                shares: tried.shares,
+                improved: better(&outcome),
+                outcome,
+            }),
+            None if !own_is_allowed => Err(PlaceError::NoSaw { tried: 0 }),
+            _ => Ok(Choice {
+                scene: scene.clone(),
+                shares: freed.iter().map(|f| f.share_of(scene.file())).collect(),
+                outcome: before,
+                improved: false,
+            }),
+        }
+    }
+}
+
+/// The largest of the bases that the tolerance asks for of the start and of every candidate, so
+/// that all are held against each other on the same.
+fn basis_of_all(
+    scene: &Scene,
+    freed: &[Freed],
+    candidates: &[Tried],
+    range: (f64, f64),
+) -> Result<Resolution, PlaceError> {
+    let sweep = SpeedRange {
+        from_rad_per_s: range.0,
+        to_rad_per_s: range.1,
+    };
+    let basis_of = |saw: &Scene| -> Result<Resolution, PlaceError> {
+        let chosen = ChosenBasis::new(&saw.swept(sweep)?, scene.tolerance())?;
+        Ok(chosen.plate.resolution)
+    };
+    let own = basis_of(scene)?;
+    let others: Vec<Option<Resolution>> = candidates
+        .par_iter()
+        .map(|tried| basis_of(&scene_at(scene.file(), freed, &tried.shares).ok()?).ok())
+        .collect();
+    let all = others.into_iter().flatten().chain([own]);
+    Ok(all
+        .max_by_key(Resolution::degrees_of_freedom)
+        .unwrap_or(own))
+}
+
+/// Every number with what was found for it.
+fn parameters(
+    scene: &Scene,
+    freed: &[Freed],
+    chosen: &Choice,
+) -> Result<Vec<PlacedParameter>, SceneError> {
+    let numbers = freed.iter().zip(&chosen.shares).map(|(freed, share)| {
+        Ok(PlacedParameter {
+            freed: freed.clone(),
+            start: freed.parameter.get(scene.file())?,
+            value: freed.parameter.get(chosen.scene.file())?,
+            at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(share),
+        })
     });
     numbers.collect()
 }
 
 /// Samples, refines the best of them, and draws the map through the best; a map that shows a
-/// better saw is where the search goes on.
+/// better saw is where the search goes on. The candidates for the finer basis, best first: what
+/// the refinements led to, the start, and the best samples, for a saw next to a cliff on this
+/// basis may be over it on the other.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
     options: &Options,
     progress: Progress<'_>,
-) -> Result<(Tried, Option<Map>), PlaceError> {
+) -> Result<(Vec<Tried>, Option<Map>), PlaceError> {
     let samples = options.samples.max(1);
     let tried = search.sample(own, samples, &|done, of| progress("samples", done, of));
-    let starts = Search::apart(&tried, options.places.max(1), APART);
-    let refined: Vec<Tried> = starts
+    let places = options.places.max(1);
+    let starts = Search::apart(&tried, places, APART);
+    let mut candidates: Vec<Tried> = starts
         .par_iter()
         .map(|start| search.refine(start, COARSE_STEPS, options.refine))
         .collect();
-    let mut best = cheapest(refined).ok_or(PlaceError::NoSaw { tried: samples })?;
+    let mut best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
     if best.cost >= REFUSED {
         return Err(PlaceError::NoSaw { tried: samples });
     }
-    if options.map < 2 {
-        return Ok((best, None));
-    }
     let mut map = None;
-    for _ in 0..MAP_ROUNDS {
+    for _ in 0..if options.map < 2 { 0 } else { MAP_ROUNDS } {
         let drawn = Map::new(search, &best.shares, options.map, progress);
         let on_map = drawn.cheapest(&best.shares);
         map = Some(drawn);
         match on_map {
             Some(better) if better.cost < best.cost => {
                 best = search.refine(&better, COARSE_STEPS, options.refine);
+                candidates.push(best.clone());
             }
             _ => break,
         }
     }
-    Ok((best, map))
+    let own = tried.iter().find(|one| one.shares == own);
+    candidates.extend(own.cloned());
+    candidates.extend(Search::apart(&tried, places + MORE_SAMPLES, APART));
+    candidates.retain(|one| one.cost < REFUSED);
+    candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
+    candidates.dedup_by(|x, y| x.shares == y.shares);
+    Ok((candidates, map))
 }
 
-/// Refines on the basis asked for, until direct search finds nothing better.
-fn settle(search: &Search<'_>, candidate: &Tried, budget: u64, progress: Progress<'_>) -> Tried {
+/// Holds the candidates against each other on the basis asked for, and refines the best of them
+/// there until direct search finds nothing better.
+fn settle(
+    search: &Search<'_>,
+    candidates: &[Tried],
+    budget: u64,
+    progress: Progress<'_>,
+) -> Option<(Tried, Outcome)> {
     progress("refinement", 0, 1);
-    let cost = search
-        .outcome(&candidate.shares)
-        .map_or(REFUSED, |o| o.cost());
-    let start = Tried {
-        cost,
-        ..candidate.clone()
-    };
-    let settled = search.refine(&start, FINE_STEPS, budget);
+    let settled: Vec<Tried> = candidates
+        .par_iter()
+        .map(|candidate| search.tried(candidate.shares.clone()))
+        .collect();
+    let start = cheapest(&settled)?;
+    let best = search.refine(&start, FINE_STEPS, budget);
+    let outcome = search.outcome(&best.shares);
     progress("refinement", 1, 1);
-    settled
+    Some((best, outcome?))
 }
 
-fn cheapest(tried: Vec<Tried>) -> Option<Tried> {
-    tried.into_iter().min_by(|x, y| x.cost.total_cmp(&y.cost))
+fn cheapest(tried: &[Tried]) -> Option<Tried> {
+    let least = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    least.cloned()
 }
 
 /// Sorts the freed numbers into those that move a critical speed or a band, and the others.

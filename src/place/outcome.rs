@@ -1,9 +1,9 @@
 //! What a saw is worth that is tried.
 
-use crate::plate::{Plate, Resolution};
+use crate::plate::Resolution;
 use crate::scene::Scene;
-use crate::spectrum::{SpectralModel, SpectrumError};
-use crate::stability::{Instability, first_flutter, search_bands};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Instability, first_flutter, resolved_plate, search_bands};
 
 use super::Goal;
 
@@ -32,6 +32,7 @@ pub struct Question {
     pub min_critical_rad_per_s: Option<f64>,
     /// Sweep, the same for all.
     pub range: (f64, f64),
+    /// The basis, or the least of all where a saw takes a larger one.
     pub resolution: Resolution,
 }
 
@@ -42,10 +43,9 @@ impl Question {
     /// Analyses a saw as far as the question asks.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
+    /// [`SpectrumError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
     pub fn ask(&self, scene: &Scene) -> Result<Outcome, SpectrumError> {
-        let plate = Plate::new(scene, self.resolution);
-        let critical = SpectralModel::critical_speeds(&plate)?;
+        let (plate, critical) = resolved_plate(scene, self.resolution, self.range.1)?;
         let lowest = critical.first().map(|c| c.speed_rad_per_s);
         let short = match (self.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (asked - found).max(0.0),

@@ -42,7 +42,8 @@ impl Search<'_> {
         self.question.ask(&scene).ok()
     }
 
-    fn tried(&self, shares: Vec<f64>) -> Tried {
+    /// Shares with what they cost.
+    pub fn tried(&self, shares: Vec<f64>) -> Tried {
         let cost = self.outcome(&shares).map_or(REFUSED, |o| o.cost());
         Tried { shares, cost }
     }

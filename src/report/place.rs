@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
-use crate::place::{Demands, Goal, Map, Neighbours, Outcome, Placement};
+use crate::place::{Demands, Goal, Map, Neighbours, Outcome, PlacedParameter, Placement};
 use crate::scene::{Scene, SceneFile, rpm, unusual};
 
 /// `place.json`.
@@ -21,6 +21,10 @@ pub struct PlaceReport {
     pub min_critical_rpm: Option<f64>,
     /// Whether the best saw keeps it.
     pub kept: bool,
+    /// Whether the best saw is better than the scene as it was. Where none between the bounds
+    /// is, `scene`, `best` and the numbers are those of the scene as it was, unless that one lies
+    /// outside the bounds.
+    pub improved: bool,
     /// First speed of the sweep, the same for every saw.
     pub from_rpm: f64,
     /// Last speed of the sweep: no flutter is seen beyond it.
@@ -149,6 +153,7 @@ impl PlaceReport {
             },
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
             kept: found.best.is_kept(),
+            improved: found.improved,
             from_rpm: rpm(found.range.0),
             to_rpm: rpm(found.range.1),
             flutter_threshold_per_s: found.scene.flutter_threshold_per_s(),
@@ -252,6 +257,9 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
             format!("{path} moves no critical speed and no band, and stays as it was")
         });
     }
+    if !found.improved {
+        warnings.push(not_improved(found).into());
+    }
     let beyond = match demands.goal {
         Goal::FlutterSpeed => found.best.flutter_rad_per_s.is_none(),
         Goal::StableWindow { .. } => found.best.window.is_some_and(|(_, to)| to >= found.range.1),
@@ -271,4 +279,16 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
         );
     }
     warnings
+}
+
+fn not_improved(found: &Placement) -> &'static str {
+    let within = |p: &PlacedParameter| (p.freed.from..=p.freed.to).contains(&p.start);
+    match found.parameters.iter().all(within) {
+        true => {
+            "no saw better than the scene's own was found between the bounds; the scene stays as it was"
+        }
+        false => {
+            "the scene's own saw, which lies outside the bounds, is as good as the best one found between them or better; widen the bounds, or keep it"
+        }
+    }
 }

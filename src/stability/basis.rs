@@ -108,6 +108,43 @@ impl ChosenBasis {
     }
 }
 
+/// A saw in a basis and its critical speeds, or in the next larger basis that holds the waves
+/// which are reflected below a speed.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails, when the blade is not elastic at that speed any
+/// more, or when the largest basis does not hold these waves.
+pub(crate) fn resolved_plate(
+    scene: &Scene,
+    least: Resolution,
+    to_rad_per_s: f64,
+) -> Result<(Plate, Vec<NamedCriticalSpeed>), SpectrumError> {
+    let fastest = fastest_rad_per_s(scene.blade());
+    if to_rad_per_s > fastest {
+        return Err(SpectrumError::Overstretched {
+            to_rpm: rpm(to_rad_per_s),
+            limit_rpm: rpm(fastest),
+        });
+    }
+    let larger = LADDER.into_iter();
+    let mut larger = larger.filter(|(max_diameters, _)| *max_diameters > least.max_diameters);
+    let mut resolution = least;
+    loop {
+        let plate = Plate::new(scene, resolution);
+        let critical = SpectralModel::critical_speeds(&plate)?;
+        match (unresolved(&plate, &critical, to_rad_per_s), larger.next()) {
+            (Ok(()), _) => return Ok((plate, critical)),
+            (Err(_), Some((max_diameters, radial_functions))) => {
+                resolution = Resolution {
+                    max_diameters,
+                    radial_functions,
+                }
+            }
+            (Err(error), None) => return Err(error),
+        }
+    }
+}
+
 /// What is left after two differences that fall like a geometric series, with a margin.
 fn extrapolated(before: f64, latest: f64) -> f64 {
     let fall = (latest / before.max(f64::MIN_POSITIVE)).clamp(FALL.0, FALL.1);
@@ -179,6 +216,29 @@ mod tests {
     #[test]
     fn a_geometric_series_is_extrapolated_to_its_limit() {
         assert!((extrapolated(0.4, 0.24) - SAFETY * 0.36).abs() < 1e-15);
+    }
+
+    /// A blade of a third of the thickness reflects the waves of many more diameters below
+    /// 2400 rpm than the four of the least basis; the largest basis says how many.
+    #[test]
+    fn a_basis_too_small_for_the_waves_below_a_speed_gives_way_to_a_larger_one() {
+        let thin = Scene::paper().edited(|saw| saw.blade.thickness_m /= 3.0);
+        let thin = thin.unwrap();
+        let top = rad_per_s(2400.0);
+        let basis = |(max_diameters, radial_functions)| Resolution {
+            max_diameters,
+            radial_functions,
+        };
+        let below =
+            |critical: &[NamedCriticalSpeed]| critical.partition_point(|c| c.speed_rad_per_s < top);
+        let exact = Plate::new(&thin, basis(LADDER[LADDER.len() - 1]));
+        let exact = below(&SpectralModel::critical_speeds(&exact).unwrap());
+        let small = Plate::new(&thin, basis(LADDER[0]));
+        let small = below(&SpectralModel::critical_speeds(&small).unwrap());
+        assert!(small < exact, "{small} {exact}");
+        let (plate, critical) = resolved_plate(&thin, basis(LADDER[0]), top).unwrap();
+        assert!(plate.max_diameters() > LADDER[0].0);
+        assert_eq!(below(&critical), exact);
     }
 
     /// Hoop strain ρ(Ωb)²/E of the paper's blade: a tenth at 43 400 rpm.

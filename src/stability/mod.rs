@@ -20,6 +20,7 @@ mod tradeoff;
 pub use analysis::{Analysis, Detail, OPERATING_LIMIT};
 pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
 pub use basis::ChosenBasis;
+pub(crate) use basis::resolved_plate;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
 pub use onsets::{Onsets, first_flutter, search_bands};

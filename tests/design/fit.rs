@@ -297,3 +297,67 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(one.parameters, three.parameters);
     assert_eq!(one.starts, three.starts);
 }
+
+/// Root mean square of what is left of a measurement.
+fn rms_hz(scene: &Scene, measurement: &Measurement) -> f64 {
+    let speeds: Vec<f64> = measurement.rows.iter().map(|row| row.rpm).collect();
+    let computed = exact(scene, &speeds, 4);
+    let rows = measurement.rows.iter().zip(&computed);
+    let squares = rows.flat_map(|(row, computed)| {
+        let off = row.pairs.iter().map(|(place, hz)| computed[*place] - hz);
+        off.map(|hz| hz * hz)
+    });
+    (squares.sum::<f64>() / measurement.count() as f64).sqrt()
+}
+
+/// The best radius and the best density lie outside the bounds: the answer is the bound, which
+/// nothing between the bounds beats, without an interval.
+#[test]
+fn numbers_that_all_end_at_bounds_are_answered_without_intervals() {
+    let density = "blade.material.density_kg_per_m3";
+    let guided = scene("paper");
+    let without_guides = guided.edited(|saw| saw.guides.clear()).unwrap();
+    let options = Options {
+        resolution: Some(SMALL),
+        starts: 2,
+        ..Options::default()
+    };
+    for (saw, path, from, to) in [
+        (guided, RADIUS, 0.30, 0.33),
+        (without_guides, density, 6280.0, 9420.0),
+    ] {
+        let measurement = table_5(&saw);
+        let free = freed(&saw, &[(path, from, to)]);
+        let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+        let found = &fit.parameters[0];
+        assert!(found.at_bound && found.interval.is_none(), "{found:?}");
+        assert_eq!(fit.correlation, [[0.0]]);
+        assert_eq!(fit.degrees_of_freedom, measurement.count());
+        let on_grid = |k: i32| {
+            let value = from + (to - from) * f64::from(k) / 10.0;
+            rms_hz(&with(&saw, &[(path, value)]), &measurement)
+        };
+        let least = (0..=10).map(on_grid).fold(f64::INFINITY, f64::min);
+        assert_close(path, fit.rms_hz, least, 1e-3);
+    }
+}
+
+/// Where the scene's own number is not within the bounds, "before" is still the scene.
+#[test]
+fn a_start_outside_the_bounds_is_reported_as_it_is() {
+    let saw = scene("paper");
+    let options = Options {
+        resolution: Some(SMALL),
+        starts: 2,
+        ..Options::default()
+    };
+    let free = freed(&saw, &[(RADIUS, 0.21, 0.25)]);
+    let fit = Fit::new(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap();
+    assert_eq!(fit.parameters[0].start, 0.2);
+    assert_close(
+        "before",
+        fit.rms_before_hz,
+        rms_hz(&saw, &table_5(&saw)),
+        1e-9,
+    );
+}

@@ -6,9 +6,9 @@ use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::place::{Demands, Goal, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Freed, Scene, SpeedRange, rad_per_s, rpm};
+use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
+use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
 
 use super::numbers::{freed, with};
 
@@ -248,4 +248,93 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(one.best, three.best);
     assert_eq!(one.neighbours, three.neighbours);
     assert_eq!((one.map, one.evaluations), (three.map, three.evaluations));
+}
+
+/// A saw of draft accuracy, with the choice of the basis left to the program.
+fn draft(name: &str) -> Scene {
+    let saw = scene(name).edited(|saw| saw.accuracy = Accuracy::Draft);
+    saw.unwrap()
+}
+
+fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
+    let options = Options {
+        samples: 32,
+        refine: 20,
+        map: 0,
+        ..Options::default()
+    };
+    place(saw, &freed(saw, &[(RADIUS, 0.15, 0.3)]), demands, &options)
+}
+
+/// On the coarse basis the best radius lies past a cliff of the finer one, on which that saw
+/// flutters from 1907 rpm on and the start from 2256. Both are analysed as `analyze` does.
+#[test]
+fn the_answer_is_never_below_the_start() {
+    let saw = draft("paper");
+    let found = one_radius(&saw, &Demands::default());
+    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed.unwrap();
+    let (before, after) = (flutter(&saw), flutter(&found.scene));
+    println!("{} -> {} rpm", rpm(before), rpm(after));
+    assert!(after >= before);
+    assert_close("before", found.before.value_rad_per_s, before, 1e-3);
+    assert_close("after", found.best.value_rad_per_s, after, 1e-3);
+    assert_eq!(found.improved, after > before);
+}
+
+/// The same of the window between the bands next to 1800 rpm.
+#[test]
+fn the_window_is_never_narrower_than_before() {
+    let saw = draft("paper");
+    let around_rad_per_s = rad_per_s(1800.0);
+    let goal = Goal::StableWindow { around_rad_per_s };
+    let demands = Demands {
+        goal,
+        ..Demands::default()
+    };
+    let found = one_radius(&saw, &demands);
+    let window = |saw: &Scene| {
+        let threshold = saw.flutter_threshold_per_s();
+        let bands = Onsets::new(saw).unwrap().instabilities;
+        let counting = || bands.iter().filter(|band| band.counts(threshold));
+        let below = counting().filter(|band| band.to < around_rad_per_s);
+        let above = counting().filter(|band| band.from > around_rad_per_s);
+        let from = below.map(|band| band.to).fold(0.0, f64::max);
+        above.map(|band| band.from).fold(f64::INFINITY, f64::min) - from
+    };
+    let (before, after) = (window(&saw), window(&found.scene));
+    assert!(after >= before, "{} {}", rpm(before), rpm(after));
+    assert_close("window", found.best.value_rad_per_s, after, 1e-2);
+}
+
+/// Below 1600 rpm no saw flutters, so that none is better than another: the start stays, to the
+/// last digit and without a note in its scene.
+#[test]
+fn a_start_that_nothing_beats_is_the_answer() {
+    let saw = with(&scene("paper"), &[("sweep.to_rpm", 1600.0)]);
+    let free = freed(&saw, &[(RADIUS, 0.19, 0.21)]);
+    let found = place(&saw, &free, &Demands::default(), &quick());
+    assert!(!found.improved);
+    assert_eq!(found.scene, saw);
+    assert_eq!(found.parameters[0].value, found.parameters[0].start);
+    assert_eq!(found.best, found.before);
+}
+
+/// What the scene has need not lie between the bounds; it is still what "before" speaks of.
+#[test]
+fn a_start_outside_the_bounds_is_reported_as_it_is() {
+    let saw = swept("two-pads");
+    let own = Parameter::new(RADIUS).get(saw.file()).unwrap();
+    let free = freed(&saw, &[(RADIUS, own + 0.02, own + 0.04)]);
+    let found = place(&saw, &free, &Demands::default(), &quick());
+    assert_eq!(found.parameters[0].start, own);
+    assert_close(
+        "before",
+        rpm(found.before.value_rad_per_s),
+        flutter_rpm(&saw),
+        1e-6,
+    );
+    let value = found.parameters[0].value;
+    assert!((own + 0.02..=own + 0.04).contains(&value), "{value}");
+    let gained = found.best.value_rad_per_s > found.before.value_rad_per_s;
+    assert_eq!(found.improved, gained);
 }
