@@ -221,7 +221,10 @@ fn parameters(
             freed: freed.clone(),
             start: freed.parameter.get(scene.file())?,
             value: freed.value(shares[k]),
-            interval: half_widths[k].map(|h| (end(-h), end(h))),
+            // Of a number that is hardly determined the ends may outgrow every number.
+            interval: half_widths[k]
+                .map(|h| (end(-h), end(h)))
+                .filter(|(from, to)| from.is_finite() && to.is_finite()),
             at_bound: at_bound(shares[k]),
         })
     });

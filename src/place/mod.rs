@@ -25,13 +25,14 @@ mod map;
 mod neighbours;
 mod outcome;
 mod search;
+mod settle;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
-use crate::scene::{Freed, Scene, SceneError, SpeedRange, common_turn, scene_at, spread};
+use crate::scene::{Freed, Scene, SceneError, common_turn, spread};
 use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
 
@@ -40,6 +41,7 @@ pub use neighbours::{Neighbour, Neighbours};
 pub use outcome::Outcome;
 use outcome::{Question, REFUSED};
 use search::{Search, Tried};
+use settle::{Choice, basis_of_all, settle};
 
 /// Why no place could be looked for.
 #[derive(Debug, thiserror::Error)]
@@ -172,7 +174,6 @@ const COARSE_TOLERANCE: f64 = 5e-2;
 const APART: f64 = 0.08;
 /// First and last steps of the refinement as shares of the bounds.
 const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
-const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
 /// The fine basis moves an optimum, and the cliffs next to it, by little: so many times fewer saws
 /// are enough there, and each costs ten times as much.
 const SETTLED: u64 = 3;
@@ -228,7 +229,8 @@ impl Placement {
         };
         let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
         let before = fine.question.ask(scene)?;
-        let chosen = Choice::between(scene, &freed, settled, before.clone())?;
+        let tried = evaluations.load(Ordering::Relaxed);
+        let chosen = Choice::between(scene, &freed, settled, before.clone(), tried)?;
         let neighbours = Neighbours::new(&fine, &chosen.shares, &chosen.outcome, progress);
         Ok(Placement {
             parameters: parameters(scene, &freed, &chosen)?,
@@ -244,72 +246,6 @@ impl Placement {
             evaluations: evaluations.load(Ordering::Relaxed),
         })
     }
-}
-
-/// The saw that is answered.
-struct Choice {
-    scene: Scene,
-    shares: Vec<f64>,
-    outcome: Outcome,
-    improved: bool,
-}
-
-impl Choice {
-    /// The best saw found, or the scene's own where that is within the bounds and none is better.
-    fn between(
-        scene: &Scene,
-        freed: &[Freed],
-        settled: Option<(Tried, Outcome)>,
-        before: Outcome,
-    ) -> Result<Self, PlaceError> {
-        let better = |found: &Outcome| found.cost() < before.cost() - IDLE * before.cost().abs();
-        let own_is_allowed = freed.iter().all(|f| {
-            let own = f.parameter.get(scene.file());
-            own.is_ok_and(|own| (f.from..=f.to).contains(&own))
-        });
-        match settled {
-            Some((tried, outcome)) if better(&outcome) || !own_is_allowed => Ok(Choice {
-                scene: placed(scene, freed, &tried)?,
-                shares: tried.shares,
-                improved: better(&outcome),
-                outcome,
-            }),
-            None if !own_is_allowed => Err(PlaceError::NoSaw { tried: 0 }),
-            _ => Ok(Choice {
-                scene: scene.clone(),
-                shares: freed.iter().map(|f| f.share_of(scene.file())).collect(),
-                outcome: before,
-                improved: false,
-            }),
-        }
-    }
-}
-
-/// The largest of the bases that the tolerance asks for of the start and of every candidate, so
-/// that all are held against each other on the same.
-fn basis_of_all(
-    scene: &Scene,
-    freed: &[Freed],
-    candidates: &[Tried],
-    range: (f64, f64),
-) -> Result<Resolution, PlaceError> {
-    let sweep = SpeedRange {
-        from_rad_per_s: range.0,
-        to_rad_per_s: range.1,
-    };
-    let basis_of = |saw: &Scene| -> Result<Resolution, PlaceError> {
-        let chosen = ChosenBasis::new(&saw.swept(sweep)?, scene.tolerance())?;
-        Ok(chosen.plate.resolution)
-    };
-    let own = basis_of(scene)?;
-    let others: Vec<Option<Resolution>> = candidates
-        .par_iter()
-        .map(|tried| basis_of(&scene_at(scene.file(), freed, &tried.shares).ok()?).ok())
-        .collect();
-    let all = others.into_iter().flatten().chain([own]);
-    Ok(all
-        .max_by_key(Resolution::degrees_of_freedom)
-        .unwrap_or(own))
 }
 
 /// Every number with what was found for it.
@@ -373,26 +309,6 @@ fn look_everywhere(
     Ok((candidates, map))
 }
 
-/// Holds the candidates against each other on the basis asked for, and refines the best of them
-/// there until direct search finds nothing better.
-fn settle(
-    search: &Search<'_>,
-    candidates: &[Tried],
-    budget: u64,
-    progress: Progress<'_>,
-) -> Option<(Tried, Outcome)> {
-    progress("refinement", 0, 1);
-    let settled: Vec<Tried> = candidates
-        .par_iter()
-        .map(|candidate| search.tried(candidate.shares.clone()))
-        .collect();
-    let start = cheapest(&settled)?;
-    let best = search.refine(&start, FINE_STEPS, budget);
-    let outcome = search.outcome(&best.shares);
-    progress("refinement", 1, 1);
-    Some((best, outcome?))
-}
-
 fn cheapest(tried: &[Tried]) -> Option<Tried> {
     let least = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
     least.cloned()
@@ -448,11 +364,4 @@ fn effective(
         pairs.map(|(f, _)| f.clone()).collect()
     };
     (with(true), with(false))
-}
-
-/// The scene with what was found and a note of where it comes from.
-fn placed(scene: &Scene, freed: &[Freed], best: &Tried) -> Result<Scene, SceneError> {
-    let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
-    let note = format!("{}: placed by optimization", names.join(", "));
-    scene_at(scene.file(), freed, &best.shares)?.edited(|file| file.notes.push(note))
 }
