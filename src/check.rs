@@ -20,7 +20,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, verdict};
 use crate::system::GyroscopicSystem;
 
 /// Why a saw could not be held against limits.
@@ -92,8 +92,9 @@ pub struct Check {
     pub criteria: Vec<Criterion>,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// The same at the operating speed; negative where a force moves the rim against itself.
-    pub rim_stiffness_n_per_m: f64,
+    /// The same at the operating speed; `None` from the first critical speed on: K(Ω) is not
+    /// positive definite there, and force over deflection may be anything, of either sign.
+    pub rim_stiffness_n_per_m: Option<f64>,
     /// What the speeds were taken from.
     pub analysis: Analysis,
 }
@@ -120,15 +121,18 @@ impl Check {
         let analysis = Analysis::new(&swept, &|_, _| ())?;
         let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
+        let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
+        let operating = limits.operating_rad_per_s;
+        let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
         Ok(Check {
             criteria: limits.criteria(
-                analysis.model.critical.first().map(|c| c.speed_rad_per_s),
+                lowest_critical,
                 analysis.flutter_speed,
                 &analysis.chart.instabilities,
                 scene.flutter_threshold_per_s(),
             ),
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
-            rim_stiffness_n_per_m: rim_stiffness_n_per_m(plate, angle, limits.operating_rad_per_s),
+            rim_stiffness_n_per_m: is_stiff.then(|| rim_stiffness_n_per_m(plate, angle, operating)),
             analysis,
         })
     }
@@ -184,11 +188,9 @@ impl Limits {
             lowest_critical,
             operating / self.margin,
         )];
-        let strong = bands.iter().filter(|band| band.counts(threshold_per_s));
-        let inside = strong
-            .filter(|band| (band.from..=band.to).contains(&operating))
-            .map(|band| band.from)
-            .reduce(f64::min);
+        let range = (0.0, self.reach_rad_per_s());
+        let verdict = verdict(bands, threshold_per_s, range, operating);
+        let inside = verdict.stretch.map(|(from, _)| from);
         criteria.push(Criterion {
             key: "operating",
             name: "instability at the operating speed, from",

@@ -199,6 +199,15 @@ impl GyroscopicSystem {
         self.damping.is_none() && self.circulatory.is_none()
     }
 
+    /// The same without damping of any kind.
+    pub fn undamped(&self) -> Self {
+        GyroscopicSystem {
+            damping: None,
+            circulatory: None,
+            ..self.clone()
+        }
+    }
+
     /// K(Ω), in 1/s².
     pub fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
         let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;

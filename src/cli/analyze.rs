@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::figure;
-use crate::report::{Report, SensitivityEntry};
-use crate::scene::Scene;
+use crate::report::{Report, SensitivityEntry, WhirlEntry};
+use crate::scene::{Scene, rad_per_s};
 use crate::stability::{Analysis, sensitivities};
+use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
 
@@ -21,6 +22,7 @@ Examples:
   sawflutter analyze saws/*.json --out saws-out       a folder each, and a table
   make-scene | sawflutter analyze -                   a scene from another program
   sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
+  sawflutter analyze --at-rpm 1800                    the modes of one speed
   sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
 
 #[derive(Args, Default)]
@@ -36,6 +38,9 @@ pub struct Arguments {
     /// the guides
     #[arg(long)]
     sensitivity: bool,
+    /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    at_rpm: Option<f64>,
 }
 
 /// Charts saws, writes their files and prints the summary, or a table of several.
@@ -76,6 +81,10 @@ fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
     let analysis = Analysis::new(scene, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let mut report = Report::new(scene, &analysis)?;
+    if let Some(speed) = arguments.at_rpm {
+        let speed = within_sweep(speed, &report)?;
+        report.whirl = Some(WhirlEntry::new(&analysis, rad_per_s(speed))?);
+    }
     if arguments.sensitivity {
         let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
         let found = sensitivities(scene, &analysis, at)?;
@@ -91,6 +100,18 @@ fn files(report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     Ok((files, json))
+}
+
+/// A speed asked about, which the modes are known at.
+fn within_sweep(rpm: f64, report: &Report) -> anyhow::Result<f64> {
+    let (from, to) = (report.campbell.from_rpm, report.campbell.to_rpm);
+    if (from..=to).contains(&rpm) {
+        return Ok(rpm);
+    }
+    bail!(
+        "--at-rpm is {rpm}, but must be from {from:.0} to {to:.0}, the speeds of the sweep; name \
+         one of these, or widen `sweep` in the scene"
+    )
 }
 
 /// Figures that not every saw has.

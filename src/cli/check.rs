@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     }
     match arguments.json {
         true => say(&format!("{json}\n"))?,
-        false => say(&summary(&check, &report.warnings))?,
+        false => say(&summary(&check, &report))?,
     }
     Ok(check.passed())
 }
@@ -114,19 +114,14 @@ fn speed(name: &str, rpm: f64) -> anyhow::Result<f64> {
     )
 }
 
-fn summary(check: &Check, warnings: &[String]) -> String {
+fn summary(check: &Check, report: &CheckReport) -> String {
     let mut text = String::new();
     for criterion in &check.criteria {
         let word = if criterion.passed { "pass" } else { "FAIL" };
         let _ = writeln!(text, "{word}  {criterion}");
     }
-    let _ = writeln!(
-        text,
-        "rim stiffness at a point: {:.1} N/mm at rest, {:.1} N/mm at the operating speed",
-        1e-3 * check.rim_stiffness_at_rest_n_per_m,
-        1e-3 * check.rim_stiffness_n_per_m
-    );
-    for warning in warnings {
+    let _ = writeln!(text, "{}", report.rim_stiffness());
+    for warning in &report.warnings {
         let _ = writeln!(text, "{}", wrapped(&format!("Warning: {warning}")));
     }
     text

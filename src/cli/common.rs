@@ -10,6 +10,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output::OutputFolder;
+use super::paint::Paint;
 
 /// The saw to look at, and how finely.
 #[derive(Args, Default)]
@@ -103,7 +104,8 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
 
 /// Writes to standard output what a terminal may be sent.
 pub fn say(text: &str) -> std::io::Result<()> {
-    write!(std::io::stdout().lock(), "{}", printable(text))
+    let text = Paint::of_stdout().text(&printable(text));
+    write!(std::io::stdout().lock(), "{text}")
 }
 
 impl Finely {

@@ -15,11 +15,11 @@ use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter cut                                 the built-in saw at its two speeds
+  sawflutter cut                                 the built-in saw, two speeds
   sawflutter cut my-saw.json --rpm 2400          your own saw at another speed
   sawflutter cut --json | jq '.runs[].verdict'   for scripts
 
-The forces are the scene's `cut`; `sawflutter schema` prints what it may contain.";
+The forces are the scene's `cut`; `sawflutter schema` says what it may contain.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -14,7 +14,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter export --matrices                      the built-in saw
   sawflutter export --matrices saw.json --basis 16,8 --out matrices
-  python3 -c 'import numpy; print(numpy.load(\"sawflutter-out/stiffness.npy\").shape)'";
+  python3 -c 'import numpy; numpy.load(\"sawflutter-out/stiffness.npy\")'";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -10,6 +10,7 @@ mod export;
 mod fit;
 mod free;
 mod output;
+mod paint;
 mod place;
 mod runup;
 mod schema;
@@ -79,8 +80,8 @@ Examples:
   sawflutter my-saw.json                  chart your own saw
   sawflutter saws/*.json                  chart many, and put them in a table
   sawflutter cut                          is it stable in the wood?
-  sawflutter check --operating-rpm 1250   does it keep the 85 % rule? for scripts
-  sawflutter explore --open               what if? drag the guides in your browser
+  sawflutter check --operating-rpm 1250   does it keep the 85 % rule?
+  sawflutter explore --open               drag the guides in your browser
   sawflutter runup                        what does it do on the way up?
   sawflutter schema > scene.schema.json   let your editor complete scene keys
 

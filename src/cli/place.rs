@@ -16,10 +16,10 @@ use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter place my-saw.json            radius, angle and stiffness of guides[0]
+  sawflutter place my-saw.json            radius, angle, stiffness of guides[0]
   sawflutter place my-saw.json --free guides[0].radius_m=0.2..0.3 \\
     --free guides[0].angle_deg=-90..-20 --min-critical-rpm 1500
-  sawflutter place --goal window          widest stable window around operating_rpm
+  sawflutter place --goal window          widest window around operating_rpm
 The best saw is placed-scene.json; hold it against `check` and `cut`.
 
 Exit code: 0 done, 1 no saw between the bounds keeps the limit, 2 the input was

@@ -14,7 +14,7 @@ use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter runup                           the built-in saw, 0 to 4000 rpm in 60 s
+  sawflutter runup                           the built-in saw, 0 to 4000 rpm
   sawflutter runup my-saw.json --out runup   your own saw
   sawflutter runup --json | jq '.bands[]'    for scripts
 

@@ -20,18 +20,19 @@ use super::study_summary::summary;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter study saw.json study.json --out runs     all saws; run it again to go
-                                                      on after a stop
+  sawflutter study saw.json study.json --out runs   all saws; run it again to go
+                                                    on after a stop
   sawflutter study saw.json study.json --out runs --shard 3/8
-                                                      one of eight parts, for the
-                                                      third of eight machines
-  sawflutter study merge runs --out result            the parts together, the same
-                                                      bytes as from one machine
+                                                    one of eight parts, for the
+                                                    third of eight machines
+  sawflutter study merge runs --out result          the parts together, the same
+                                                    bytes as from one machine
 
 In a job array of 8:
   sawflutter study saw.json study.json --out runs --shard $SLURM_ARRAY_TASK_ID/8
 
-`sawflutter schema --study` prints what a study may contain; scenes/studies/ has one.";
+`sawflutter schema --study` says what a study may contain; scenes/studies/
+has one.";
 
 #[derive(Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]

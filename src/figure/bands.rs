@@ -30,16 +30,37 @@ pub fn places(speed: &Axis, band: &InstabilityEntry) -> Option<[f64; 2]> {
     Some([left - missing / 2.0, right + missing / 2.0])
 }
 
+/// Wider bands than this share of the axis that do not count have no shade.
+const WIDEST_WEAK: f64 = 0.03;
+
+/// The stretches of a band that are shaded: where it counts. One that does not is shaded as a
+/// whole, unless it grows weakly over a wide range, as damping alone makes it.
+fn stretches(speed: &Axis, band: &InstabilityEntry) -> Vec<InstabilityEntry> {
+    let stretch = |[from_rpm, to_rpm]: [f64; 2]| InstabilityEntry {
+        from_rpm,
+        to_rpm,
+        ..band.clone()
+    };
+    let [first, last] = speed.values();
+    let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
+    match band.counted_rpm.is_empty() {
+        true if is_wide => Vec::new(),
+        true => vec![band.clone()],
+        false => band.counted_rpm.iter().copied().map(stretch).collect(),
+    }
+}
+
 /// Shades the bands over the height of each panel.
 pub fn shade<'a>(
     sheet: &mut Sheet,
     speed: &Axis,
-    bands: impl Iterator<Item = &'a InstabilityEntry> + Clone,
+    bands: impl Iterator<Item = &'a InstabilityEntry>,
     panels: &[Frame],
 ) {
+    let stretches: Vec<InstabilityEntry> = bands.flat_map(|band| stretches(speed, band)).collect();
     // Streaks last: a wide band must not hide a narrow one within it.
     for narrow in [false, true] {
-        for band in bands.clone() {
+        for band in &stretches {
             let Some([left, right]) = places(speed, band) else {
                 continue;
             };

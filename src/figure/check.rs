@@ -91,11 +91,7 @@ fn facts(report: &CheckReport) -> String {
     [
         format!("operating speed {:.0} rpm", report.operating_rpm),
         format!("margin {:.0} %", 100.0 * report.margin),
-        format!(
-            "rim stiffness {:.1} N/mm at rest, {:.1} N/mm at the operating speed",
-            1e-3 * report.rim_stiffness_at_rest_n_per_m,
-            1e-3 * report.rim_stiffness_n_per_m
-        ),
+        report.rim_stiffness(),
     ]
     .join(BETWEEN_FACTS)
 }

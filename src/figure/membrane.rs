@@ -265,7 +265,11 @@ mod tests {
             of_lowest_critical: Some(0.7),
             limit: 0.85,
             within_limit: Some(true),
+            verdict: crate::report::StabilityState::Stable,
             inside_instability: None,
+            safe_window_rpm: None,
+            growth_per_s: None,
+            frequency_hz: None,
         });
         report.membrane = Some(MembraneEntry {
             radial_pa: radius_m.iter().map(|r| -3e8 * (0.38 - r).abs()).collect(),

@@ -52,6 +52,7 @@ pub fn empty_report(name: &str) -> Report {
         first_merge_rpm: None,
         flutter_threshold_per_s: 0.25,
         operating: None,
+        whirl: None,
         accuracy: AccuracyEntry {
             name: Accuracy::Draft,
             max_diameters: 8,
@@ -130,6 +131,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         frequency_hz: hz,
         branches: Vec::new(),
         modes: Vec::new(),
+        counted_rpm: vec![[from, to]],
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::spectrum::SpectrumError;
-use crate::stability::{Instability, first_flutter, resolved_plate, search_bands};
+use crate::stability::{Instability, flutter_onsets, resolved_plate, safe_window, search_bands};
 
 use super::Goal;
 
@@ -54,12 +54,11 @@ impl Question {
         };
         let (bands, _) = search_bands(plate, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s();
-        let (_, strong) = first_flutter(&bands, threshold);
-        let flutter = strong.map(|band| band.from);
+        let [flutter, _] = flutter_onsets(&bands, threshold);
         let window = match self.goal {
             Goal::FlutterSpeed => None,
             Goal::StableWindow { around_rad_per_s } => {
-                self.window(&bands, threshold, around_rad_per_s)
+                safe_window(&bands, threshold, self.range, around_rad_per_s)
             }
         };
         let value = match self.goal {
@@ -74,26 +73,6 @@ impl Question {
             short_rad_per_s: short,
             bands,
         })
-    }
-
-    /// Between the last band that ends below a speed and the first that begins above it.
-    fn window(
-        &self,
-        bands: &[Instability],
-        threshold_per_s: f64,
-        around: f64,
-    ) -> Option<(f64, f64)> {
-        let (mut from, mut to) = self.range;
-        for band in bands.iter().filter(|band| band.counts(threshold_per_s)) {
-            if band.to < around {
-                from = from.max(band.to);
-            } else if band.from > around {
-                to = to.min(band.from);
-            } else {
-                return None;
-            }
-        }
-        Some((from, to))
     }
 }
 

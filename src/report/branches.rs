@@ -108,7 +108,12 @@ impl<'a> Numbered<'a> {
             let nearest = same.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));
             self.at((index, nearest?.0))
         });
-        found.collect()
+        let mut numbers: Vec<usize> = found.collect();
+        if !conservative && band.kind == InstabilityKind::Flutter {
+            let partner = damped_partner(&sample.modes, wanted);
+            numbers.extend(partner.and_then(|mode| self.at((index, mode))));
+        }
+        numbers
     }
 
     /// The branch that stands still at a critical speed.
@@ -219,4 +224,16 @@ fn standing_likeness(
 /// Name of a wave that stands, where no branch is known that it belongs to.
 pub fn standing(critical: &NamedCriticalSpeed) -> String {
     in_words(critical.diameters, critical.circles, Direction::Standing)
+}
+
+/// The mode that one which grows in a damped blade has met: two that meet have λ = c ± g, nearly
+/// of one frequency and apart in growth. A wave that damping alone feeds has met none.
+fn damped_partner(modes: &[DescribedMode], growing: c64) -> Option<usize> {
+    let off = |m: &DescribedMode| (m.mode.lambda.im - growing.im).abs();
+    let decays = |m: &DescribedMode| m.mode.lambda.re < 0.0;
+    let met = |m: &DescribedMode| off(m) < growing.re - m.mode.lambda.re;
+    let modes = modes.iter().enumerate();
+    let met = modes.filter(|(_, m)| decays(m) && met(m));
+    met.min_by(|x, y| off(x.1).total_cmp(&off(y.1)))
+        .map(|(k, _)| k)
 }

@@ -15,7 +15,7 @@ use super::{
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, StabilityState};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -60,14 +60,18 @@ impl Report {
                 .chart
                 .instabilities
                 .iter()
-                .map(|band| InstabilityEntry::in_chart(band, &branches))
+                .map(|band| {
+                    InstabilityEntry::in_chart(band, &branches, scene.flutter_threshold_per_s())
+                })
                 .collect(),
             flutter_speed_rpm: analysis.flutter_speed.map(rpm),
             first_merge_rpm: analysis.first_merge.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             operating: scene
                 .operating_rad_per_s()
-                .map(|speed| operating(analysis, speed)),
+                .map(|speed| operating(analysis, speed))
+                .transpose()?,
+            whirl: None,
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
@@ -145,6 +149,8 @@ fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
         nodal_circles: name.circles,
         name: name.in_shares(),
         branch: None,
+        damping_ratio: described.mode.damping_ratio(),
+        logarithmic_decrement: described.mode.logarithmic_decrement(),
         backward_error: described.backward_error,
         harmonics: name
             .harmonics
@@ -236,8 +242,10 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
     entries
 }
 
-impl From<&Instability> for InstabilityEntry {
-    fn from(band: &Instability) -> Self {
+impl InstabilityEntry {
+    /// A band, and where it counts.
+    pub(super) fn new(band: &Instability, threshold_per_s: f64) -> Self {
+        let counted = band.counted(threshold_per_s).into_iter();
         InstabilityEntry {
             kind: band.kind,
             from_rpm: rpm(band.from),
@@ -248,13 +256,18 @@ impl From<&Instability> for InstabilityEntry {
             frequency_hz: band.frequency / TAU,
             branches: Vec::new(),
             modes: Vec::new(),
+            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
         }
     }
 }
 
 impl InstabilityEntry {
     /// The band with the names of its branches.
-    pub(super) fn in_chart(band: &Instability, branches: &Numbered<'_>) -> Self {
+    pub(super) fn in_chart(
+        band: &Instability,
+        branches: &Numbered<'_>,
+        threshold_per_s: f64,
+    ) -> Self {
         let numbers = branches.of_band(band);
         InstabilityEntry {
             modes: numbers
@@ -262,21 +275,40 @@ impl InstabilityEntry {
                 .map(|number| branches.name(*number))
                 .collect(),
             branches: numbers,
-            ..Self::from(band)
+            ..Self::new(band, threshold_per_s)
         }
     }
 }
 
-fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
+fn operating(analysis: &Analysis, speed: f64) -> Result<OperatingEntry, SpectrumError> {
     let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
     let of_lowest_critical = lowest.map(|lowest| speed / lowest);
-    OperatingEntry {
+    let verdict = analysis.verdict(speed);
+    let fastest = match verdict.state {
+        StabilityState::OutsideSweep => None,
+        _ => fastest(analysis, speed)?,
+    };
+    let window = analysis.safe_window(speed);
+    Ok(OperatingEntry {
         rpm: rpm(speed),
         of_lowest_critical,
         limit: OPERATING_LIMIT,
         within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
-        inside_instability: analysis.band_at(speed),
-    }
+        verdict: verdict.state,
+        inside_instability: verdict.band,
+        safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
+        growth_per_s: fastest.map(|lambda| lambda.re),
+        frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
+    })
+}
+
+/// λ of the mode that grows fastest at a speed, or decays most slowly.
+fn fastest(analysis: &Analysis, speed: f64) -> Result<Option<c64>, SpectrumError> {
+    let modes = analysis.model.modes(speed)?;
+    let growing = modes
+        .iter()
+        .map(|m| c64::new(m.growth_per_s(), m.lambda.im));
+    Ok(growing.max_by(|x, y| x.re.total_cmp(&y.re)))
 }
 
 fn work(counters: &WorkCounters) -> WorkEntry {

@@ -34,8 +34,9 @@ pub struct CheckReport {
     pub flutter_threshold_per_s: f64,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// The same at the operating speed.
-    pub rim_stiffness_n_per_m: f64,
+    /// The same at the operating speed; null past the first critical speed, where a force that
+    /// stands still meets no stiffness.
+    pub rim_stiffness_n_per_m: Option<f64>,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
     /// Numbers that no saw has.
@@ -79,7 +80,9 @@ impl CheckReport {
                 .map(rpm)
                 .collect(),
             instabilities: bands
-                .map(|band| InstabilityEntry::in_chart(band, &branches))
+                .map(|band| {
+                    InstabilityEntry::in_chart(band, &branches, scene.flutter_threshold_per_s())
+                })
                 .collect(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
@@ -98,6 +101,18 @@ fn warnings(scene: &Scene, limits: &Limits) -> Vec<String> {
         warnings.extend(asked);
     }
     warnings
+}
+
+impl CheckReport {
+    /// The rim stiffness in words, for the text and the figure.
+    pub fn rim_stiffness(&self) -> String {
+        let at_rest = 1e-3 * self.rim_stiffness_at_rest_n_per_m;
+        let operating = match self.rim_stiffness_n_per_m {
+            Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),
+            None => "none past the first critical speed".to_owned(),
+        };
+        format!("rim stiffness at a point {at_rest:.1} N/mm at rest, {operating}")
+    }
 }
 
 impl From<&Criterion> for CriterionEntry {

@@ -14,6 +14,7 @@ mod remarks;
 mod runup;
 mod schema;
 mod spline;
+mod whirl;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,7 +34,7 @@ pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
-pub use crate::stability::InstabilityKind;
+pub use crate::stability::{InstabilityKind, StabilityState};
 
 /// `report.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +52,7 @@ pub struct Report {
     pub critical_speeds: Vec<CriticalSpeedEntry>,
     /// Every band of instability within the sweep, ascending.
     pub instabilities: Vec<InstabilityEntry>,
-    /// Onset of the first flutter band whose peak growth reaches the threshold.
+    /// Lowest speed at which flutter counts: see `counted_rpm` of the bands.
     pub flutter_speed_rpm: Option<f64>,
     /// Onset of the first flutter band of all, whatever its growth.
     pub first_merge_rpm: Option<f64>,
@@ -59,6 +60,8 @@ pub struct Report {
     pub flutter_threshold_per_s: f64,
     /// The operating speed against the 85 % rule, when the scene gives one.
     pub operating: Option<OperatingEntry>,
+    /// The modes of one speed, when asked for.
+    pub whirl: Option<WhirlEntry>,
     /// How fine the computation was, and how far it may be off.
     pub accuracy: AccuracyEntry,
     /// Eigenproblems that the chart took.
@@ -94,6 +97,10 @@ pub struct RestMode {
     /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
     /// rest.
     pub branch: Option<usize>,
+    /// ζ = −Re λ/|λ| of a damped scene.
+    pub damping_ratio: Option<f64>,
+    /// −2π Re λ/|Im λ| of a damped scene.
+    pub logarithmic_decrement: Option<f64>,
     /// ‖L(λ)q‖ relative to the size of its terms.
     pub backward_error: f64,
     /// Share of each harmonic in the kinetic energy, largest first.
@@ -164,6 +171,10 @@ pub struct InstabilityEntry {
     pub branches: Vec<usize>,
     /// Their names.
     pub modes: Vec<String>,
+    /// Stretches [from, to] in which it counts as an instability of the saw: divergence as a
+    /// whole; flutter of an undamped blade as a whole when its largest growth reaches the
+    /// threshold, of a damped one where its growth does.
+    pub counted_rpm: Vec<[f64; 2]>,
 }
 
 /// The operating speed against the lowest critical speed.
@@ -178,8 +189,53 @@ pub struct OperatingEntry {
     pub limit: f64,
     /// Whether the ratio is below the limit.
     pub within_limit: Option<bool>,
-    /// Index into `instabilities` of the band that the operating speed lies in.
+    /// Whether the saw can run at that speed.
+    pub verdict: StabilityState,
+    /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
+    /// The speeds around it at which no instability counts, within the sweep; null where the
+    /// saw is unstable.
+    pub safe_window_rpm: Option<[f64; 2]>,
+    /// Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep.
+    pub growth_per_s: Option<f64>,
+    /// Im λ/2π of the same mode.
+    pub frequency_hz: Option<f64>,
+}
+
+/// The modes of one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WhirlEntry {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Whether the saw can run at that speed.
+    pub verdict: StabilityState,
+    /// Modes, ascending in frequency.
+    pub modes: Vec<WhirlMode>,
+}
+
+/// A mode of a saw that turns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WhirlMode {
+    /// |Im λ|/2π in the space-fixed frame.
+    pub frequency_hz: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub nodal_diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub nodal_circles: usize,
+    /// How the dominant harmonic runs, seen from space.
+    pub direction: Direction,
+    /// In words.
+    pub name: String,
+    /// Re λ.
+    pub growth_per_s: f64,
+    /// ζ = −Re λ/|λ| of a damped scene.
+    pub damping_ratio: Option<f64>,
+    /// −2π Re λ/|Im λ| of a damped scene, where the mode oscillates.
+    pub logarithmic_decrement: Option<f64>,
+    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    pub krein_sign: i8,
 }
 
 /// How fine the computation was.
@@ -220,7 +276,8 @@ pub struct WorkEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateEntry {
-    /// Speeds at which the index was compared; 0 for damped scenes, which have none.
+    /// Speeds at which the index was compared; for damped scenes, which have none, speeds at
+    /// which the number of growing modes was held against that of the bands.
     pub speeds_checked: usize,
     /// Speeds at which it did not match, not even on the whole basis; expected 0.
     pub krein_violations: usize,

@@ -169,7 +169,7 @@ impl PlaceReport {
                 .best
                 .bands
                 .iter()
-                .map(InstabilityEntry::from)
+                .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
                 .collect(),
             fragile: neighbours.are_fragile(),
             worst_neighbour: neighbours.worst.as_ref().map(|worst| NeighbourEntry {
@@ -180,7 +180,7 @@ impl PlaceReport {
             almost: neighbours
                 .almost
                 .iter()
-                .map(InstabilityEntry::from)
+                .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
                 .collect(),
             map: found.map.as_ref().map(MapEntry::from),
             saws: found.evaluations,

@@ -62,7 +62,7 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
         thick(&analysis.model.plate.blade),
         out_of_balance(scene),
         rounded(analysis, at_rest),
-        mismatched(certificate),
+        mismatched(certificate, analysis.model.is_conservative()),
         cut_short(certificate),
         left_free(analysis),
     ];
@@ -123,10 +123,14 @@ fn rounded(analysis: &Analysis, at_rest: &[DescribedMode]) -> Option<String> {
     ))
 }
 
-fn mismatched(certificate: &Certificate) -> Option<String> {
+fn mismatched(certificate: &Certificate, is_undamped: bool) -> Option<String> {
     let first = certificate.violations.first()?;
+    let what = match is_undamped {
+        true => "the Krein index does not match",
+        false => "the growing modes do not match the bands",
+    };
     Some(format!(
-        "the Krein index does not match at {} of {} speeds, first at {:.3} rpm: a mode may be \
+        "{what} at {} of {} speeds, first at {:.3} rpm: a mode may be \
          missing",
         certificate.violations.len(),
         certificate.speeds_checked,

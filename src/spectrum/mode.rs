@@ -80,6 +80,20 @@ impl Mode {
         }
     }
 
+    /// ζ = −Re λ/|λ| of a damped blade.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        let size = self.lambda.norm();
+        let is_known = self.kind == ModeKind::Damped && size > 0.0;
+        is_known.then(|| -self.lambda.re / size)
+    }
+
+    /// −2π Re λ/|Im λ|, the logarithm of the ratio of two amplitudes a period apart, of a damped
+    /// blade; `None` where it does not oscillate.
+    pub fn logarithmic_decrement(&self) -> Option<f64> {
+        let oscillates = self.kind == ModeKind::Damped && self.lambda.im != 0.0;
+        oscillates.then(|| -std::f64::consts::TAU * self.lambda.re / self.lambda.im.abs())
+    }
+
     /// Re λ of a mode that truly grows, else zero for undamped modes.
     pub fn growth_per_s(&self) -> f64 {
         match self.kind {

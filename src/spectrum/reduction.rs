@@ -68,7 +68,7 @@ pub fn of_guided(
     counters.stop.check()?;
     builder.window = chart_rad_per_s.max(low_rad_per_s);
     builder.add_first_snapshots([Some(first), last]);
-    let low = match low_rad_per_s > 0.0 {
+    let low = match low_rad_per_s > 0.0 && system.is_conservative() {
         true => Some(builder.whole_range(low_rad_per_s)?),
         false => None,
     };
@@ -147,8 +147,12 @@ impl<'a> Builder<'a> {
     }
 
     fn lowest(&self, speed: f64, count: usize) -> Vec<Eigenpair> {
+        self.lowest_of(self.system, speed, count)
+    }
+
+    fn lowest_of(&self, system: &GyroscopicSystem, speed: f64, count: usize) -> Vec<Eigenpair> {
         self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
-        lowest_eigenpairs(self.system, speed, count, 0.5 * self.scale)
+        lowest_eigenpairs(system, speed, count, 0.5 * self.scale)
     }
 
     fn chart_height(&self, speed: f64) -> (f64, Snapshot) {
@@ -165,16 +169,20 @@ impl<'a> Builder<'a> {
         highest.is_some_and(|(lambda, _)| lambda.norm() > self.window)
     }
 
-    /// Highest reflected wave at the top speed, with a margin for what it may meet.
+    /// Highest reflected wave at the top speed, with a margin for what it may meet; of a damped
+    /// blade that of its undamped twin, for these are the waves that damping feeds.
     fn reflected_height(&self, speed: f64) -> (f64, Option<Snapshot>) {
         let index = self.critical.partition_point(|c| c.speed_rad_per_s < speed);
-        if index == 0 || !self.system.is_conservative() {
+        if index == 0 {
             return (0.0, None);
         }
+        let is_damped = !self.system.is_conservative();
+        let twin = is_damped.then(|| self.system.undamped());
+        let system = twin.as_ref().unwrap_or(self.system);
         let mut count = CHART_MODES + index;
         loop {
-            let pairs = self.lowest(speed, count);
-            let modes = classify(self.system, speed, 0, pairs.clone());
+            let pairs = self.lowest_of(system, speed, count);
+            let modes = classify(system, speed, 0, pairs.clone());
             let negative = |kind| match kind {
                 ModeKind::Negative | ModeKind::Flutter => 2,
                 ModeKind::Divergent => 1,
@@ -185,7 +193,7 @@ impl<'a> Builder<'a> {
                 let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
                 let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
                 let height = REFLECTED_MARGIN * height.max(0.1 * self.scale);
-                return (height, Some(Snapshot { speed, pairs }));
+                return (height, (!is_damped).then_some(Snapshot { speed, pairs }));
             }
             count *= 2;
         }

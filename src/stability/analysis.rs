@@ -1,9 +1,9 @@
 //! From a scene to its stability chart: the library's main call.
 
-use super::bands::{StabilityChart, chart, drawn};
+use super::bands::{Instability, InstabilityKind, StabilityChart, chart, drawn};
 use super::basis::ChosenBasis;
 use super::loci::RootLoci;
-use super::onsets::first_flutter;
+use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
 use crate::scene::Scene;
 use crate::spectrum::{SpectralModel, SpectrumError, Stop, Strategy};
@@ -38,11 +38,13 @@ pub struct Analysis {
     pub range: (f64, f64),
     /// Branches, bands and certificate.
     pub chart: StabilityChart,
-    /// Flutter speed: onset of the first flutter band whose peak growth reaches the
-    /// scene's threshold, in rad/s.
+    /// Flutter speed: the lowest speed at which flutter counts, in rad/s, see
+    /// [`Instability::counted`].
     pub flutter_speed: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
     pub first_merge: Option<f64>,
+    /// Growth rate from which flutter counts.
+    pub flutter_threshold_per_s: f64,
     /// The eigenvalues of the band at the flutter speed, or of the first of all.
     pub root_loci: Option<RootLoci>,
     /// Estimated relative error of the critical speeds within the range, extrapolated from
@@ -82,11 +84,13 @@ impl Analysis {
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
             (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, detail, progress)?,
         };
-        let (first, strong) = first_flutter(&chart.instabilities, scene.flutter_threshold_per_s());
-        let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
+        let threshold = scene.flutter_threshold_per_s();
+        let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
         let loci = model.is_conservative() && detail == Detail::Full;
-        let followed = strong.or(first).filter(|_| loci);
-        let root_loci = match followed {
+        let onset = flutter_speed.or(first_merge).filter(|_| loci);
+        let begins =
+            |band: &&Instability| band.kind == InstabilityKind::Flutter && Some(band.from) == onset;
+        let root_loci = match chart.instabilities.iter().find(begins) {
             Some(band) => RootLoci::new(&model, band, range)?,
             None => None,
         };
@@ -97,15 +101,30 @@ impl Analysis {
             chart,
             flutter_speed,
             first_merge,
+            flutter_threshold_per_s: threshold,
             root_loci,
         })
     }
 
-    /// Index of the band that a speed lies in.
-    pub fn band_at(&self, speed_rad_per_s: f64) -> Option<usize> {
+    /// What becomes of the saw at a speed.
+    pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
         let bands = &self.chart.instabilities;
-        bands
-            .iter()
-            .position(|b| (b.from..=b.to).contains(&speed_rad_per_s))
+        verdict(
+            bands,
+            self.flutter_threshold_per_s,
+            self.range,
+            speed_rad_per_s,
+        )
+    }
+
+    /// The speeds around one at which nothing counts; `None` where the saw is unstable.
+    pub fn safe_window(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
+        let bands = &self.chart.instabilities;
+        safe_window(
+            bands,
+            self.flutter_threshold_per_s,
+            self.range,
+            speed_rad_per_s,
+        )
     }
 }

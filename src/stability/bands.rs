@@ -1,5 +1,6 @@
 //! The stability chart of a saw: samples, branches and bands of a range of speeds.
 
+use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +41,20 @@ pub struct Instability {
     pub frequency: f64,
     /// The modes that meet.
     pub modes: Vec<String>,
+    /// The eigenvalue from the first to the last speed of a band of a damped blade, close
+    /// enough for cubics between the points; empty for an undamped blade.
+    pub curve: Vec<CurvePoint>,
+}
+
+/// An eigenvalue at one speed of a band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// λ, Im λ ≥ 0.
+    pub lambda: c64,
+    /// dλ/dΩ.
+    pub slope: c64,
 }
 
 impl Instability {

@@ -42,6 +42,7 @@ pub(super) fn divergence(
                 peak_growth_per_s: square.sqrt(),
                 frequency: 0.0,
                 modes: standing_waves(model, from, to),
+                curve: Vec::new(),
             });
             start = None;
         }
@@ -76,6 +77,7 @@ pub(super) fn close_pairs(
             peak_growth_per_s: finder.divergence(peak)?,
             frequency: 0.0,
             modes: standing_waves(model, pair[0], pair[1]),
+            curve: Vec::new(),
         });
     }
     Ok(bands)

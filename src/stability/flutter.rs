@@ -115,6 +115,7 @@ fn band(
         peak_growth_per_s,
         frequency,
         modes: meeting_modes(model, from, frequencies[0])?,
+        curve: Vec::new(),
     })
 }
 

@@ -16,13 +16,17 @@ mod refine;
 mod sensitivity;
 mod station;
 mod tradeoff;
+mod verdict;
 
 pub use analysis::{Analysis, Detail, OPERATING_LIMIT};
-pub use bands::{Certificate, Instability, InstabilityKind, StabilityChart, chart, undamped_bands};
+pub use bands::{
+    Certificate, CurvePoint, Instability, InstabilityKind, StabilityChart, chart, undamped_bands,
+};
 pub use basis::ChosenBasis;
 pub(crate) use basis::resolved_plate;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
-pub use onsets::{Onsets, first_flutter, search_bands};
+pub use onsets::{Onsets, search_bands};
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
 pub use tradeoff::{Method, Setting, recommended, tradeoff};
+pub use verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};

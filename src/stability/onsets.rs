@@ -1,10 +1,9 @@
 //! Where a saw becomes unstable, without a chart: what a study of many saws asks.
 
 use super::analysis::CHART_SPEEDS;
-use super::bands::{
-    Certificate, Instability, InstabilityKind, SEARCH_SPEEDS, chart, undamped_bands,
-};
+use super::bands::{Certificate, Instability, SEARCH_SPEEDS, chart, undamped_bands};
 use super::basis::ChosenBasis;
+use super::verdict::flutter_onsets;
 use crate::plate::Plate;
 use crate::scene::Scene;
 use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy};
@@ -16,7 +15,7 @@ pub struct Onsets {
     pub lowest_critical: Option<f64>,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
-    /// Onset of the first flutter band whose peak growth reaches the scene's threshold, in rad/s.
+    /// Lowest speed at which flutter counts, in rad/s, see [`Instability::counted`].
     pub flutter_speed: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
     pub first_merge: Option<f64>,
@@ -50,8 +49,8 @@ impl Onsets {
             true if !is_damped => Default::default(),
             _ => search_bands(plate, critical, range)?,
         };
-        let (first, strong) = first_flutter(&instabilities, scene.flutter_threshold_per_s());
-        let (flutter_speed, first_merge) = (strong.map(|b| b.from), first.map(|b| b.from));
+        let threshold = scene.flutter_threshold_per_s();
+        let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);
         Ok(Onsets {
             lowest_critical,
             flutter_speed,
@@ -81,15 +80,4 @@ pub fn search_bands(
     let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
     let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;
     Ok((chart.instabilities, chart.certificate))
-}
-
-/// The first flutter band of all, and the first that grows as fast as the threshold.
-pub fn first_flutter(
-    bands: &[Instability],
-    threshold_per_s: f64,
-) -> (Option<&Instability>, Option<&Instability>) {
-    let mut flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
-    let first = flutter.clone().next();
-    let strong = flutter.find(|b| b.peak_growth_per_s >= threshold_per_s);
-    (first, strong)
 }

@@ -247,7 +247,7 @@ impl Merging {
             return Ok(None);
         }
         if !model.is_conservative() {
-            return Ok(Some(Self::damped(analysis, band)?));
+            return Self::damped(analysis, band);
         }
         if band.kind == InstabilityKind::Divergence {
             let distance = |speed: f64| (speed - band.from).abs();
@@ -279,30 +279,28 @@ impl Merging {
         }))
     }
 
-    fn damped(analysis: &Analysis, band: &Instability) -> Result<Self, SpectrumError> {
-        let modes = analysis.model.modes(band.from)?;
-        let marginal = |m: &&Mode| m.lambda.re.abs();
-        let mode = modes
-            .iter()
-            .min_by(|x, y| marginal(x).total_cmp(&marginal(y)));
-        let (part, lambda, x) = match mode {
-            Some(m) => {
-                let part = &analysis.model.parts[m.part];
-                (m.part, m.lambda, part.lifted(band.from, &m.coordinates))
-            }
-            None => (
-                0,
-                c64::new(0.0, 0.0),
-                Col::zeros(analysis.model.parts[0].full.order()),
-            ),
+    /// Re λ = 0 where the band begins; `None` where it begins otherwise, with the end of the
+    /// one before.
+    fn damped(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
+        const ONSET: f64 = 1e-6;
+        let Some(onset) = band.curve.first().map(|point| point.lambda) else {
+            return Ok(None);
         };
-        Ok(Merging {
-            part,
+        if onset.re.abs() > ONSET * band.peak_growth_per_s {
+            return Ok(None);
+        }
+        let modes = analysis.model.modes(band.from)?;
+        let distance = |m: &&Mode| (m.lambda - onset).norm();
+        let nearest = modes
+            .iter()
+            .min_by(|x, y| distance(x).total_cmp(&distance(y)));
+        Ok(nearest.map(|mode| Merging {
+            part: mode.part,
             speed: band.from,
-            lambda,
-            x,
+            lambda: mode.lambda,
+            x: analysis.model.parts[mode.part].lifted(band.from, &mode.coordinates),
             damped: true,
-        })
+        }))
     }
 
     /// dΩ for a change of the matrices.

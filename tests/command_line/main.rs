@@ -15,3 +15,4 @@ mod program;
 mod refusals;
 mod scenes;
 mod study;
+mod summaries;

@@ -7,6 +7,7 @@ mod draw;
 
 mod certified_bands;
 mod charts;
+mod damped;
 mod draws;
 mod fuzz;
 mod properties;

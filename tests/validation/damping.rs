@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
 use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::Analysis;
+use sawflutter::stability::{Analysis, InstabilityKind, StabilityState};
 
 const AIR: f64 = 6.3;
 const MATERIAL: f64 = 1e-6;
@@ -145,5 +145,109 @@ fn the_undamped_limit_is_continuous() {
         let (near, far) = ((half[k] - none[k]).norm(), (whole[k] - none[k]).norm());
         assert!(far < 0.05 && far > 1e-6, "mode {k}: {far}");
         assert!((far / near - 2.0).abs() < 0.01, "mode {k}: {near} {far}");
+    }
+}
+
+/// The paper's saw with a pad that damps with 50 N s/m, at draft accuracy.
+fn damped_pad() -> Scene {
+    let mut file = Scene::paper().file().clone();
+    file.guides[0].damping_n_s_per_m = 50.0;
+    file.accuracy = Accuracy::Draft;
+    Scene::try_from(file).unwrap()
+}
+
+/// A damped pad feeds reflected waves from their critical speeds on, with 1e-5 1/s over hundreds
+/// of rpm, and hardly changes the flutter of modes that meet. Growth is held against every
+/// eigenvalue of the whole basis, the flutter speed against the saw without damping.
+#[test]
+fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
+    let scene = damped_pad();
+    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    let undamped = scene.edited(|file| file.guides[0].damping_n_s_per_m = 0.0);
+    let undamped = undamped.unwrap();
+    let undamped = Analysis::new(&undamped, &|_, _| ()).unwrap();
+    let (found, expected) = (
+        analysis.flutter_speed.unwrap(),
+        undamped.flutter_speed.unwrap(),
+    );
+    // Growth reaches 0.25 1/s within the band that the two modes merge in without damping.
+    let band = undamped
+        .chart
+        .instabilities
+        .iter()
+        .find(|b| b.from == expected);
+    assert!(
+        (expected..band.unwrap().peak).contains(&found),
+        "{} {}",
+        rpm(found),
+        rpm(expected)
+    );
+
+    let speed = rad_per_s(1800.0);
+    let verdict = analysis.verdict(speed);
+    assert_eq!(verdict.state, StabilityState::Stable, "{verdict:?}");
+    let modes = analysis.model.full_modes(speed).unwrap();
+    let growth = modes.iter().map(|m| m.lambda.re).fold(f64::MIN, f64::max);
+    assert!(growth > 1e-5 && growth < 3e-5, "{growth}");
+    let bands = &analysis.chart.instabilities;
+    let covering: Vec<f64> = bands.iter().filter_map(|b| b.growth_at(speed)).collect();
+    assert!(
+        covering.len() == 1 && (covering[0] / growth - 1.0).abs() < 1e-2,
+        "{covering:?}"
+    );
+
+    // The same check, and the same answer.
+    let limits = sawflutter::check::Limits {
+        margin: 1.0,
+        ..sawflutter::check::Limits::at(speed)
+    };
+    let criteria = limits.criteria(None, Some(found), bands, scene.flutter_threshold_per_s());
+    assert!(criteria.iter().all(|c| c.passed), "{criteria:?}");
+
+    for band in bands {
+        assert!(
+            band.to > band.from * (1.0 + 1e-9),
+            "no band of zero width: {band:?}"
+        );
+        assert!(
+            band.closed || band.to == analysis.range.1,
+            "{} {}",
+            rpm(band.from),
+            rpm(band.to)
+        );
+        let real = band.curve.iter().filter(|p| p.lambda.im == 0.0).count();
+        let is_divergence = band.kind == InstabilityKind::Divergence;
+        let expected = if is_divergence { band.curve.len() } else { 0 };
+        // A band ends where its pair becomes real or complex.
+        assert!(real.abs_diff(expected) <= 2, "one mechanism: {band:?}");
+    }
+}
+
+/// A chart has enough points of each band that straight lines between them show its growth.
+#[test]
+fn growth_of_a_damped_band_is_drawn_as_it_is() {
+    let analysis = Analysis::new(&damped_pad(), &|_, _| ()).unwrap();
+    let samples = &analysis.chart.campbell.samples;
+    for band in &analysis.chart.instabilities {
+        let inside = |speed: f64| (band.from..=band.to).contains(&speed);
+        let drawn: Vec<f64> = samples
+            .iter()
+            .map(|s| s.speed_rad_per_s)
+            .filter(|s| inside(*s))
+            .collect();
+        assert!(
+            drawn.contains(&band.peak),
+            "the dot of a peak lies on its curve"
+        );
+        for pair in drawn.windows(2) {
+            let ends = [pair[0], pair[1]].map(|s| band.growth_at(s).unwrap());
+            let middle = band.growth_at(0.5 * (pair[0] + pair[1])).unwrap();
+            let off = (middle - 0.5 * (ends[0] + ends[1])).abs();
+            assert!(
+                off <= 0.06 * band.peak_growth_per_s,
+                "{off} at {} rpm: {band:?}",
+                rpm(pair[0])
+            );
+        }
     }
 }

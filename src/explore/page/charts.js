@@ -189,7 +189,7 @@ export class Charts {
       verticalLine(ctx, x(this.pinned.critical_speeds[0].rpm), box, this.colours.standing, scale, [1, 3]);
     }
     if (operating) {
-      const good = operating.within_limit !== false && operating.inside_instability === null;
+      const good = operating.within_limit !== false && operating.verdict === "stable";
       verticalLine(ctx, x(operating.rpm), box, good ? this.colours.ink : this.colours.alarm, 1.6 * scale, []);
     }
   }

@@ -20,14 +20,15 @@ function heatBorne({ membrane }) {
 export function verdict(place, report) {
   const { operating, flutter_speed_rpm, flutter_threshold_per_s, instabilities } = report;
   const band = operating && operating.inside_instability !== null ? instabilities[operating.inside_instability] : null;
-  const good = operating && operating.within_limit === true && !band;
+  const good = operating && operating.within_limit === true && operating.verdict === "stable";
   place.className = operating ? (good ? "good" : "bad") : "";
   const share = operating?.of_lowest_critical;
   const rule = operating && share !== null
     ? `${Math.round(operating.rpm)} rpm is ${(100 * share).toFixed(1)} % of the lowest critical speed: `
       + `${operating.within_limit ? "within" : "beyond"} the ${100 * operating.limit} % rule`
     : "No operating speed to hold against the 85 % rule";
-  const inside = band ? `, and inside a ${band.kind} band` : "";
+  const inside = band ? `, and inside a ${band.kind} band`
+    : operating?.verdict === "outside_sweep" ? ", and outside the sweep" : "";
   const flutter = flutter_speed_rpm === null
     ? `No flutter of ${flutter_threshold_per_s} 1/s or more up to ${Math.round(report.campbell.to_rpm)} rpm`
     : `Flutter (${flutter_threshold_per_s} 1/s or more) from ${Math.round(flutter_speed_rpm)} rpm`;
@@ -64,7 +65,7 @@ function table(caption, heads, rows) {
 export function tables(place, report) {
   const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), numbered(c.branch, c.name)]);
   const bands = report.instabilities.map((band) => [
-    band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed ? "" : " …"}`,
+    band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed || band.to_rpm < report.campbell.to_rpm ? "" : " …"}`,
     band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.map((name, k) => numbered(band.branches[k], name)).join(" and "),
   ]);
   const rest = report.modes_at_rest.slice(0, 8).map((m) => [m.frequency_hz.toFixed(2), numbered(m.branch, m.name)]);

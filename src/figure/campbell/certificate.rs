@@ -2,11 +2,12 @@
 
 use super::super::axis::two_digits;
 use super::super::canvas::{Anchor, Lettering, Sheet};
+use super::super::is_damped;
 use super::super::style::{
     ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten, text_width,
 };
 use super::{CERTIFICATE_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
-use crate::report::{CertificateEntry, Report};
+use crate::report::Report;
 
 /// Writes the line.
 pub fn draw(sheet: &mut Sheet, report: &Report) {
@@ -20,7 +21,7 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
         x += text_width(&text, LABEL_SIZE, Weight::Regular);
     };
     let facts = facts(report).join(BETWEEN_FACTS);
-    match violation(&report.certificate) {
+    match violation(report) {
         Some(alarm) => {
             write(&alarm, ALARM);
             write(&format!("{BETWEEN_FACTS}{facts}"), QUIET);
@@ -29,7 +30,8 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
     }
 }
 
-fn violation(certificate: &CertificateEntry) -> Option<String> {
+fn violation(report: &Report) -> Option<String> {
+    let certificate = &report.certificate;
     let speeds = match certificate.krein_violations {
         0 => return None,
         1 => "1 speed".to_owned(),
@@ -40,7 +42,10 @@ fn violation(certificate: &CertificateEntry) -> Option<String> {
         [only] => format!(", {only:.0} rpm"),
         [first, .., last] => format!(", {first:.0} to {last:.0} rpm"),
     };
-    Some(format!("Krein index does not match at {speeds}{at}"))
+    Some(match is_damped(report) {
+        true => format!("growing modes and bands do not match at {speeds}{at}"),
+        false => format!("Krein index does not match at {speeds}{at}"),
+    })
 }
 
 fn facts(report: &Report) -> Vec<String> {
@@ -48,9 +53,10 @@ fn facts(report: &Report) -> Vec<String> {
     let mut facts = Vec::new();
     let checked = certificate.speeds_checked;
     if checked > 0 && certificate.krein_violations == 0 {
-        facts.push(format!(
-            "Krein index matches at {checked} of {checked} speeds"
-        ));
+        facts.push(match is_damped(report) {
+            true => format!("growing modes match the bands at {checked} of {checked} speeds"),
+            false => format!("Krein index matches at {checked} of {checked} speeds"),
+        });
     }
     if let Some(bound) = power_of_ten_above(certificate.max_backward_error) {
         facts.push(format!("backward error below {bound}"));

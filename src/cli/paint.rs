@@ -1,0 +1,100 @@
+//! Colour on a terminal.
+
+use std::io::IsTerminal;
+
+/// What a word says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tone {
+    /// All is well.
+    Good,
+    /// Well, but.
+    Doubtful,
+    /// Not well.
+    Bad,
+}
+
+/// Whether words are coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Paint {
+    is_on: bool,
+}
+
+impl Paint {
+    /// For standard output: on a terminal alone, and not against the user's wish
+    /// (<https://no-color.org>).
+    pub fn of_stdout() -> Self {
+        let wished = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+        let is_dumb = wished("TERM").is_some_and(|term| term == "dumb");
+        Paint {
+            is_on: std::io::stdout().is_terminal() && wished("NO_COLOR").is_none() && !is_dumb,
+        }
+    }
+
+    /// Text with the words coloured that say whether all is well.
+    pub fn text(self, text: &str) -> String {
+        if !self.is_on {
+            return text.to_owned();
+        }
+        text.split_inclusive('\n').map(painted).collect()
+    }
+}
+
+/// A line with its telling words coloured, bold.
+fn painted(line: &str) -> String {
+    let Some((from, to, tone)) = telling(line) else {
+        return line.to_owned();
+    };
+    let colour = match tone {
+        Tone::Good => 32,
+        Tone::Doubtful => 33,
+        Tone::Bad => 31,
+    };
+    let (before, words, after) = (&line[..from], &line[from..to], &line[to..]);
+    format!("{before}\u{1b}[1;{colour}m{words}\u{1b}[0m{after}")
+}
+
+/// Where in a line the words are that say whether all is well, and how well.
+fn telling(line: &str) -> Option<(usize, usize, Tone)> {
+    let firsts = [
+        ("Warning:", Tone::Doubtful),
+        ("FAIL", Tone::Bad),
+        ("pass", Tone::Good),
+    ];
+    let first = firsts.iter().find(|(word, _)| line.starts_with(word));
+    if let Some((word, tone)) = first {
+        return Some((0, word.len(), *tone));
+    }
+    let answer = line
+        .find("? ")
+        .filter(|_| line.starts_with("Can it run at"))?
+        + 2;
+    let tone = match line.get(answer..answer + 2) {
+        Some("YE") => Tone::Good,
+        Some("NO") => Tone::Bad,
+        _ => Tone::Doubtful,
+    };
+    Some((answer, line.trim_end().len(), tone))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_plain_unless_colour_is_on() {
+        let text = "Can it run at 1800 rpm? NO, UNSTABLE: flutter\nmore\n";
+        assert_eq!(Paint { is_on: false }.text(text), text);
+        assert_eq!(
+            Paint { is_on: true }.text(text),
+            "Can it run at 1800 rpm? \u{1b}[1;31mNO, UNSTABLE: flutter\u{1b}[0m\nmore\n"
+        );
+    }
+
+    /// Tests run without a terminal.
+    #[test]
+    fn what_is_no_terminal_is_not_coloured() {
+        if !std::io::stdout().is_terminal() {
+            assert_eq!(Paint::of_stdout(), Paint { is_on: false });
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The answer, and how far it can be trusted.
+
+use std::fmt::{Result, Write};
+
+use super::wrapped;
+use crate::report::{OperatingEntry, Report, StabilityState};
+
+/// Whether the saw can run at its speed, and at which others.
+pub fn answer(text: &mut String, report: &Report) -> Result {
+    writeln!(text)?;
+    match &report.operating {
+        Some(operating) => at_operating_speed(text, report, operating)?,
+        None => up_to(text, report)?,
+    }
+    flutter(text, report)
+}
+
+fn at_operating_speed(text: &mut String, report: &Report, operating: &OperatingEntry) -> Result {
+    let word = match operating.verdict {
+        StabilityState::Stable if operating.within_limit != Some(false) => "YES",
+        StabilityState::Stable => "STABLE, but past the usual limit",
+        StabilityState::Divergence => "NO, UNSTABLE: divergence",
+        StabilityState::Flutter => "NO, UNSTABLE: flutter",
+        StabilityState::OutsideSweep => "UNKNOWN: outside the sweep",
+    };
+    writeln!(text, "Can it run at {:.0} rpm? {word}", operating.rpm)?;
+    if operating.verdict == StabilityState::OutsideSweep {
+        writeln!(text, "  widen `sweep` so that it holds operating_rpm")?;
+    }
+    if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
+        writeln!(text, "  {}", fastest(report, growth, hz))?;
+    }
+    if let Some([from, to]) = operating.safe_window_rpm {
+        writeln!(
+            text,
+            "  safe window around it: {from:.1} to {to:.1} rpm{}",
+            open_end(report, to)
+        )?;
+    }
+    rule(text, operating)
+}
+
+fn fastest(report: &Report, growth: f64, hz: f64) -> String {
+    let threshold = report.flutter_threshold_per_s;
+    if growth > 0.0 {
+        let held = match growth >= threshold {
+            true => "reaches",
+            false => "is below",
+        };
+        return format!(
+            "fastest growth {growth:.2e} 1/s at {hz:.2} Hz {held} the threshold of {threshold} 1/s"
+        );
+    }
+    match growth < 0.0 {
+        true => format!(
+            "every motion decays, the slowest by {:.2e} 1/s at {hz:.2} Hz",
+            -growth
+        ),
+        false => "no motion grows (the scene has no damping that would make it decay)".to_owned(),
+    }
+}
+
+/// The 85 % rule.
+fn rule(text: &mut String, operating: &OperatingEntry) -> Result {
+    let Some(ratio) = operating.of_lowest_critical else {
+        return Ok(());
+    };
+    let verdict = match operating.within_limit {
+        Some(false) => "breaks",
+        _ => "keeps",
+    };
+    writeln!(
+        text,
+        "  {:.0} % of the lowest critical speed {verdict} the {:.0} % rule (at most {:.0} rpm)",
+        100.0 * ratio,
+        100.0 * operating.limit,
+        operating.limit * operating.rpm / ratio
+    )
+}
+
+fn up_to(text: &mut String, report: &Report) -> Result {
+    let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
+    let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
+    let from = report.campbell.from_rpm;
+    match first {
+        Some(first) if first > from => {
+            writeln!(text, "Stable from {from:.0} to {first:.1} rpm")?;
+        }
+        Some(first) => writeln!(text, "Unstable from {first:.1} rpm on")?,
+        None => writeln!(
+            text,
+            "Stable from {from:.0} to {:.0} rpm, the end of the sweep",
+            report.campbell.to_rpm
+        )?,
+    }
+    writeln!(text, "  (no operating_rpm in the scene to hold against it)")
+}
+
+fn flutter(text: &mut String, report: &Report) -> Result {
+    let threshold = report.flutter_threshold_per_s;
+    match report.flutter_speed_rpm {
+        Some(rpm) => {
+            let error = report.accuracy.estimated_relative_error;
+            let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
+            writeln!(
+                text,
+                "Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)"
+            )?;
+        }
+        None => writeln!(
+            text,
+            "No flutter of {threshold} 1/s or more up to {:.0} rpm",
+            report.campbell.to_rpm
+        )?,
+    }
+    match report.first_merge_rpm {
+        Some(rpm) => writeln!(
+            text,
+            "First flutter of all, whatever its growth: {rpm:.0} rpm"
+        ),
+        None => Ok(()),
+    }
+}
+
+fn open_end(report: &Report, rpm: f64) -> &'static str {
+    match rpm >= report.campbell.to_rpm {
+        true => ", where the sweep ends",
+        false => "",
+    }
+}
+
+/// Certificate, estimated error and warnings.
+pub fn trust(text: &mut String, report: &Report) -> Result {
+    writeln!(text)?;
+    let certificate = &report.certificate;
+    let found = match certificate.krein_violations {
+        0 => "no band missed".to_owned(),
+        1 => "1 speed at which a mode may be missing".to_owned(),
+        count => format!("{count} speeds at which a mode may be missing"),
+    };
+    writeln!(
+        text,
+        "Certificate: {} at {} speeds compared; largest backward error {:.0e}",
+        found, certificate.speeds_checked, certificate.max_backward_error
+    )?;
+    if let Some(error) = report.accuracy.estimated_relative_error {
+        writeln!(
+            text,
+            "Estimated error of the critical speeds: {:.3} % ({} functions)",
+            100.0 * error,
+            report.accuracy.degrees_of_freedom
+        )?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! The table of bands.
+
+use std::fmt::{Result, Write};
+
+use super::{ROWS, more, shortened};
+use crate::report::{InstabilityEntry, InstabilityKind, Report};
+
+/// Room for the names of the modes at the end of a line.
+const MODES: usize = 29;
+
+/// Every band of instability, and whether it counts.
+pub fn bands(text: &mut String, report: &Report) -> Result {
+    let bands = &report.instabilities;
+    if bands.is_empty() {
+        return writeln!(text, "\nNo instability: stable at every speed of the sweep");
+    }
+    writeln!(
+        text,
+        "\n{:<14} {:>8} {:>8} {:>8} {:>7}  modes",
+        "Bands", "from", "to", "growth", "at"
+    )?;
+    writeln!(
+        text,
+        "{:<14} {:>8} {:>8} {:>8} {:>7}",
+        "", "[rpm]", "[rpm]", "[1/s]", "[Hz]"
+    )?;
+    for band in bands.iter().take(ROWS) {
+        row(text, report, band)?;
+    }
+    more(text, bands.len())?;
+    if bands.iter().any(|band| band.counted_rpm.is_empty()) {
+        writeln!(
+            text,
+            "(in brackets: flutter below the threshold of {} 1/s, which does not count)",
+            report.flutter_threshold_per_s
+        )?;
+    }
+    Ok(())
+}
+
+fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
+    let kind = match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
+    };
+    let kind = match band.counted_rpm.is_empty() {
+        true => format!("({kind})"),
+        false => kind.to_owned(),
+    };
+    let is_open = |at: f64, end: f64| !band.closed && (at - end).abs() <= 1e-9 * end.abs();
+    let (first, last) = (report.campbell.from_rpm, report.campbell.to_rpm);
+    let from = match is_open(band.from_rpm, first) {
+        true => "before".to_owned(),
+        false => format!("{:.1}", band.from_rpm),
+    };
+    let to = match is_open(band.to_rpm, last) {
+        true => "beyond".to_owned(),
+        false => format!("{:.1}", band.to_rpm),
+    };
+    let growth = match band.peak_growth_per_s < 0.005 {
+        true => format!("{:.0e}", band.peak_growth_per_s),
+        false => format!("{:.2}", band.peak_growth_per_s),
+    };
+    writeln!(
+        text,
+        "  {kind:<12} {from:>8} {to:>8} {growth:>8} {:>7.2}  {}",
+        band.frequency_hz,
+        shortened(&modes(band), MODES)
+    )?;
+    partly(text, band)
+}
+
+/// Where a band counts, unless it does as a whole.
+fn partly(text: &mut String, band: &InstabilityEntry) -> Result {
+    let [stretches @ .., last] = band.counted_rpm.as_slice() else {
+        return Ok(());
+    };
+    let whole = [band.from_rpm, band.to_rpm];
+    if stretches.is_empty() && *last == whole {
+        return Ok(());
+    }
+    let words = |[from, to]: &[f64; 2]| format!("{from:.1} to {to:.1}");
+    let counted: Vec<String> = band.counted_rpm.iter().map(words).collect();
+    let line = format!("    counts from {} rpm", counted.join(", and from "));
+    writeln!(text, "{}", shortened(&line, super::WIDTH))
+}
+
+/// "1: 2 diameters + 4: 3 diameters", or the numbers of the branches where names are too long.
+fn modes(band: &InstabilityEntry) -> String {
+    let named = band.branches.iter().zip(&band.modes);
+    let named: Vec<String> = named
+        .map(|(number, name)| format!("{number}: {name}"))
+        .collect();
+    let named = named.join(" + ");
+    if named.chars().count() <= MODES {
+        return named;
+    }
+    let numbers: Vec<String> = band.branches.iter().map(usize::to_string).collect();
+    match numbers.as_slice() {
+        [_] => named,
+        _ => format!("branches {}", numbers.join(" + ")),
+    }
+}

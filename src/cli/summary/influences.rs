@@ -1,0 +1,81 @@
+//! What heat and the numbers of the scene do, in words.
+
+use std::fmt::{Result, Write};
+
+use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
+use crate::spectrum::{Direction, in_words};
+
+/// How hot the blade may become, on the scene's temperature profile.
+pub fn heat(text: &mut String, report: &Report) -> Result {
+    let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
+    let Some(heat) = heat else {
+        return Ok(());
+    };
+    writeln!(text, "Heat, peak of the profile now {:+.1} K:", heat.rise_k)?;
+    let shape = |limit: &HeatLimitEntry| {
+        let (diameters, circles) = (limit.nodal_diameters, limit.nodal_circles);
+        in_words(diameters, circles, Direction::Standing)
+    };
+    if let Some(limit) = &heat.operating_limit {
+        writeln!(
+            text,
+            "  {:+.1} K brings the first critical speed down to the operating speed\n    ({})",
+            limit.rise_k,
+            shape(limit)
+        )?;
+    } else if heat.past_critical_when_cold {
+        writeln!(
+            text,
+            "  the operating speed is critical even for the cold blade"
+        )?;
+    } else if report.operating.is_some() && !heat.buckles_first {
+        writeln!(
+            text,
+            "  it never brings a critical speed down to the operating speed"
+        )?;
+    }
+    if let Some(limit) = &heat.flat_from {
+        let (rise, shape) = (limit.rise_k, shape(limit));
+        writeln!(text, "  below {rise:+.1} K it is buckled at rest ({shape})")?;
+    }
+    match &heat.buckling {
+        Some(limit) => writeln!(
+            text,
+            "  {:+.1} K buckles the blade at rest{}\n    ({})",
+            limit.rise_k,
+            match heat.buckles_first {
+                true => ", before a critical speed is that low",
+                false => "",
+            },
+            shape(limit)
+        ),
+        None => writeln!(text, "  it never buckles the blade at rest"),
+    }
+}
+
+/// How speeds move with the numbers of the scene.
+pub fn sensitivity(text: &mut String, report: &Report) -> Result {
+    if report.sensitivities.is_empty() {
+        return Ok(());
+    }
+    let begins = |b: &InstabilityEntry| Some(b.from_rpm) == report.flutter_speed_rpm;
+    let flutter = report.instabilities.iter().position(begins);
+    writeln!(
+        text,
+        "\nWhat moves the first critical speed, and the flutter speed"
+    )?;
+    for entry in &report.sensitivities {
+        let critical = entry.critical_speeds_percent.first().copied();
+        let onset = flutter.and_then(|i| entry.onsets_percent.get(i).copied().flatten());
+        let percent = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:+.3} %"));
+        writeln!(
+            text,
+            "  {:<8} more {:<36} {:>11} {:>11}",
+            entry.change,
+            entry.parameter,
+            percent(critical),
+            percent(onset)
+        )?;
+    }
+    Ok(())
+}

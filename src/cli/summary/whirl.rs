@@ -1,0 +1,56 @@
+//! The table of one speed.
+
+use std::fmt::{Result, Write};
+
+use crate::report::{Report, StabilityState, WhirlMode};
+
+/// Frequency, direction, name, growth, damping and Krein sign of the modes of one speed.
+pub fn whirl(text: &mut String, report: &Report) -> Result {
+    let Some(whirl) = &report.whirl else {
+        return Ok(());
+    };
+    let state = match whirl.verdict {
+        StabilityState::Stable => "stable",
+        StabilityState::Divergence => "UNSTABLE, divergence",
+        StabilityState::Flutter => "UNSTABLE, flutter",
+        StabilityState::OutsideSweep => "outside the sweep",
+    };
+    writeln!(text, "\nModes at {} rpm: {state}", whirl.rpm)?;
+    let is_damped = whirl.modes.iter().any(|mode| mode.damping_ratio.is_some());
+    match is_damped {
+        true => writeln!(text, "       [Hz] Re λ [1/s] ratio [%] decrement  mode")?,
+        false => writeln!(text, "       [Hz] Re λ [1/s] Krein  mode")?,
+    }
+    for mode in &whirl.modes {
+        writeln!(
+            text,
+            "  {:>9.3} {}  {}",
+            mode.frequency_hz,
+            numbers(mode),
+            mode.name
+        )?;
+    }
+    Ok(())
+}
+
+fn numbers(mode: &WhirlMode) -> String {
+    let growth = format!("{:.2e}", mode.growth_per_s);
+    let Some(ratio) = mode.damping_ratio else {
+        let growth = match mode.growth_per_s == 0.0 {
+            true => "0",
+            false => &growth,
+        };
+        let sign = match mode.krein_sign {
+            0 => "none",
+            1 => "+1",
+            _ => "-1",
+        };
+        return format!("{growth:>10} {sign:>5}");
+    };
+    let decrement = mode.logarithmic_decrement;
+    let decrement = decrement.map_or("none".to_owned(), |d| format!("{d:.3e}"));
+    format!(
+        "{growth:>10} {:>9} {decrement:>9}",
+        format!("{:.2e}", 100.0 * ratio)
+    )
+}

@@ -1,0 +1,287 @@
+//! Bands of a damped blade from the paths of its eigenvalues.
+
+use super::super::bands::{CurvePoint, Instability, InstabilityKind};
+use super::link::between;
+use super::spectrum::{Eigenvalue, Solver, Spectrum};
+use super::trace::Path;
+use crate::spectrum::SpectrumError;
+
+/// Relative accuracy in speed of onsets, peaks and of the lowest growth between two.
+const SPEED_TOLERANCE: f64 = 1e-12;
+/// Two humps of growth are bands of their own where growth falls between them below this share
+/// of the lower one. Each meeting of two modes makes a hump; what damping alone feeds grows
+/// slowly and evenly in between.
+const VALLEY: f64 = 0.5;
+/// A band narrower than this share of its speed lies within the resolution of a complex pair
+/// that becomes two real eigenvalues.
+const LEAST_BAND: f64 = 1e-9;
+
+/// A stretch of a path on which Re λ > 0.
+struct Stretch {
+    curve: Vec<CurvePoint>,
+    /// Whether the range of speeds begins and ends in it.
+    cut: [bool; 2],
+}
+
+/// The bands of a path.
+pub fn bands(
+    solver: &Solver<'_>,
+    spectra: &[Spectrum],
+    path: &Path,
+) -> Result<Vec<Instability>, SpectrumError> {
+    let value =
+        |&(spectrum, value): &(usize, usize)| -> Eigenvalue { spectra[spectrum].values[value] };
+    let grows = |point: &(usize, usize)| {
+        let value = value(point);
+        value.lambda.re >= 0.0 && value.lambda.im <= solver.highest()
+    };
+    let is_noise = |points: &[(usize, usize)]| {
+        let mut growth = points.iter().map(|point| value(point).lambda.re);
+        growth.all(|growth| growth <= solver.noise())
+    };
+    let mut bands = Vec::new();
+    let mut first = 0;
+    while let Some(start) = (first..path.len()).find(|&k| grows(&path[k])) {
+        let end = (start..path.len()).find(|&k| !grows(&path[k]));
+        let end = end.unwrap_or(path.len());
+        first = end;
+        if is_noise(&path[start..end]) {
+            continue;
+        }
+        let stretch = stretch(solver, spectra, path, start..end)?;
+        bands.extend(parted(stretch, solver.noise()));
+    }
+    Ok(bands)
+}
+
+/// A stretch from where growth begins to where it ends, with its extrema.
+fn stretch(
+    solver: &Solver<'_>,
+    spectra: &[Spectrum],
+    path: &Path,
+    range: std::ops::Range<usize>,
+) -> Result<Stretch, SpectrumError> {
+    let part = spectra[path[range.start].0].values[path[range.start].1].part;
+    let point = |k: usize| curve_point(&spectra[path[k].0], path[k].1);
+    let mut curve: Vec<CurvePoint> = range.clone().map(point).collect();
+    let (first, last) = (path[range.start].0, path[range.end - 1].0);
+    if range.start > 0 {
+        let outside = point(range.start - 1);
+        curve.insert(0, onset(solver, part, outside, curve[0])?);
+    } else if first > 0 {
+        let speed = 0.5 * (spectra[first - 1].speed + spectra[first].speed);
+        curve.insert(0, moved(curve[0], speed));
+    }
+    let inside = curve[curve.len() - 1];
+    if range.end < path.len() {
+        let outside = point(range.end);
+        curve.push(onset(solver, part, outside, inside)?);
+    } else if last + 1 < spectra.len() {
+        let speed = 0.5 * (spectra[last].speed + spectra[last + 1].speed);
+        curve.push(moved(inside, speed));
+    }
+    Ok(Stretch {
+        curve: with_extrema(solver, part, curve)?,
+        cut: [
+            range.start == 0 && first == 0,
+            range.end == path.len() && last + 1 == spectra.len(),
+        ],
+    })
+}
+
+fn curve_point(spectrum: &Spectrum, value: usize) -> CurvePoint {
+    let value = spectrum.values[value];
+    CurvePoint {
+        speed_rad_per_s: spectrum.speed,
+        lambda: value.lambda,
+        slope: value.slope,
+    }
+}
+
+/// A point moved to the end of its path, which is closer than any resolution.
+fn moved(point: CurvePoint, speed_rad_per_s: f64) -> CurvePoint {
+    CurvePoint {
+        speed_rad_per_s,
+        ..point
+    }
+}
+
+/// Where Re λ = 0 between a point outside a stretch and its neighbour inside.
+fn onset(
+    solver: &Solver<'_>,
+    part: usize,
+    outside: CurvePoint,
+    inside: CurvePoint,
+) -> Result<CurvePoint, SpectrumError> {
+    // It still grows where it leaves the sound range.
+    if outside.lambda.re >= 0.0 {
+        return Ok(outside);
+    }
+    root(solver, part, [outside, inside], |p| p.lambda.re)
+}
+
+/// A curve with every speed at which its growth is largest or smallest.
+fn with_extrema(
+    solver: &Solver<'_>,
+    part: usize,
+    curve: Vec<CurvePoint>,
+) -> Result<Vec<CurvePoint>, SpectrumError> {
+    let mut full = Vec::with_capacity(curve.len());
+    for k in 0..curve.len() {
+        full.push(curve[k]);
+        let Some(&next) = curve.get(k + 1) else {
+            continue;
+        };
+        let width = next.speed_rad_per_s - curve[k].speed_rad_per_s;
+        let turns = (curve[k].slope.re < 0.0) != (next.slope.re < 0.0);
+        if turns && width > SPEED_TOLERANCE * next.speed_rad_per_s {
+            let found = root(solver, part, [curve[k], next], |p| p.slope.re)?;
+            let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
+            if !ends.contains(&found.speed_rad_per_s) {
+                full.push(found);
+            }
+        }
+    }
+    Ok(full)
+}
+
+/// The point between two points of a path at which a number of it is zero, by false position.
+fn root(
+    solver: &Solver<'_>,
+    part: usize,
+    [mut low, mut high]: [CurvePoint; 2],
+    number: impl Fn(&CurvePoint) -> f64,
+) -> Result<CurvePoint, SpectrumError> {
+    let (mut at_low, mut at_high) = (number(&low), number(&high));
+    let mut best = if at_low.abs() < at_high.abs() {
+        low
+    } else {
+        high
+    };
+    for step in 0..40 {
+        let width = high.speed_rad_per_s - low.speed_rad_per_s;
+        if width.abs() <= SPEED_TOLERANCE * high.speed_rad_per_s.abs() || number(&best) == 0.0 {
+            break;
+        }
+        let share = match step % 4 == 3 {
+            true => 0.5,
+            false => (at_low / (at_low - at_high)).clamp(1e-3, 0.999),
+        };
+        let found = between_points(solver, part, [low, high], share)?;
+        let value = number(&found);
+        let moves = (found.speed_rad_per_s - best.speed_rad_per_s).abs();
+        if value.abs() <= number(&best).abs() {
+            best = found;
+        }
+        // Illinois: an end that stays counts half.
+        if (value < 0.0) == (number(&high) < 0.0) {
+            (high, at_high) = (found, value);
+            at_low *= 0.5;
+        } else {
+            (low, at_low) = (found, value);
+            at_high *= 0.5;
+        }
+        if moves <= SPEED_TOLERANCE * found.speed_rad_per_s.abs() {
+            break;
+        }
+    }
+    Ok(best)
+}
+
+/// The point of a path at a share of the way between two of its points.
+fn between_points(
+    solver: &Solver<'_>,
+    part: usize,
+    points: [CurvePoint; 2],
+    share: f64,
+) -> Result<CurvePoint, SpectrumError> {
+    let [from, to] = points.map(|p| p.speed_rad_per_s);
+    let ends = points.map(|p| Eigenvalue {
+        lambda: p.lambda,
+        slope: p.slope,
+        part,
+        action: 1,
+    });
+    let speed = from + share * (to - from);
+    let expected = between(&ends, to - from, share);
+    let found = solver.nearest(speed, part, expected)?;
+    Ok(CurvePoint {
+        speed_rad_per_s: speed,
+        lambda: found.map_or(expected, |f| f.lambda),
+        slope: found.map_or(points[0].slope, |f| f.slope),
+    })
+}
+
+/// One band for each hump of a stretch.
+fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
+    let last = stretch.curve.len() - 1;
+    let mut bounds = vec![0, last];
+    valleys(&stretch.curve, (0, last), &mut bounds);
+    bounds.sort_unstable();
+    let humps = bounds.windows(2).map(|ends| {
+        let cut = [
+            stretch.cut[0] && ends[0] == 0,
+            stretch.cut[1] && ends[1] == last,
+        ];
+        band(&stretch.curve[ends[0]..=ends[1]], cut)
+    });
+    humps
+        .flatten()
+        .filter(|band| band.peak_growth_per_s > noise && band.to - band.from > LEAST_BAND * band.to)
+        .collect()
+}
+
+/// Lowest points between humps, deepest first.
+fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<usize>) {
+    let growth = |k: usize| curve[k].lambda.re;
+    // The greatest growth up to each point, and from it on.
+    let mut before = 0.0_f64;
+    let mut deepest: Option<(f64, usize)> = None;
+    let mut behind: Vec<f64> = (first..=last)
+        .rev()
+        .scan(0.0_f64, |top, k| {
+            *top = top.max(growth(k));
+            Some(*top)
+        })
+        .collect();
+    behind.reverse();
+    for k in first..=last {
+        before = before.max(growth(k));
+        let lower = before.min(behind[k - first]);
+        let depth = growth(k).max(0.0) / lower.max(f64::MIN_POSITIVE);
+        let inner = first < k && k < last;
+        if inner && depth < VALLEY && deepest.is_none_or(|(d, _)| depth < d) {
+            deepest = Some((depth, k));
+        }
+    }
+    let Some((_, valley)) = deepest else {
+        return;
+    };
+    found.push(valley);
+    valleys(curve, (first, valley), found);
+    valleys(curve, (valley, last), found);
+}
+
+/// The band of one hump.
+fn band(curve: &[CurvePoint], cut: [bool; 2]) -> Option<Instability> {
+    let (first, last) = (curve.first()?, curve.last()?);
+    let growth = |p: &&CurvePoint| p.lambda.re;
+    let peak = curve
+        .iter()
+        .max_by(|x, y| growth(x).total_cmp(&growth(y)))?;
+    let kind = match peak.lambda.im == 0.0 {
+        true => InstabilityKind::Divergence,
+        false => InstabilityKind::Flutter,
+    };
+    Some(Instability {
+        kind,
+        from: first.speed_rad_per_s,
+        to: last.speed_rad_per_s,
+        closed: !cut[0] && !cut[1],
+        peak: peak.speed_rad_per_s,
+        peak_growth_per_s: peak.lambda.re,
+        frequency: peak.lambda.im.abs(),
+        modes: Vec::new(),
+        curve: curve.to_vec(),
+    })
+}

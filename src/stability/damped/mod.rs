@@ -1,0 +1,196 @@
+//! Bands of a damped blade: stretches of speeds in which an eigenvalue has Re λ > 0.
+//!
+//! Damping leaves no Krein signs to count. Instead every eigenvalue that may grow is followed
+//! over speed as λ(Ω), with as many speeds in between as it takes to match it without doubt
+//! ([`link`]) and to draw its growth ([`trace`]). A band begins and ends where Re λ = 0, where a
+//! complex pair becomes two real eigenvalues or back, and where growth is least between two
+//! humps ([`hump`]). The bands of the undamped twin lend speeds to begin with, and the names of
+//! the modes that meet.
+
+mod hump;
+mod link;
+mod spectrum;
+mod trace;
+
+use faer::c64;
+use rayon::prelude::*;
+
+use super::bands::{
+    self, Certificate, CurvePoint, Instability, InstabilityKind, StabilityChart,
+    with_critical_speeds,
+};
+use crate::campbell::{self, Campbell, Progress};
+use crate::spectrum::{
+    Direction, Mode, ModeName, SpectralModel, SpectrumError, Strategy, in_words,
+};
+use spectrum::{Solver, Spectrum};
+
+/// Points of a band's curve that a straight line misses by more than this share of its peak
+/// are drawn, on a scale of square roots, which shows slow growth beside fast.
+const DRAWN: f64 = 0.02;
+/// A band of the undamped twin is the same as one of the damped blade where both overlap and
+/// their frequencies differ by less than this share.
+const SAME_FREQUENCY: f64 = 0.05;
+
+/// Charts a damped blade.
+pub(super) fn chart(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+    progress: Progress<'_>,
+) -> Result<StabilityChart, SpectrumError> {
+    let twin = twin_bands(model, range)?;
+    let mut speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
+    let mut samples = campbell::sample(model, &speeds, progress)?;
+    speeds.extend(twin.iter().flat_map(|band| [band.from, band.peak, band.to]));
+    speeds.extend(middles(model, range));
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    let (instabilities, certificate) = bands(model, &speeds, &twin)?;
+    let mut drawn: Vec<f64> = instabilities.iter().flat_map(drawn_speeds).collect();
+    drawn.sort_by(f64::total_cmp);
+    drawn.dedup();
+    drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
+    samples.extend(campbell::sample(model, &drawn, &|_, _| ())?);
+    Ok(StabilityChart {
+        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
+        instabilities,
+        certificate,
+    })
+}
+
+/// The bands of the blade without damping.
+fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instability>, SpectrumError> {
+    let plate = model.plate.undamped();
+    if plate.is_axisymmetric() {
+        return Ok(Vec::new());
+    }
+    let critical = SpectralModel::critical_speeds(&plate)?;
+    let stop = &model.counters.stop;
+    let twin = SpectralModel::stoppable(plate, critical, range, Strategy::Bands, stop)?;
+    let (bands, _) = bands::undamped_bands(&twin, range, bands::SEARCH_SPEEDS)?;
+    Ok(bands)
+}
+
+/// Half way between neighbouring critical speeds, where a wave may lean over.
+fn middles(model: &SpectralModel, range: (f64, f64)) -> Vec<f64> {
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let middles = critical.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    middles.filter(|s| (range.0..range.1).contains(s)).collect()
+}
+
+/// Every band between the first and the last of the speeds, by onset.
+fn bands(
+    model: &SpectralModel,
+    speeds: &[f64],
+    twin: &[Instability],
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let solver = Solver::new(model);
+    let given: Result<Vec<Spectrum>, SpectrumError> =
+        speeds.par_iter().map(|&speed| solver.at(speed)).collect();
+    let spectra = trace::refined(&solver, given?)?;
+    let paths = trace::paths(&solver, &spectra);
+    let found: Result<Vec<Vec<Instability>>, SpectrumError> = paths
+        .par_iter()
+        .map(|path| {
+            let mut bands = hump::bands(&solver, &spectra, path)?;
+            for band in &mut bands {
+                band.modes = modes(model, band, twin)?;
+            }
+            Ok(bands)
+        })
+        .collect();
+    let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
+    instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+    let certificate = Certificate {
+        speeds_checked: spectra.len(),
+        violations: mismatches(&solver, &spectra, &instabilities),
+        gave_up: solver.is_exhausted(),
+    };
+    Ok((instabilities, certificate))
+}
+
+/// Speeds at which there are more or fewer growing modes than bands.
+fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) -> Vec<f64> {
+    const EDGE: f64 = 1e-9;
+    let at_edge = |speed: f64, edge: f64| (speed - edge).abs() <= EDGE * speed;
+    let differs = |spectrum: &&Spectrum| {
+        let speed = spectrum.speed;
+        let mut ends = bands.iter().flat_map(|band| [band.from, band.to]);
+        let covering = bands.iter().filter(|b| b.from < speed && speed < b.to);
+        // Within rounding of zero a mode may be on either side.
+        let growing = |least: f64| {
+            let values = spectrum.values.iter().map(|v| v.lambda);
+            let sound = values.filter(|l| l.im <= solver.highest());
+            sound.filter(|l| l.re > least).count()
+        };
+        let (least, most) = (
+            growing(10.0 * solver.noise()),
+            growing(-10.0 * solver.noise()),
+        );
+        !ends.any(|edge| at_edge(speed, edge)) && !(least..=most).contains(&covering.count())
+    };
+    let differing = spectra.iter().filter(differs);
+    differing.map(|spectrum| spectrum.speed).collect()
+}
+
+/// Names of the modes of a band: of those that meet in it without damping, or of the one that
+/// damping alone feeds.
+fn modes(
+    model: &SpectralModel,
+    band: &Instability,
+    twin: &[Instability],
+) -> Result<Vec<String>, SpectrumError> {
+    let off = |t: &&Instability| (t.frequency - band.frequency).abs();
+    let same = |t: &&Instability| {
+        let overlaps = t.from <= band.to && band.from <= t.to;
+        let is_near =
+            (t.from..=t.to).contains(&band.peak) || (band.from..=band.to).contains(&t.peak);
+        let tolerance = SAME_FREQUENCY * band.frequency;
+        t.kind == band.kind && overlaps && is_near && off(t) <= tolerance
+    };
+    let met = twin.iter().filter(same);
+    if let Some(met) = met.min_by(|x, y| off(x).total_cmp(&off(y))) {
+        return Ok(met.modes.clone());
+    }
+    let lambda = c64::new(band.peak_growth_per_s, band.frequency);
+    let distance = |m: &Mode| (m.lambda - lambda).norm();
+    let found = model.modes(band.peak)?;
+    let found = found
+        .into_iter()
+        .min_by(|x, y| distance(x).total_cmp(&distance(y)));
+    let described = model.describe(band.peak, found.into_iter().collect());
+    let name = |name: &ModeName| match band.kind {
+        InstabilityKind::Divergence => in_words(name.diameters, name.circles, Direction::Standing),
+        InstabilityKind::Flutter => in_words(name.diameters, name.circles, name.direction),
+    };
+    Ok(described.iter().map(|d| name(&d.name)).collect())
+}
+
+/// Speeds of a band at which its growth is drawn: its ends, its peak, and as many in between as
+/// straight lines take to follow the curve.
+fn drawn_speeds(band: &Instability) -> Vec<f64> {
+    let curve = &band.curve;
+    let tolerance = DRAWN * band.peak_growth_per_s.sqrt();
+    let is_straight = |from: usize, to: usize| {
+        let [a, b] = [curve[from], curve[to]];
+        let width = b.speed_rad_per_s - a.speed_rad_per_s;
+        curve[from + 1..to].iter().all(|p| {
+            let share = (p.speed_rad_per_s - a.speed_rad_per_s) / width;
+            let straight = a.lambda.re + share * (b.lambda.re - a.lambda.re);
+            (p.lambda.re.max(0.0).sqrt() - straight.max(0.0).sqrt()).abs() <= tolerance
+        })
+    };
+    let is_peak = |p: &CurvePoint| p.speed_rad_per_s == band.peak;
+    let mut drawn = vec![0];
+    for k in 1..curve.len() {
+        let from = drawn[drawn.len() - 1];
+        if k + 1 == curve.len() || is_peak(&curve[k]) || !is_straight(from, k + 1) {
+            drawn.push(k);
+        }
+    }
+    drawn
+        .into_iter()
+        .map(|k| curve[k].speed_rad_per_s)
+        .collect()
+}

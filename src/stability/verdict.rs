@@ -1,0 +1,260 @@
+//! Whether a saw can run at a speed: the one answer that the check, the summary, the report,
+//! the page and a study give.
+//!
+//! Divergence counts wherever it is. Flutter counts where it grows as fast as the threshold:
+//! - of an undamped blade a band counts as a whole, by its largest growth: growth rises with the
+//!   square root of the distance from the onset, within a fraction of the band's width;
+//! - of a damped blade a band may grow imperceptibly over hundreds of rpm, so that it counts
+//!   only where its growth reaches the threshold.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::bands::{CurvePoint, Instability, InstabilityKind};
+use super::station::hermite;
+
+/// What becomes of a saw at one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StabilityState {
+    /// Nothing that counts grows.
+    Stable,
+    /// The blade leans over.
+    Divergence,
+    /// The blade flutters.
+    Flutter,
+    /// Nothing was computed there.
+    OutsideSweep,
+}
+
+/// What becomes of a saw at one speed, and why.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// The answer.
+    pub state: StabilityState,
+    /// Index of the band that makes it unstable: divergence first, then the fastest growing.
+    pub band: Option<usize>,
+    /// The stretch around the speed in which that band counts, in rad/s.
+    pub stretch: Option<(f64, f64)>,
+}
+
+/// The verdict on a saw at a speed, from its bands within a range of speeds.
+pub fn verdict(
+    bands: &[Instability],
+    threshold_per_s: f64,
+    range: (f64, f64),
+    speed_rad_per_s: f64,
+) -> Verdict {
+    let around = |(from, to): &(f64, f64)| (*from..=*to).contains(&speed_rad_per_s);
+    let counted = bands.iter().enumerate().filter_map(|(index, band)| {
+        let stretch = band.counted(threshold_per_s).into_iter().find(around)?;
+        Some((index, band, stretch))
+    });
+    let rank = |band: &Instability| {
+        let diverges = band.kind == InstabilityKind::Divergence;
+        (diverges, band.growth_or_peak(speed_rad_per_s))
+    };
+    let worst = counted.max_by(|(_, x, _), (_, y, _)| {
+        let (x, y) = (rank(x), rank(y));
+        x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
+    });
+    match worst {
+        Some((index, band, stretch)) => Verdict {
+            state: match band.kind {
+                InstabilityKind::Divergence => StabilityState::Divergence,
+                InstabilityKind::Flutter => StabilityState::Flutter,
+            },
+            band: Some(index),
+            stretch: Some(stretch),
+        },
+        None => Verdict {
+            state: match around(&range) {
+                true => StabilityState::Stable,
+                false => StabilityState::OutsideSweep,
+            },
+            band: None,
+            stretch: None,
+        },
+    }
+}
+
+/// The speeds around one at which nothing counts, within a range; `None` where the saw is
+/// unstable at that speed, or nothing was computed there.
+pub fn safe_window(
+    bands: &[Instability],
+    threshold_per_s: f64,
+    range: (f64, f64),
+    speed_rad_per_s: f64,
+) -> Option<(f64, f64)> {
+    if verdict(bands, threshold_per_s, range, speed_rad_per_s).state != StabilityState::Stable {
+        return None;
+    }
+    let counted = bands.iter().flat_map(|band| band.counted(threshold_per_s));
+    Some(counted.fold(range, |(low, high), (from, to)| {
+        if to < speed_rad_per_s {
+            (low.max(to), high)
+        } else {
+            (low, high.min(from))
+        }
+    }))
+}
+
+/// Lowest speed at which flutter counts, and lowest of all at which a mode flutters, however
+/// slowly it grows.
+pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f64>; 2] {
+    let flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
+    let counted = flutter.clone().flat_map(|b| b.counted(threshold_per_s));
+    let first = |speeds: &mut dyn Iterator<Item = f64>| speeds.reduce(f64::min);
+    [
+        first(&mut counted.map(|(from, _)| from)),
+        first(&mut flutter.map(|b| b.from)),
+    ]
+}
+
+impl Instability {
+    /// The stretches of speeds in which it counts, ascending.
+    pub fn counted(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
+        if !self.counts(threshold_per_s) {
+            return Vec::new();
+        }
+        if self.kind == InstabilityKind::Divergence || self.curve.is_empty() {
+            return vec![(self.from, self.to)];
+        }
+        let strong = |p: &CurvePoint| p.lambda.re >= threshold_per_s;
+        let mut stretches = Vec::new();
+        let mut begun = self.curve.first().filter(|p| strong(p)).map(|_| self.from);
+        for pair in self.curve.windows(2) {
+            match (strong(&pair[0]), strong(&pair[1])) {
+                (false, true) => begun = Some(crossing(pair, threshold_per_s)),
+                (true, false) => {
+                    let to = crossing(pair, threshold_per_s);
+                    stretches.extend(begun.take().map(|from| (from, to)));
+                }
+                _ => {}
+            }
+        }
+        stretches.extend(begun.map(|from| (from, self.to)));
+        stretches
+    }
+
+    /// Re λ of a damped blade at a speed within the band.
+    pub fn growth_at(&self, speed_rad_per_s: f64) -> Option<f64> {
+        let after = |p: &CurvePoint| p.speed_rad_per_s < speed_rad_per_s;
+        let place = self.curve.partition_point(after).max(1);
+        let pair = self.curve.get(place - 1..=place)?;
+        let inside = pair[0].speed_rad_per_s..=pair[1].speed_rad_per_s;
+        let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
+        let share = (speed_rad_per_s - pair[0].speed_rad_per_s) / width;
+        let growth = || growth_between(pair, share);
+        inside.contains(&speed_rad_per_s).then(growth)
+    }
+
+    fn growth_or_peak(&self, speed_rad_per_s: f64) -> f64 {
+        self.growth_at(speed_rad_per_s)
+            .unwrap_or(self.peak_growth_per_s)
+    }
+}
+
+/// Re λ at a share of the way between two points of a curve.
+fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
+    let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
+    let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
+    let straight = before.0 + share * (after.0 - before.0);
+    // Where two modes meet, slopes are infinite, and the points so close that none is needed.
+    let size = before.0.abs() + after.0.abs();
+    let steepness = before.1.abs() + after.1.abs();
+    if steepness.is_nan() || steepness > 8.0 * size {
+        return straight;
+    }
+    hermite(share, before.0, before.1, after.0, after.1)
+}
+
+/// Speed between two points of a curve at which Re λ has a value, by bisection.
+fn crossing(pair: &[CurvePoint], value: f64) -> f64 {
+    let rises = pair[0].lambda.re < value;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match (growth_between(pair, middle) < value) == rises {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
+    pair[0].speed_rad_per_s + high * width
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::c64;
+
+    use super::*;
+
+    fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64) -> Instability {
+        Instability {
+            kind,
+            from,
+            to,
+            closed: true,
+            peak: 0.5 * (from + to),
+            peak_growth_per_s: growth,
+            frequency: 10.0,
+            modes: Vec::new(),
+            curve: Vec::new(),
+        }
+    }
+
+    /// Growth (Ω − 100)(180 − Ω)/1600, 1 at 140 rad/s.
+    fn damped_hump() -> Instability {
+        let point = |speed: f64| CurvePoint {
+            speed_rad_per_s: speed,
+            lambda: c64::new((speed - 100.0) * (180.0 - speed) / 1600.0, 10.0),
+            slope: c64::new((280.0 - 2.0 * speed) / 1600.0, 0.0),
+        };
+        let speeds = [100.0, 110.0, 140.0, 171.0, 180.0];
+        Instability {
+            curve: speeds.map(point).to_vec(),
+            ..band(InstabilityKind::Flutter, 100.0, 180.0, 1.0)
+        }
+    }
+
+    const RANGE: (f64, f64) = (0.0, 300.0);
+
+    #[test]
+    fn a_damped_band_counts_where_its_growth_reaches_the_threshold() {
+        let bands = [damped_hump()];
+        // (Ω − 100)(180 − Ω) = 400 at 140 ± √1200.
+        let half = 1200.0_f64.sqrt();
+        let [(from, to)] = bands[0].counted(0.25)[..] else {
+            panic!("{:?}", bands[0].counted(0.25));
+        };
+        assert!((from - (140.0 - half)).abs() < 1e-9 && (to - (140.0 + half)).abs() < 1e-9);
+        assert_eq!(flutter_onsets(&bands, 0.25), [Some(from), Some(100.0)]);
+        let state = |speed| verdict(&bands, 0.25, RANGE, speed).state;
+        assert_eq!(state(104.0), StabilityState::Stable);
+        assert_eq!(state(140.0), StabilityState::Flutter);
+        assert_eq!(state(301.0), StabilityState::OutsideSweep);
+        assert_eq!(safe_window(&bands, 0.25, RANGE, 104.0), Some((0.0, from)));
+        assert_eq!(safe_window(&bands, 0.25, RANGE, 179.0), Some((to, 300.0)));
+        assert_eq!(safe_window(&bands, 0.25, RANGE, 140.0), None);
+        assert_eq!(flutter_onsets(&bands, 1.5), [None, Some(100.0)]);
+    }
+
+    #[test]
+    fn undamped_bands_count_as_a_whole_and_divergence_always() {
+        let bands = [
+            band(InstabilityKind::Divergence, 90.0, 95.0, 0.01),
+            band(InstabilityKind::Flutter, 94.0, 120.0, 0.3),
+            band(InstabilityKind::Flutter, 150.0, 160.0, 0.2),
+        ];
+        let at = |speed| verdict(&bands, 0.25, RANGE, speed);
+        assert_eq!(at(94.5).state, StabilityState::Divergence);
+        assert_eq!((at(94.0).band, at(119.0).band), (Some(0), Some(1)));
+        assert_eq!(at(155.0).state, StabilityState::Stable);
+        assert_eq!(
+            safe_window(&bands, 0.25, RANGE, 155.0),
+            Some((120.0, 300.0))
+        );
+        assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
+    }
+}

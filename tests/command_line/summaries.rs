@@ -1,0 +1,150 @@
+//! Goal: the answer first, in lines that fit a terminal; one answer in text and JSON.
+
+use sawflutter::report::{CheckReport, Report, StabilityState};
+use sawflutter::scene::{Accuracy, Scene};
+use tempfile::TempDir;
+
+use super::program::{out, run, sawflutter, text, write_scene};
+
+/// The paper's saw with a damped pad: (text, report).
+fn damped_pad(more: &[&str]) -> (String, Report) {
+    let folder = TempDir::new().unwrap();
+    let mut file = Scene::paper().file().clone();
+    file.guides[0].damping_n_s_per_m = 50.0;
+    file.accuracy = Accuracy::Draft;
+    let scene = write_scene(&folder, &file);
+    let arguments = [&["analyze", scene.to_str().unwrap()], more].concat();
+    let output = run(&arguments, &folder);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let report = std::fs::read(out(&folder).join("report.json")).unwrap();
+    (
+        text(&output.stdout).to_owned(),
+        serde_json::from_slice(&report).unwrap(),
+    )
+}
+
+fn fits(text: &str) {
+    for line in text.lines().filter(|line| !line.starts_with("Written to")) {
+        assert!(line.chars().count() <= 80, "{line}");
+        assert!(!line.contains('\u{1b}'), "no colour in a pipe: {line}");
+    }
+}
+
+/// A damped pad feeds a wave by 1.5e-5 1/s at 1800 rpm: stable, in the text, in the JSON, and
+/// for `check`; flutter counts from where its growth reaches the threshold.
+#[test]
+fn a_damped_pad_is_stable_where_its_growth_is_below_the_threshold() {
+    let (text, report) = damped_pad(&[]);
+    fits(&text);
+    let operating = report.operating.unwrap();
+    assert_eq!(operating.verdict, StabilityState::Stable);
+    assert_eq!(operating.inside_instability, None);
+    let growth = operating.growth_per_s.unwrap();
+    assert!(growth > 1e-5 && growth < 3e-5, "{growth}");
+    let [from, to] = operating.safe_window_rpm.unwrap();
+    assert!(from < 1800.0 && 1800.0 < to);
+    assert!(text.contains("Can it run at 1800 rpm? STABLE"), "{text}");
+    assert!(
+        text.contains(&format!("{from:.1} to {to:.1} rpm")),
+        "{text}"
+    );
+    assert!(!text.contains("UNSTABLE"), "{text}");
+    let flutter = report.flutter_speed_rpm.unwrap();
+    assert!((2200.0..2300.0).contains(&flutter), "{flutter}");
+    let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
+    assert!(
+        counted
+            .clone()
+            .all(|[from, to]| *to < 1800.0 || *from > 1800.0)
+    );
+    for band in &report.instabilities {
+        assert!(
+            band.closed || band.to_rpm == report.campbell.to_rpm,
+            "{band:?}"
+        );
+    }
+    let ratio = report.modes_at_rest[0].damping_ratio.unwrap();
+    let decrement = report.modes_at_rest[0].logarithmic_decrement.unwrap();
+    let expected = std::f64::consts::TAU * ratio / (1.0 - ratio * ratio).sqrt();
+    assert!(ratio > 0.0 && (decrement / expected - 1.0).abs() < 1e-12);
+}
+
+/// The table of one speed has the modes of the chart, with the damping ratio of a damped scene.
+#[test]
+fn the_modes_of_one_speed_are_listed_when_asked_for() {
+    let (text, report) = damped_pad(&["--at-rpm", "1800"]);
+    fits(&text);
+    let whirl = report.whirl.unwrap();
+    assert_eq!(whirl.rpm, 1800.0);
+    assert!(text.contains("Modes at 1800 rpm: stable"), "{text}");
+    for mode in &whirl.modes {
+        let line = format!("{:.3}", mode.frequency_hz);
+        assert!(
+            text.lines()
+                .any(|l| l.contains(&line) && l.contains(&mode.name)),
+            "{text}"
+        );
+        let size = (mode.growth_per_s.powi(2)
+            + (std::f64::consts::TAU * mode.frequency_hz).powi(2))
+        .sqrt();
+        assert!((mode.damping_ratio.unwrap() + mode.growth_per_s / size).abs() < 1e-12);
+    }
+    let folder = TempDir::new().unwrap();
+    let refused = run(
+        &["analyze", "--accuracy", "draft", "--at-rpm", "9000"],
+        &folder,
+    );
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text_of(&refused.stderr).contains("--at-rpm is 9000, but must be from 0 to 3000"));
+}
+
+fn text_of(bytes: &[u8]) -> String {
+    text(bytes).to_owned()
+}
+
+/// Past the first critical speed a force that stands still meets no stiffness: 22.8 N/mm at
+/// 1800 rpm, −37.8 and 189 N/mm elsewhere, were printed as if they were one.
+#[test]
+fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
+    let check = |rpm: &str, json: bool| {
+        let mut command = sawflutter();
+        command.args(["check", "--accuracy", "draft", "--operating-rpm", rpm]);
+        if json {
+            command.arg("--json");
+        }
+        text_of(&command.output().unwrap().stdout)
+    };
+    let past: CheckReport = serde_json::from_str(&check("1800", true)).unwrap();
+    assert_eq!(past.rim_stiffness_n_per_m, None);
+    let words = check("1800", false);
+    assert!(
+        words.contains("none past the first critical speed"),
+        "{words}"
+    );
+    let before: CheckReport = serde_json::from_str(&check("1250", true)).unwrap();
+    let softer = before.rim_stiffness_n_per_m.unwrap();
+    assert!(0.0 < softer && softer < before.rim_stiffness_at_rest_n_per_m);
+    assert!(check("1250", false).contains("N/mm at the operating speed"));
+}
+
+/// Whatever wraps longer lines breaks the columns of the examples.
+#[test]
+fn examples_of_every_help_fit_80_columns() {
+    let commands = [
+        "", "analyze", "cut", "runup", "check", "fit", "place", "study", "tradeoff", "export",
+        "schema",
+    ];
+    for command in commands {
+        let arguments: Vec<&str> = [command, "--help"]
+            .into_iter()
+            .filter(|a| !a.is_empty())
+            .collect();
+        let help = text_of(&sawflutter().args(&arguments).output().unwrap().stdout);
+        let examples = help
+            .lines()
+            .skip_while(|line| !line.starts_with("Examples"));
+        for line in examples {
+            assert!(line.chars().count() <= 80, "{command}: {line}");
+        }
+    }
+}
