@@ -16,7 +16,7 @@ def main(folder: Path) -> None:
     r.plot_matplotlib().figure.savefig(folder / "campbell-matplotlib.png")
     mode = r.modes(rpm=1800)[0]
     saw.animate(mode).write_html(folder / "mode.html", include_plotlyjs="directory")
-    print(f"{mode.name} at {mode.frequency_hz:.2f} Hz: see {folder}")
+    print(f"{mode.name}, {mode.direction}, at {mode.frequency_hz:.2f} Hz: see {folder}")
 
 
 if __name__ == "__main__":

@@ -75,8 +75,8 @@ class ModeMethods(Entry):
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> mode = sf.Scene.paper().replace({"accuracy": "draft"}).modes(rpm=1800)[0]
-        >>> mode.name
-        '2 diameters, reflected'
+        >>> mode.name, mode.direction
+        ('2 diameters', 'reflected')
         >>> mode.shape(0.3, np.linspace(0, np.pi, 4)).shape
         (4,)
         """
@@ -98,6 +98,33 @@ class ModeMethods(Entry):
         """Real deflection at a time, without growth: Re(shape · e^(iωt))."""
         turned = self.shape(radius_m, theta_rad) * np.exp(2j * np.pi * self.frequency_hz * time_s)
         return np.asarray(turned.real)
+
+
+class CertificateMethods(Entry):
+    """Of the certificate."""
+
+    if TYPE_CHECKING:
+        speeds_checked: int
+        krein_violations: int
+        violating_rpm: FloatArray
+
+    @property
+    def statement(self) -> str:
+        """What was found, in a sentence.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"guides": [], "accuracy": "draft"})
+        >>> free.run_campbell().certificate.statement.split(" at ")[0]
+        'Krein index matches'
+        """
+        if self.speeds_checked == 0:
+            return "damped scenes have no Krein certificate"
+        if self.krein_violations == 0:
+            return f"Krein index matches at {self.speeds_checked} of {self.speeds_checked} speeds"
+        at = ", ".join(f"{rpm:.0f}" for rpm in self.violating_rpm)
+        return f"Krein index does not match at {self.krein_violations} speeds: {at} rpm"
 
 
 class BranchMethods(Entry):

@@ -25,6 +25,7 @@ def test_the_guided_saw_has_its_bands() -> None:
     first = r.bands[0]
     assert (first.kind, first.closed) == ("divergence", True)
     assert [first.from_rpm, first.to_rpm] == pytest.approx(r.critical_rpm[:2])
+    assert r.certificate.statement.startswith("Krein index matches at ")
     assert r.certificate.krein_violations == 0 and r.certificate.speeds_checked > 50
 
 
@@ -89,7 +90,8 @@ def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(
     turned = {"reflected": 1, "forward": 1, "backward": -1}
     seen = set()
     for mode in draft.modes(rpm=1800.0):
-        if mode.direction not in turned:
+        # Of a mixture of harmonics no single one says how the whole runs.
+        if mode.direction not in turned or mode.harmonics[0].share < 0.67:
             continue
         n = mode.harmonics[0].nodal_diameters
         around = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
@@ -117,7 +119,8 @@ def test_every_key_of_the_report_is_an_attribute(report: sf.CampbellResults) -> 
     raw = report.raw["campbell"]["branches"][3]
     for key, value in raw.items():
         found = getattr(report.branches[3], key)
-        assert (found.tolist() if isinstance(value, list) else found) == value, key
+        read = found.tolist() if isinstance(found, np.ndarray) else found
+        assert (list(read) if isinstance(read, tuple) else read) == value, key
 
 
 def test_a_report_with_keys_that_are_not_known_yet_is_read(report: sf.CampbellResults) -> None:
@@ -147,8 +150,8 @@ def test_a_result_is_saved_loaded_and_pickled(report: sf.CampbellResults, tmp_pa
 def test_a_table_has_a_row_a_branch_and_speed(report: sf.CampbellResults, tmp_path: Path) -> None:
     frame = report.to_dataframe()
     assert len(frame) == sum(len(branch.rpm) for branch in report.branches)
-    third = frame[frame["branch"] == 3]
-    assert np.array_equal(third["frequency_hz"].to_numpy(), report.branches[3].frequency_hz)
+    third = frame[frame["branch"] == report.branches[2].branch]
+    assert np.array_equal(third["frequency_hz"].to_numpy(), report.branches[2].frequency_hz)
     report.to_csv(tmp_path / "campbell.csv")
     assert (tmp_path / "campbell.csv").read_text().startswith("branch,name,rpm,frequency_hz")
 

@@ -12,7 +12,7 @@ EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SAID = {
     "thinner_blade.py": "2.8 mm: lowest critical speed 1532 rpm, may be run at 1302 rpm",
     "own_eigenvalues.py": "0 rpm: NumPy 7.683, 13.147, 25.581, 42.858 Hz; sawflutter 7.683, 13.147",
-    "figures.py": "2 diameters, reflected at 1.60 Hz",
+    "figures.py": "2 diameters, reflected, at 1.60 Hz",
     "tolerances.py": "of 16 saws keep the 85 % rule",
 }
 

@@ -94,7 +94,8 @@ def test_plotly_says_speed_frequency_growth_and_name(report: sf.CampbellResults)
         if said
     ]
     some = next(said for said in hovers if "reflected" in said)
-    assert all(part in some for part in ("rpm", "Hz", "growth", "diameter"))
+    assert all(part in some for part in ("rpm", "Hz", "growth", "Krein sign −1"))
+    assert any(some.startswith(branch.name) for branch in report.branches)
     assert colours()["flutter_shade"] in text or colours()["flutter_streak"] in text
     assert figure.layout.yaxis.title.text == "Im λ / 2π [Hz]"
     assert figure.layout.xaxis2.title.text == "rotation speed Ω [rpm]"

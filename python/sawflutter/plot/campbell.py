@@ -87,12 +87,12 @@ def _uprights(r: CampbellResults) -> list[Upright]:
 
 
 def _hover(branch: Branch) -> list[str]:
-    rows = zip(branch.rpm, branch.frequency_hz, branch.growth_per_s, branch.krein_sign)
-    signs = {1: "+1", -1: "−1, reflected", 0: "0"}
+    values = (branch.rpm, branch.frequency_hz, branch.growth_per_s, branch.krein_sign)
+    signs = {1: "+1", -1: "−1, reflected", 0: "none"}
     return [
-        f"{branch.name}<br>{rpm:.1f} rpm<br>{hz:.3f} Hz<br>growth {growth:.3g} 1/s"
+        f"{branch.name}, {direction}<br>{rpm:.1f} rpm<br>{hz:.3f} Hz<br>growth {growth:.3g} 1/s"
         f"<br>Krein sign {signs[int(sign)]}"
-        for rpm, hz, growth, sign in rows
+        for rpm, hz, growth, sign, direction in zip(*values, branch.direction)
     ]
 
 

@@ -38,7 +38,7 @@ def animate(
         raise ValueError(f"frames is {frames}, but must be at least 2; 48 is usual")
     radius, theta = grid(mode)
     pictures = deflections(mode, radius, theta, frames)
-    title = f"{mode.name}<br>{mode.rpm:.0f} rpm, {mode.frequency_hz:.2f} Hz"
+    title = f"{mode.name}, {mode.direction}<br>{mode.rpm:.0f} rpm, {mode.frequency_hz:.2f} Hz"
     if mode.growth_per_s > 0.0:
         title += f", grows by {mode.growth_per_s:.3g} 1/s"
     if backend == "plotly":
