@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+
 import sawflutter as sf
 
 
@@ -13,7 +15,8 @@ def main(folder: Path) -> None:
     saw = sf.Scene.paper().with_accuracy("draft")
     r = saw.run_campbell()
     r.plot().write_html(folder / "campbell.html", include_plotlyjs="directory")
-    r.plot_matplotlib().figure.savefig(folder / "campbell-matplotlib.png")
+    r.plot_matplotlib()
+    plt.savefig(folder / "campbell-matplotlib.png")
     mode = r.modes(rpm=1800)[0]
     saw.animate(mode).write_html(folder / "mode.html", include_plotlyjs="directory")
     print(f"{mode.name}, {mode.direction}, at {mode.frequency_hz:.2f} Hz: see {folder}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -108,6 +108,10 @@ class CertificateMethods(Entry):
         krein_violations: int
         violating_rpm: FloatArray
 
+    # What a damped saw is certified by is another thing than the Krein index; the report that the
+    # certificate belongs to says which.
+    _damped: ClassVar[bool] = False
+
     @property
     def statement(self) -> str:
         """What was found, in a sentence.
@@ -119,12 +123,17 @@ class CertificateMethods(Entry):
         >>> free.run_campbell().certificate.statement.split(" at ")[0]
         'Krein index matches'
         """
-        if self.speeds_checked == 0:
-            return "damped scenes have no Krein certificate"
-        if self.krein_violations == 0:
-            return f"Krein index matches at {self.speeds_checked} of {self.speeds_checked} speeds"
+        checked, violations = self.speeds_checked, self.krein_violations
+        if checked == 0:
+            return "nothing was compared"
+        if violations == 0:
+            found = "growing modes match the bands" if self._damped else "Krein index matches"
+            return f"{found} at {checked} of {checked} speeds"
+        found = (
+            "growing modes and bands do not match" if self._damped else "Krein index does not match"
+        )
         at = ", ".join(f"{rpm:.0f}" for rpm in self.violating_rpm)
-        return f"Krein index does not match at {self.krein_violations} speeds: {at} rpm"
+        return f"{found} at {violations} of {checked} speeds: {at} rpm"
 
 
 class BranchMethods(Entry):

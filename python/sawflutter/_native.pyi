@@ -4,6 +4,31 @@ import os
 from collections.abc import Callable, Sequence
 from typing import TypeAlias, final
 
+__all__ = [
+    "analyze",
+    "check",
+    "cut",
+    "fit",
+    "modes",
+    "place",
+    "runup",
+    "tradeoff",
+    "campbell_csv",
+    "palette",
+    "picture",
+    "summary",
+    "matrices",
+    "Study",
+    "StudyLog",
+    "panic",
+    "paper",
+    "program",
+    "read_scene",
+    "read_text",
+    "scene",
+    "schema",
+]
+
 # Called with what is done, of how many, and a word for it.
 _Progress: TypeAlias = Callable[[int, int, str], object] | None
 # A path of the scene, and its bounds if they are not the usual ones.

@@ -9,14 +9,16 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from ._entry import BoolArray, Entry, FloatArray, IntArray
-from ._methods import BranchMethods, ModeMethods, RestModeMethods
+from ._methods import BranchMethods, CertificateMethods, ModeMethods, RestModeMethods
 from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
 
-Accuracy: TypeAlias = Literal["draft", "design", "reference"]
+StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "outside_sweep"]
 
 Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
+
+Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
 Verdict: TypeAlias = Literal["stable", "unstable"]
 
@@ -67,11 +69,18 @@ class RestMode(RestModeMethods):
     """Nodal circles of the dominant harmonic."""
 
     name: str
-    """In words; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45 %)"."""
+    """Name of its branch; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45
+    %)"."""
 
     branch: int | None
     """Number of the branch of the Campbell diagram that begins with it, if the sweep does at
     rest."""
+
+    damping_ratio: float | None
+    """ζ = −Re λ/|λ| of a damped scene."""
+
+    logarithmic_decrement: float | None
+    """−2π Re λ/|Im λ| of a damped scene."""
 
     backward_error: float
     """‖L(λ)q‖ relative to the size of its terms."""
@@ -134,6 +143,11 @@ class Instability(Entry):
     modes: tuple[str, ...]
     """Their names."""
 
+    counted_rpm: FloatArray
+    """Stretches [from, to] in which it counts as an instability of the saw: divergence as a
+    whole; flutter of an undamped blade as a whole when its largest growth reaches the
+    threshold, of a damped one where its growth does."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Operating(Entry):
@@ -151,8 +165,67 @@ class Operating(Entry):
     within_limit: bool | None
     """Whether the ratio is below the limit."""
 
+    verdict: StabilityState
+    """Whether the saw can run at that speed."""
+
     inside_instability: int | None
-    """Index into `instabilities` of the band that the operating speed lies in."""
+    """Index into `instabilities` of the band that makes it unstable."""
+
+    safe_window_rpm: FloatArray | None
+    """The speeds around it at which no instability counts, within the sweep; null where the saw
+    is unstable."""
+
+    growth_per_s: float | None
+    """Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep."""
+
+    frequency_hz: float | None
+    """Im λ/2π of the same mode."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WhirlMode(Entry):
+    """A mode of a saw that turns."""
+
+    frequency_hz: float
+    """|Im λ|/2π in the space-fixed frame."""
+
+    nodal_diameters: int
+    """Nodal diameters of the dominant harmonic."""
+
+    nodal_circles: int
+    """Nodal circles of the dominant harmonic."""
+
+    direction: Direction
+    """How the dominant harmonic runs, seen from space."""
+
+    name: str
+    """In words."""
+
+    growth_per_s: float
+    """Re λ."""
+
+    damping_ratio: float | None
+    """ζ = −Re λ/|λ| of a damped scene."""
+
+    logarithmic_decrement: float | None
+    """−2π Re λ/|Im λ| of a damped scene, where the mode oscillates."""
+
+    krein_sign: int
+    """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Whirl(Entry):
+    """The modes of one speed."""
+
+    rpm: float
+    """Rotation speed."""
+
+    verdict: StabilityState
+    """Whether the saw can run at that speed."""
+
+    modes: tuple[WhirlMode, ...]
+    """Modes, ascending in frequency."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -199,11 +272,12 @@ class Work(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Certificate(Entry):
+class Certificate(CertificateMethods):
     """The Krein index held against the spectrum, see [crate::stability]."""
 
     speeds_checked: int
-    """Speeds at which the index was compared; 0 for damped scenes, which have none."""
+    """Speeds at which the index was compared; for damped scenes, which have none, speeds at
+    which the number of growing modes was held against that of the bands."""
 
     krein_violations: int
     """Speeds at which it did not match, not even on the whole basis; expected 0."""
@@ -439,7 +513,7 @@ class CampbellReport(Entry):
     """Every band of instability within the sweep, ascending."""
 
     flutter_speed_rpm: float | None
-    """Onset of the first flutter band whose peak growth reaches the threshold."""
+    """Lowest speed at which flutter counts: see `counted_rpm` of the bands."""
 
     first_merge_rpm: float | None
     """Onset of the first flutter band of all, whatever its growth."""
@@ -449,6 +523,9 @@ class CampbellReport(Entry):
 
     operating: Operating | None
     """The operating speed against the 85 % rule, when the scene gives one."""
+
+    whirl: Whirl | None
+    """The modes of one speed, when asked for."""
 
     accuracy: AccuracyEntry
     """How fine the computation was, and how far it may be off."""
@@ -533,11 +610,15 @@ class CheckReport(Entry):
     rim_stiffness_at_rest_n_per_m: float
     """Lateral stiffness of a point of the rim at the middle of the cut, at rest."""
 
-    rim_stiffness_n_per_m: float
-    """The same at the operating speed."""
+    rim_stiffness_n_per_m: float | None
+    """The same at the operating speed; null past the first critical speed, where a force that
+    stands still meets no stiffness."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds."""
+
+    warnings: tuple[str, ...]
+    """Numbers that no saw has."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1053,6 +1134,11 @@ class PlaceReport(Entry):
 
     kept: bool
     """Whether the best saw keeps it."""
+
+    improved: bool
+    """Whether the best saw is better than the scene as it was. Where none between the bounds
+    is, `scene`, `best` and the numbers are those of the scene as it was, unless that one lies
+    outside the bounds."""
 
     from_rpm: float
     """First speed of the sweep, the same for every saw."""

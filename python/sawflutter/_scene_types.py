@@ -71,81 +71,6 @@ class MountCollarDict(TypedDict):
 MountDict: TypeAlias = MountSplineDict | MountCollarDict
 
 
-class _CutSpeedDict(TypedDict):
-    """A speed at which the saw cuts. What is not given is that of the cut."""
-
-    rpm: float
-    """Rotation speed."""
-
-
-class CutSpeedDict(_CutSpeedDict, total=False):
-    """A speed at which the saw cuts. What is not given is that of the cut."""
-
-    feed_m_per_s: float | None
-    """Speed at which the wood is fed."""
-
-    lateral_n_per_tooth: float | None
-    """Force across the blade on each tooth."""
-
-    power_w: float | None
-    """Power of the cut."""
-
-    radial_n_per_tooth: float | None
-    """Force towards the axis on each tooth."""
-
-    tangential_n_per_tooth: float | None
-    """Force against the rotation on each tooth."""
-
-
-class CutDict(TypedDict, total=False):
-    """Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth, or
-    the depth of cut; the tangential force, or the power."""
-
-    angle_deg: float
-    """Angle of the middle of the cut, positive with the rotation."""
-
-    board_length_m: float | None
-    """Length of the board. Without it, or without the feed, the cut takes one second."""
-
-    depth_m: float | None
-    """Depth of cut; over the pitch of the teeth it gives their number."""
-
-    feed_m_per_s: float | None
-    """Speed at which the wood is fed; with the length of the board it tells how long the cut
-    takes."""
-
-    idle_s: float
-    """Time shown before and after the cut."""
-
-    lateral_n_per_tooth: float | None
-    """Force across the blade on each tooth."""
-
-    power_w: float | None
-    """Power of the cut."""
-
-    radial_n_per_tooth: float | None
-    """Force towards the axis on each tooth."""
-
-    speeds: list[CutSpeedDict]
-    """Speeds at which the saw cuts, and what differs there. By default the operating speed."""
-
-    tangential_n_per_tooth: float | None
-    """Force against the rotation on each tooth; wins over the power."""
-
-    teeth_in_cut: int | None
-    """Number of teeth in the cut at a time; wins over the depth."""
-
-
-class DampingDict(TypedDict, total=False):
-    """Damping of the blade. Each number states the frame it lives in."""
-
-    air_n_s_per_m3: float
-    """Viscous resistance of the surrounding air per area (fixed in space)."""
-
-    material_retardation_time_s: float
-    """Kelvin–Voigt retardation time η of the material (turns with the blade)."""
-
-
 class _GuideDict(TypedDict):
     """A rectangular guide pad, its sides along and across the radius at its centre. Without
     size it is a point spring."""
@@ -174,57 +99,14 @@ class GuideDict(_GuideDict, total=False):
     """Lateral viscous damping of the whole pad, fixed in space."""
 
 
-class MeasuredRowDict(TypedDict):
-    """Frequencies at one speed."""
+class DampingDict(TypedDict, total=False):
+    """Damping of the blade. Each number states the frame it lives in."""
 
-    rpm: float
-    """Rotation speed."""
+    material_retardation_time_s: float
+    """Kelvin–Voigt retardation time η of the material (turns with the blade)."""
 
-    frequencies_hz: list[float]
-    """Frequencies in the space-fixed frame."""
-
-
-class MeasuredDict(TypedDict):
-    """Frequencies from elsewhere, drawn over the chart."""
-
-    source: str
-    """Who measured or published them."""
-
-    rows: list[MeasuredRowDict]
-    """One row a speed."""
-
-
-class _ResidualStressRowDict(TypedDict):
-    """Residual stress at one radius."""
-
-    radius_m: float
-    """Distance from the axis."""
-
-    hoop_pa: float
-    """Stress along the rim, tension positive. The radial stress follows from it."""
-
-
-class ResidualStressRowDict(_ResidualStressRowDict, total=False):
-    """Residual stress at one radius."""
-
-    radial_pa: float | None
-    """Stress along the radius, if measured too: refused where the hoop stress contradicts
-    it."""
-
-
-class RollBandDict(TypedDict):
-    """A band that a roller has gone over. Squeezed in its thickness, it would spread in its
-    plane; the metal around holds it, and is stretched along the rim."""
-
-    radius_m: float
-    """Radius of its middle."""
-
-    width_m: float
-    """Its width along the radius."""
-
-    eigenstrain: float
-    """Strain by which it would spread in its plane if it were free, the same in all directions;
-    positive for rolling."""
+    air_n_s_per_m3: float
+    """Viscous resistance of the surrounding air per area (fixed in space)."""
 
 
 class TemperatureRowDict(TypedDict):
@@ -249,68 +131,64 @@ class TemperatureDict(_TemperatureDict, total=False):
     """Temperature over the radius, above that of the unstressed blade (which is that of a
     collar that holds it in its plane): either a rise at the rim with its shape, or a table."""
 
-    exponent: float | None
-    """p; by default 1."""
+    rim_rise_k: float | None
+    """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p from r₀ on, zero within."""
 
     from_radius_m: float | None
     """r₀; by default the bore, or the edge of the collar."""
 
-    rim_rise_k: float | None
-    """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p from r₀ on, zero within."""
+    exponent: float | None
+    """p; by default 1."""
 
     table: list[TemperatureRowDict]
     """Rises at ascending radii, straight between the rows and constant beyond them."""
 
 
+class RollBandDict(TypedDict):
+    """A band that a roller has gone over. Squeezed in its thickness, it would spread in its
+    plane; the metal around holds it, and is stretched along the rim."""
+
+    radius_m: float
+    """Radius of its middle."""
+
+    width_m: float
+    """Its width along the radius."""
+
+    eigenstrain: float
+    """Strain by which it would spread in its plane if it were free, the same in all directions;
+    positive for rolling."""
+
+
+class _ResidualStressRowDict(TypedDict):
+    """Residual stress at one radius."""
+
+    radius_m: float
+    """Distance from the axis."""
+
+    hoop_pa: float
+    """Stress along the rim, tension positive. The radial stress follows from it."""
+
+
+class ResidualStressRowDict(_ResidualStressRowDict, total=False):
+    """Residual stress at one radius."""
+
+    radial_pa: float | None
+    """Stress along the radius, if measured too: refused where the hoop stress contradicts
+    it."""
+
+
 class MembraneDict(TypedDict, total=False):
     """Stress in the plane of the blade, the same all around. What is not named is not there."""
-
-    residual_stress: list[ResidualStressRowDict]
-    """Residual stress as measured, at ascending radii: straight between the rows, constant
-    beyond them."""
-
-    roll_tension: list[RollBandDict]
-    """Bands that a roller has spread."""
 
     temperature: TemperatureDict | None
     """Heat of the cut and of guides."""
 
+    roll_tension: list[RollBandDict]
+    """Bands that a roller has spread."""
 
-class _ProbeDict(TypedDict):
-    """Where the deflection is read."""
-
-    angle_deg: float
-    """Angle, positive with the rotation."""
-
-
-class ProbeDict(_ProbeDict, total=False):
-    """Where the deflection is read."""
-
-    radius_m: float | None
-    """Distance from the axis; the rim by default."""
-
-
-class _RunUpDict(TypedDict):
-    """Run-up at a constant rate, under a constant lateral force fixed in space."""
-
-    to_rpm: float
-    """Last speed."""
-
-    duration_s: float
-    """Time it takes."""
-
-    force_n: float
-    """Lateral force at the rim."""
-
-
-class RunUpDict(_RunUpDict, total=False):
-    """Run-up at a constant rate, under a constant lateral force fixed in space."""
-
-    angle_deg: float
-    """Angle of the force, positive with the rotation."""
-
-    from_rpm: float
-    """First speed."""
+    residual_stress: list[ResidualStressRowDict]
+    """Residual stress as measured, at ascending radii: straight between the rows, constant
+    beyond them."""
 
 
 class _SplineDict(TypedDict):
@@ -370,6 +248,128 @@ class SweepDict(_SweepDict, total=False):
     """First speed."""
 
 
+class _CutSpeedDict(TypedDict):
+    """A speed at which the saw cuts. What is not given is that of the cut."""
+
+    rpm: float
+    """Rotation speed."""
+
+
+class CutSpeedDict(_CutSpeedDict, total=False):
+    """A speed at which the saw cuts. What is not given is that of the cut."""
+
+    tangential_n_per_tooth: float | None
+    """Force against the rotation on each tooth."""
+
+    radial_n_per_tooth: float | None
+    """Force towards the axis on each tooth."""
+
+    lateral_n_per_tooth: float | None
+    """Force across the blade on each tooth."""
+
+    power_w: float | None
+    """Power of the cut."""
+
+    feed_m_per_s: float | None
+    """Speed at which the wood is fed."""
+
+
+class CutDict(TypedDict, total=False):
+    """Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth, or
+    the depth of cut; the tangential force, or the power."""
+
+    angle_deg: float
+    """Angle of the middle of the cut, positive with the rotation."""
+
+    depth_m: float | None
+    """Depth of cut; over the pitch of the teeth it gives their number."""
+
+    teeth_in_cut: int | None
+    """Number of teeth in the cut at a time; wins over the depth."""
+
+    tangential_n_per_tooth: float | None
+    """Force against the rotation on each tooth; wins over the power."""
+
+    radial_n_per_tooth: float | None
+    """Force towards the axis on each tooth."""
+
+    lateral_n_per_tooth: float | None
+    """Force across the blade on each tooth."""
+
+    power_w: float | None
+    """Power of the cut."""
+
+    feed_m_per_s: float | None
+    """Speed at which the wood is fed; with the length of the board it tells how long the cut
+    takes."""
+
+    board_length_m: float | None
+    """Length of the board. Without it, or without the feed, the cut takes one second."""
+
+    idle_s: float
+    """Time shown before and after the cut."""
+
+    speeds: list[CutSpeedDict]
+    """Speeds at which the saw cuts, and what differs there. By default the operating speed."""
+
+
+class _RunUpDict(TypedDict):
+    """Run-up at a constant rate, under a constant lateral force fixed in space."""
+
+    to_rpm: float
+    """Last speed."""
+
+    duration_s: float
+    """Time it takes."""
+
+    force_n: float
+    """Lateral force at the rim."""
+
+
+class RunUpDict(_RunUpDict, total=False):
+    """Run-up at a constant rate, under a constant lateral force fixed in space."""
+
+    from_rpm: float
+    """First speed."""
+
+    angle_deg: float
+    """Angle of the force, positive with the rotation."""
+
+
+class _ProbeDict(TypedDict):
+    """Where the deflection is read."""
+
+    angle_deg: float
+    """Angle, positive with the rotation."""
+
+
+class ProbeDict(_ProbeDict, total=False):
+    """Where the deflection is read."""
+
+    radius_m: float | None
+    """Distance from the axis; the rim by default."""
+
+
+class MeasuredRowDict(TypedDict):
+    """Frequencies at one speed."""
+
+    rpm: float
+    """Rotation speed."""
+
+    frequencies_hz: list[float]
+    """Frequencies in the space-fixed frame."""
+
+
+class MeasuredDict(TypedDict):
+    """Frequencies from elsewhere, drawn over the chart."""
+
+    source: str
+    """Who measured or published them."""
+
+    rows: list[MeasuredRowDict]
+    """One row a speed."""
+
+
 class _SceneDict(TypedDict):
     """A saw and what to find out about it, as written in a scene file."""
 
@@ -386,47 +386,47 @@ class _SceneDict(TypedDict):
 class SceneDict(_SceneDict, total=False):
     """A saw and what to find out about it, as written in a scene file."""
 
-    accuracy: Accuracy
-    """Speed for accuracy."""
-
-    cut: CutDict | None
-    """Forces of the wood on the teeth, for `sawflutter cut`."""
-
-    damping: DampingDict | None
-    """Damping. None by default, as in the classical analysis."""
-
-    flutter_threshold_per_s: float
-    """Growth rate from which an oscillatory band counts as flutter of the saw."""
+    notes: list[str]
+    """Where the numbers come from: measured, assumed, calibrated."""
 
     guides: list[GuideDict]
     """Guide pads, fixed in space. None by default."""
 
-    measured: MeasuredDict | None
-    """Measured or published frequencies to show beside the computed ones."""
+    damping: DampingDict | None
+    """Damping. None by default, as in the classical analysis."""
 
     membrane: MembraneDict | None
     """Membrane stress from heat, roll tension or as measured. None by default."""
 
-    notes: list[str]
-    """Where the numbers come from: measured, assumed, calibrated."""
+    spline: SplineDict | None
+    """Contact between bore and splined arbor. Not simulated by default."""
 
     operating_rpm: float | None
     """Speed at which the saw is run, held against the 85 % rule."""
 
-    probe: ProbeDict | None
-    """Where the deflection is read; by default at the rim, 90° past the cut."""
+    sweep: SweepDict | None
+    """Range of speeds; by default from rest to twice the lowest critical speed."""
+
+    accuracy: Accuracy
+    """Speed for accuracy."""
+
+    tolerance: float | None
+    """Relative error allowed of critical speeds and onsets, instead of a named accuracy."""
+
+    flutter_threshold_per_s: float
+    """Growth rate from which an oscillatory band counts as flutter of the saw."""
+
+    cut: CutDict | None
+    """Forces of the wood on the teeth, for `sawflutter cut`."""
 
     runup: RunUpDict | None
     """Run-up under a lateral force, for `sawflutter runup`."""
 
-    spline: SplineDict | None
-    """Contact between bore and splined arbor. Not simulated by default."""
+    probe: ProbeDict | None
+    """Where the deflection is read; by default at the rim, 90° past the cut."""
 
-    sweep: SweepDict | None
-    """Range of speeds; by default from rest to twice the lowest critical speed."""
-
-    tolerance: float | None
-    """Relative error allowed of critical speeds and onsets, instead of a named accuracy."""
+    measured: MeasuredDict | None
+    """Measured or published frequencies to show beside the computed ones."""
 
 
 class DistributionToleranceDict(TypedDict):
@@ -493,17 +493,17 @@ class ParameterDict(TypedDict):
 class LimitsDict(TypedDict, total=False):
     """What a saw has to keep, as the options of `sawflutter check`."""
 
+    operating_rpm: float | None
+    """Speed at which it is run; the scene's by default."""
+
     margin: float
     """Largest share of the lowest critical speed that the operating speed may be."""
-
-    min_critical_rpm: float | None
-    """Least first critical speed."""
 
     min_flutter_rpm: float | None
     """Least flutter speed."""
 
-    operating_rpm: float | None
-    """Speed at which it is run; the scene's by default."""
+    min_critical_rpm: float | None
+    """Least first critical speed."""
 
 
 class _StudyDict(TypedDict):
@@ -519,17 +519,8 @@ class _StudyDict(TypedDict):
 class StudyDict(_StudyDict, total=False):
     """Which numbers of a scene vary, how, and what the saws have to keep."""
 
-    confidence: float
-    """Confidence of the interval around the probability of passing."""
-
-    limits: LimitsDict | None
-    """What each saw is held against, as by `sawflutter check`."""
-
     notes: list[str]
     """Where the numbers come from: measured, assumed."""
-
-    quantiles: list[float]
-    """Shares of the saws whose speeds are reported."""
 
     saws: int | None
     """Saws drawn from the distributions, in every point of the grid; left out where all
@@ -540,3 +531,12 @@ class StudyDict(_StudyDict, total=False):
 
     to_rpm: float | None
     """Last speed looked at; by default the end of the scene's sweep. Limits extend it."""
+
+    limits: LimitsDict | None
+    """What each saw is held against, as by `sawflutter check`."""
+
+    quantiles: list[float]
+    """Shares of the saws whose speeds are reported."""
+
+    confidence: float
+    """Confidence of the interval around the probability of passing."""
