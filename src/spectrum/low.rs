@@ -3,7 +3,7 @@
 
 use std::sync::atomic::Ordering;
 
-use faer::Col;
+use faer::{Col, c64};
 
 use crate::system::GyroscopicSystem;
 
@@ -125,19 +125,27 @@ impl<'a> LowModel<'a> {
         }
     }
 
-    /// The two modes of one speed next to a frequency, refined on the projected system.
+    /// The two modes of one speed next to two eigenvalues, refined on the projected system.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn pair(
         &self,
         speed_rad_per_s: f64,
-        frequency_rad_per_s: f64,
+        lambdas: [c64; 2],
     ) -> Result<Option<ModePair>, SpectrumError> {
         let mut states = self.modes(speed_rad_per_s)?.states;
-        let distance = |state: &State| (state.lambda.im - frequency_rad_per_s).abs();
-        states.sort_by(|x, y| distance(x).total_cmp(&distance(y)));
-        let [first, second, ..] = states.as_slice() else {
+        let mut chosen = Vec::new();
+        for lambda in lambdas {
+            let distance = |state: &State| (state.lambda - lambda).norm();
+            let nearest = (0..states.len())
+                .min_by(|&i, &k| distance(&states[i]).total_cmp(&distance(&states[k])));
+            let Some(nearest) = nearest else {
+                return Ok(None);
+            };
+            chosen.push(states.swap_remove(nearest));
+        }
+        let [first, second] = chosen.as_slice() else {
             return Ok(None);
         };
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);

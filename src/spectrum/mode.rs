@@ -48,6 +48,8 @@ pub struct Mode {
     pub kind: ModeKind,
     /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
     pub frequency_slope: f64,
+    /// dλ/dΩ of a mode that grows, of an undamped blade; zero otherwise.
+    pub growth_slope: c64,
     /// Sign of the action, ω·κ: a reflected wave (ω, q) is the same motion as (−ω, q̄)
     /// with positive action. The decaying partner of a flutter mode goes with the
     /// negative one.
@@ -122,15 +124,18 @@ pub fn classify(
     pairs: Vec<Eigenpair>,
 ) -> Vec<Mode> {
     let rigid_noise = rigid_noise(system);
+    let growth_slopes = growth_slopes(system, speed_rad_per_s, &pairs);
     pairs
         .into_iter()
-        .filter_map(|(lambda, q)| {
+        .zip(growth_slopes)
+        .filter_map(|((lambda, q), growth_slope)| {
             let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
             let rigid = lambda.norm() < rigid_noise;
             let mut mode = Mode {
                 lambda,
                 kind: ModeKind::Damped,
                 frequency_slope: 0.0,
+                growth_slope,
                 action: 1,
                 part,
                 coordinates: q,
@@ -146,6 +151,36 @@ pub fn classify(
             Some(mode)
         })
         .collect()
+}
+
+/// dλ/dΩ of each pair of an undamped system that grows beyond rounding, zero of the others.
+///
+/// The transpose of L(λ) is L(−λ), so the left vector of λ is the right vector of −λ, the
+/// conjugate of that of the mirror image −λ̄: dλ/dΩ = −yᵀ(2λG + 2Ω(K_σ − N))x / yᵀ(2λ + 2ΩG)x.
+fn growth_slopes(system: &GyroscopicSystem, speed: f64, pairs: &[Eigenpair]) -> Vec<c64> {
+    let slope = |(lambda, x): &Eigenpair| {
+        let noise = GROWTH_NOISE * (lambda.norm() + speed.abs());
+        if !system.is_conservative() || lambda.re <= noise {
+            return c64::new(0.0, 0.0);
+        }
+        let mirrored = |pair: &&Eigenpair| (pair.0 + lambda.conj()).norm();
+        let mirror = pairs
+            .iter()
+            .min_by(|x, y| mirrored(x).total_cmp(&mirrored(y)));
+        let Some((_, mirror)) = mirror else {
+            return c64::new(0.0, 0.0);
+        };
+        let gyroscopic = mirror.adjoint() * real_times(&system.gyroscopic, x);
+        let spin = mirror.adjoint() * real_times(&system.spin, x);
+        let inertia = mirror.adjoint() * x;
+        let slope = -(lambda * gyroscopic + spin * speed) / (lambda * inertia + gyroscopic * speed);
+        if slope.is_finite() {
+            slope
+        } else {
+            c64::new(0.0, 0.0)
+        }
+    };
+    pairs.iter().map(slope).collect()
 }
 
 /// Kind of a mode of an undamped system; `None` for the mirror image of a divergent one.

@@ -21,9 +21,9 @@ struct Subspace {
     v: Mat<c64>,
 }
 
-/// Steps of inverse iteration with one factorization: each divides what is foreign by the
-/// ratio of the distances of other modes and of the pair from the shift.
-const STEPS: std::ops::RangeInclusive<usize> = 4..=16;
+/// Steps of inverse iteration, each with both shifts: it divides what is foreign by the ratio of
+/// the distances of other modes and of the pair from them.
+const STEPS: std::ops::RangeInclusive<usize> = 2..=12;
 /// Relative residual beyond which the two states are not modes.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
@@ -41,8 +41,8 @@ impl ModePair {
             q: Mat::from_fn(order, 2, |i, k| states[k].q[i]),
             v: Mat::from_fn(order, 2, |i, k| states[k].q[i] * states[k].lambda),
         };
-        let mean = 0.5 * (states[0].lambda.im + states[1].lambda.im);
-        Self::iterated(system, speed_rad_per_s, scale, start, mean)
+        let lambdas = states.map(|state| state.lambda);
+        Self::iterated(system, speed_rad_per_s, scale, start, lambdas)
     }
 
     /// The same pair at another speed, from what it is here.
@@ -52,41 +52,52 @@ impl ModePair {
         speed_rad_per_s: f64,
         scale: f64,
     ) -> Option<Self> {
-        let mean = self.mean_frequency(speed_rad_per_s);
-        Self::iterated(system, speed_rad_per_s, scale, self.subspace.clone(), mean)
+        let lambdas = self.eigenvalues(speed_rad_per_s);
+        Self::iterated(
+            system,
+            speed_rad_per_s,
+            scale,
+            self.subspace.clone(),
+            lambdas,
+        )
     }
 
-    /// Block inverse iteration, shifted to a frequency next to those of the pair.
+    /// Block inverse iteration, shifted to both eigenvalues in turn: next to one of them alone
+    /// a foreign mode may be nearer than the other.
     fn iterated(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
         scale: f64,
         start: Subspace,
-        mean_rad_per_s: f64,
+        lambdas: [c64; 2],
     ) -> Option<Self> {
-        // A hair off, so that L is not singular to the last bit where both modes are one.
-        let shift = c64::new(0.0, mean_rad_per_s * (1.0 + 1e-9));
         let order = system.order();
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
-        let dynamic: Mat<c64> = Mat::from_fn(order, order, |i, k| {
-            let inertia = if i == k {
-                shift * shift
-            } else {
-                c64::new(0.0, 0.0)
-            };
-            inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
-        });
-        let factors = dynamic.partial_piv_lu();
         let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
+        // A hair off, so that L is not singular to the last bit.
+        let shifts = lambdas.map(|lambda| lambda * (1.0 + 1e-9));
+        let inverses = shifts.map(|shift| {
+            let dynamic: Mat<c64> = Mat::from_fn(order, order, |i, k| {
+                let inertia = if i == k {
+                    shift * shift
+                } else {
+                    c64::new(0.0, 0.0)
+                };
+                inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
+            });
+            (shift, dynamic.partial_piv_lu())
+        });
         let Subspace { mut q, mut v } = start;
         for step in 1..=*STEPS.end() {
-            // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
-            let load = &damping * &q + Scale(shift) * &q + &v;
-            let u = Scale(c64::new(-1.0, 0.0)) * factors.solve(load);
-            v = &q + Scale(shift) * &u;
-            q = u;
-            orthonormalise(&mut q, &mut v, scale)?;
+            for (shift, factors) in &inverses {
+                // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
+                let load = &damping * &q + Scale(*shift) * &q + &v;
+                let u = Scale(c64::new(-1.0, 0.0)) * factors.solve(load);
+                v = &q + Scale(*shift) * &u;
+                q = u;
+                orthonormalise(&mut q, &mut v, scale)?;
+            }
             let settled = || residual(&stiffness, &damping, &q, &v) <= LARGEST_RESIDUAL;
             if step >= *STEPS.start() && settled() {
                 return Self::projected(system, speed_rad_per_s, scale, Subspace { q, v });
@@ -114,17 +125,25 @@ impl ModePair {
         (model.order() == 4).then_some(ModePair { model, subspace })
     }
 
-    /// ((ω₁ − ω₂)/2)², and once merged −σ²; exact at the pair's speed, and to the square of
-    /// the distance next to it.
-    pub fn discriminant(&self, speed_rad_per_s: f64) -> f64 {
+    /// σ² and ω² of the quadruple ±σ ± iω, smooth through both ends of its band: of two waves
+    /// −((ω₁ − ω₂)/2)² and ((ω₁ + ω₂)/2)², of two real λ ((λ₁ + λ₂)/2)² and −((λ₁ − λ₂)/2)².
+    /// Exact at the pair's speed, and to the square of the distance next to it.
+    pub fn squares(&self, speed_rad_per_s: f64) -> [f64; 2] {
         let (sum, product) = self.model.pair_invariants(speed_rad_per_s);
-        0.25 * (sum - 2.0 * product)
+        [-0.25 * (sum - 2.0 * product), 0.25 * (sum + 2.0 * product)]
     }
 
-    /// (ω₁ + ω₂)/2.
-    pub fn mean_frequency(&self, speed_rad_per_s: f64) -> f64 {
-        let (sum, product) = self.model.pair_invariants(speed_rad_per_s);
-        0.5 * (sum + 2.0 * product).max(0.0).sqrt()
+    /// Both eigenvalues with Im λ ≥ 0.
+    fn eigenvalues(&self, speed_rad_per_s: f64) -> [c64; 2] {
+        let [growth, frequency] = self.squares(speed_rad_per_s);
+        // Each square is one of a real or of an imaginary part.
+        let half = |square: f64, positive: c64, negative: c64| {
+            let part = if square >= 0.0 { positive } else { negative };
+            part * square.abs().sqrt()
+        };
+        let mean = half(frequency, c64::new(0.0, 1.0), c64::new(1.0, 0.0));
+        let distance = half(growth, c64::new(1.0, 0.0), c64::new(0.0, 1.0));
+        [mean + distance, mean - distance]
     }
 }
 

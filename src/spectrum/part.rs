@@ -136,6 +136,7 @@ pub(crate) fn standing_name(
         lambda,
         kind: ModeKind::Positive,
         frequency_slope: 0.0,
+        growth_slope: c64::new(0.0, 0.0),
         action: 1,
         part: 0,
         coordinates: Col::zeros(0),

@@ -1,6 +1,7 @@
 //! From a scene to its stability chart: the library's main call.
 
-use super::bands::{Instability, InstabilityKind, StabilityChart, chart, drawn};
+use super::band::{Instability, InstabilityKind};
+use super::bands::{StabilityChart, chart, drawn};
 use super::basis::ChosenBasis;
 use super::loci::RootLoci;
 use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};

@@ -1,80 +1,16 @@
 //! The stability chart of a saw: samples, branches and bands of a range of speeds.
 
-use faer::c64;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::analysis::Detail;
+use super::band::Instability;
+use super::certificate::{Certificate, Mismatch, mismatches};
 use super::damped;
 use super::divergence::{close_pairs, divergence};
-use super::finder::{CRITICAL_GAP, CRITICAL_GROUP, Finder};
+use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::flutter::flutter;
+use super::search::Path;
+use super::signature::Signature;
 use crate::campbell::{self, Campbell, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
-
-/// Kind of an instability.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum InstabilityKind {
-    /// Exponential growth without oscillation.
-    Divergence,
-    /// Growing oscillation.
-    Flutter,
-}
-
-/// A band of unstable speeds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Instability {
-    /// Divergence or flutter.
-    pub kind: InstabilityKind,
-    /// Onset, in rad/s.
-    pub from: f64,
-    /// End, or the end of the range.
-    pub to: f64,
-    /// False when the range begins or ends inside the band.
-    pub closed: bool,
-    /// Speed of largest growth.
-    pub peak: f64,
-    /// Largest growth rate.
-    pub peak_growth_per_s: f64,
-    /// Frequency at the peak, in rad/s.
-    pub frequency: f64,
-    /// The modes that meet.
-    pub modes: Vec<String>,
-    /// The eigenvalue from the first to the last speed of a band of a damped blade, close
-    /// enough for cubics between the points; empty for an undamped blade.
-    pub curve: Vec<CurvePoint>,
-}
-
-/// An eigenvalue at one speed of a band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurvePoint {
-    /// Ω.
-    pub speed_rad_per_s: f64,
-    /// λ, Im λ ≥ 0.
-    pub lambda: c64,
-    /// dλ/dΩ.
-    pub slope: c64,
-}
-
-impl Instability {
-    /// Whether it counts as an instability of the saw: flutter slower than the threshold drowns
-    /// in damping that no scene names; a blade that leans over does not come back.
-    pub fn counts(&self, threshold_per_s: f64) -> bool {
-        self.kind == InstabilityKind::Divergence || self.peak_growth_per_s >= threshold_per_s
-    }
-}
-
-/// Proof that the chart missed nothing.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Certificate {
-    /// Number of speeds at which the Krein index was compared.
-    pub speeds_checked: usize,
-    /// Speeds at which it did not match, not even on the whole basis, in rad/s.
-    pub violations: Vec<f64>,
-    /// Whether the search ran out of its allowance of speeds.
-    pub gave_up: bool,
-}
 
 /// Everything about the stability of a saw over a range of speeds.
 #[derive(Debug, Clone)]
@@ -127,7 +63,7 @@ pub(super) fn drawn(
             with_critical_speeds(model, range, even)
         }
     };
-    let (instabilities, certificate) = bands(model, &search)?;
+    let (instabilities, mut certificate) = bands(model, &search)?;
     let (shares, closeness) = match detail {
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
@@ -136,11 +72,20 @@ pub(super) fn drawn(
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = campbell::refined(model, samples, closeness)?;
+    let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
+    certificate
+        .mismatches
+        .extend(contradictions(&instabilities, &drawn));
     Ok(StabilityChart {
         campbell: Campbell::track(samples, model.complete_to_rad_per_s),
         instabilities,
         certificate,
     })
+}
+
+fn signature_of(sample: &SpeedSample) -> Signature {
+    let modes = sample.modes.iter().map(|described| &described.mode);
+    Signature::new(sample.speed_rad_per_s, modes)
 }
 
 /// Every band of an undamped blade in a range of speeds, searched from `count` even
@@ -165,18 +110,36 @@ pub(super) fn bands(
     speeds: &[f64],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let speeds = from_lowest_critical(model, speeds);
-    let finder = Finder::new(model, speeds)?;
-    let stations = finder.stations(speeds)?;
+    let evaluator = SignatureEvaluator::new(model, speeds)?;
+    let signatures = evaluator.at_all(speeds)?;
     let mut instabilities = Vec::new();
-    // Nothing couples the waves of a free blade, so they cross and never merge.
+    let mut checked = Vec::new();
+    // Nothing couples the waves of a free blade, so they cross and never coalesce.
     if !model.plate.is_axisymmetric() {
-        let events = finder.events(&stations)?;
-        instabilities.extend(divergence(model, &finder, &stations, &events)?);
-        instabilities.extend(close_pairs(model, &finder, speeds)?);
-        instabilities.extend(flutter(model, &finder, &stations, events)?);
+        let path = Path::search(&evaluator, signatures)?;
+        instabilities.extend(divergence(model, &evaluator, &path)?);
+        instabilities.extend(close_pairs(model, &evaluator, speeds)?);
+        instabilities.extend(flutter(model, &evaluator, &path)?);
         instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+        checked = path.signatures;
     }
-    Ok((instabilities, finder.certificate()))
+    let mut certificate = evaluator.certificate();
+    certificate.mismatches = contradictions(&instabilities, &checked);
+    Ok((instabilities, certificate))
+}
+
+/// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
+/// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
+const GROWTH_FLOOR: f64 = 1e-5;
+
+/// Where a list of bands contradicts the modes found at some speeds.
+fn contradictions(bands: &[Instability], signatures: &[Signature]) -> Vec<Mismatch> {
+    let of = |signature: &Signature| {
+        let highest = signature.highest_rad_per_s();
+        let floor = GROWTH_FLOOR * (signature.speed_rad_per_s + highest);
+        mismatches(bands, signature, floor)
+    };
+    signatures.iter().flat_map(of).collect()
 }
 
 /// Ascending speeds without those at which nothing can be unstable: below its lowest critical
@@ -186,6 +149,25 @@ fn from_lowest_critical<'a>(model: &SpectralModel, speeds: &'a [f64]) -> &'a [f6
     let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
     let below = speeds.partition_point(|speed| *speed < lowest);
     &speeds[below.saturating_sub(1)..]
+}
+
+/// Critical speeds closer than this, relatively, are one double critical speed: that of a wave
+/// which nothing holds in place, as on a free blade.
+const DOUBLE: f64 = 1e-9;
+/// Relative distance kept from a double critical speed. Both λ pass through zero in proportion
+/// to Ω − Ω_c there, not to its root, and are told from rounding only further away.
+const DOUBLE_GAP: f64 = 1e-4;
+
+/// Relative distance to keep from a critical speed.
+fn critical_gap(critical: &[f64], index: usize) -> f64 {
+    let is_double = |other: Option<&f64>| {
+        other.is_some_and(|other| (other / critical[index] - 1.0).abs() < DOUBLE)
+    };
+    let below = index.checked_sub(1).and_then(|below| critical.get(below));
+    match is_double(below) || is_double(critical.get(index + 1)) {
+        true => DOUBLE_GAP,
+        false => CRITICAL_GAP,
+    }
 }
 
 /// The speeds, and both sides of each group of critical speeds in the range, and the
@@ -199,21 +181,26 @@ pub(super) fn with_critical_speeds(
         // A wave of the free blade runs through zero without diverging; a speed so
         // close to that zero that its sign is rounding says nothing.
         let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-        let clear = |s: &f64| critical.iter().all(|c| (s / c - 1.0).abs() > 1e-5);
+        let clear = |s: &f64| {
+            critical
+                .iter()
+                .all(|c| (s / c - 1.0).abs() > 0.1 * DOUBLE_GAP)
+        };
         speeds.retain(clear);
         let beside = critical
             .iter()
-            .flat_map(|c| [c * (1.0 - 1e-4), c * (1.0 + 1e-4)]);
+            .flat_map(|c| [c * (1.0 - DOUBLE_GAP), c * (1.0 + DOUBLE_GAP)]);
         speeds.extend(beside.filter(|s| (range.0..range.1).contains(s)));
         speeds.sort_by(f64::total_cmp);
         speeds.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
         return speeds;
     }
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     let mut sides: Vec<f64> = Vec::new();
     let mut previous: Option<f64> = None;
-    for critical in &model.critical {
-        let speed = critical.speed_rad_per_s;
-        let (below, above) = (speed * (1.0 - CRITICAL_GAP), speed * (1.0 + CRITICAL_GAP));
+    for (index, &speed) in critical.iter().enumerate() {
+        let gap = critical_gap(&critical, index);
+        let (below, above) = (speed * (1.0 - gap), speed * (1.0 + gap));
         if below <= range.0 || above >= range.1 {
             continue;
         }
@@ -227,12 +214,11 @@ pub(super) fn with_critical_speeds(
         sides.push(above);
         previous = Some(speed);
     }
-    let near = CRITICAL_GAP + CRITICAL_GROUP;
-    speeds.retain(|s| {
-        model
-            .critical
+    speeds.retain(|speed| {
+        let mut gaps = (0..critical.len()).map(|k| critical_gap(&critical, k) + CRITICAL_GROUP);
+        critical
             .iter()
-            .all(|c| (s / c.speed_rad_per_s - 1.0).abs() > near)
+            .all(|c| gaps.next().is_some_and(|gap| (speed / c - 1.0).abs() > gap))
     });
     speeds.extend(sides);
     speeds.sort_by(f64::total_cmp);

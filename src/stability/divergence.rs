@@ -1,60 +1,97 @@
 //! Divergence: a real λ > 0, from one critical speed to the next.
 
-use super::bands::{Instability, InstabilityKind};
-use super::finder::{CRITICAL_GAP, CRITICAL_GROUP, Event, Finder};
-use super::peak::maximise;
-use super::station::{Sign, Station};
+use super::band::{Instability, InstabilityKind};
+use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
+use super::maximum::{Sample, maximise};
+use super::pair_continuation::Coalescence;
+use super::search::{Event, Path};
+use super::signature::Signature;
 use crate::spectrum::{Direction, SpectralModel, SpectrumError, in_words};
 
 /// Stretches of speed with a real λ > 0. They begin and end at critical speeds, or where
-/// two real λ meet and go on as flutter.
+/// two real λ coalesce and go on as flutter.
 pub(super) fn divergence(
     model: &SpectralModel,
-    finder: &Finder<'_>,
-    stations: &[Station],
-    events: &[Vec<Event>],
+    evaluator: &SignatureEvaluator<'_>,
+    path: &Path,
 ) -> Result<Vec<Instability>, SpectrumError> {
+    let signatures = &path.signatures;
+    let is_unstable = |index: usize| !signatures[index].real.is_empty();
     let mut bands = Vec::new();
-    let unstable = |s: &Station| s.count(Sign::Real) > 0;
     let mut start = None;
-    for (index, station) in stations.iter().enumerate() {
-        if unstable(station) && start.is_none() {
-            start = Some(index);
-        }
-        let last = index + 1 == stations.len();
-        if let Some(first) = start
-            && (last || !unstable(&stations[index + 1]))
-            && unstable(station)
-        {
-            let begins = edge(model, stations, events, first.checked_sub(1), first);
-            let ends = edge(model, stations, events, (!last).then_some(index + 1), index);
-            let ((from, begins), (to, ends)) = (begins, ends);
-            let zero_at_ends = [begins, ends].map(|edge| edge == Edge::Critical);
-            let growth =
-                |speed: f64| Ok(finder.station(speed)?.divergence().unwrap_or(0.0).powi(2));
-            let (peak, square) = maximise((from, to), zero_at_ends, growth)?;
-            bands.push(Instability {
-                kind: InstabilityKind::Divergence,
-                from,
-                to,
-                closed: begins != Edge::Range && ends != Edge::Range,
-                peak,
-                peak_growth_per_s: square.sqrt(),
-                frequency: 0.0,
-                modes: standing_waves(model, from, to),
-                curve: Vec::new(),
-            });
+    for index in (0..signatures.len()).filter(|&index| is_unstable(index)) {
+        let first = *start.get_or_insert(index);
+        let next = index + 1;
+        if next == signatures.len() || !is_unstable(next) {
+            let begins = edge(model, path, first.checked_sub(1), first);
+            let ends = edge(
+                model,
+                path,
+                (next < signatures.len()).then_some(next),
+                index,
+            );
+            bands.push(band(
+                model,
+                evaluator,
+                &signatures[first..next],
+                [begins, ends],
+            )?);
             start = None;
         }
     }
     Ok(bands)
 }
 
-/// Divergence between two critical speeds that the stations pass in one step. Where the
+/// Parts of a stretch that are sampled for its largest growth, besides where the search looked.
+const PARTS: usize = 8;
+
+fn band(
+    model: &SpectralModel,
+    evaluator: &SignatureEvaluator<'_>,
+    signatures: &[Signature],
+    [(from, begins), (to, ends)]: [(f64, Edge); 2],
+) -> Result<Instability, SpectrumError> {
+    let of = |signature: &Signature| {
+        signature.divergence().map(|mode| Sample {
+            at: signature.speed_rad_per_s,
+            value: mode.lambda.re.powi(2),
+            slope: 2.0 * mode.lambda.re * mode.slope.re,
+        })
+    };
+    let mut samples: Vec<Sample> = signatures.iter().filter_map(of).collect();
+    let at = |speed: f64| Ok(of(&evaluator.at(speed)?));
+    for part in 1..PARTS {
+        samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
+    }
+    // λ² passes linearly through zero at a critical speed: the chord is its slope.
+    let zero = |at: f64| Sample {
+        at,
+        value: 0.0,
+        slope: f64::NAN,
+    };
+    samples.extend((begins == Edge::Critical).then(|| zero(from)));
+    samples.extend((ends == Edge::Critical).then(|| zero(to)));
+    samples.retain(|sample| (from..=to).contains(&sample.at));
+    samples.sort_by(|x, y| x.at.total_cmp(&y.at));
+    let found = maximise(samples, at)?;
+    Ok(Instability {
+        kind: InstabilityKind::Divergence,
+        from,
+        to,
+        closed: begins != Edge::Range && ends != Edge::Range,
+        peak: found.map_or(from, |sample| sample.at),
+        peak_growth_per_s: found.map_or(0.0, |sample| sample.value.sqrt()),
+        frequency: 0.0,
+        modes: standing_waves(model, from, to),
+        curve: Vec::new(),
+    })
+}
+
+/// Divergence between two critical speeds that the search passes in one step. Where the
 /// number of negative directions of K(Ω) is odd there is a real λ > 0.
 pub(super) fn close_pairs(
     model: &SpectralModel,
-    finder: &Finder<'_>,
+    evaluator: &SignatureEvaluator<'_>,
     speeds: &[f64],
 ) -> Result<Vec<Instability>, SpectrumError> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
@@ -74,7 +111,7 @@ pub(super) fn close_pairs(
             to: pair[1],
             closed: true,
             peak,
-            peak_growth_per_s: finder.divergence(peak)?,
+            peak_growth_per_s: evaluator.divergence(peak)?,
             frequency: 0.0,
             modes: standing_waves(model, pair[0], pair[1]),
             curve: Vec::new(),
@@ -88,45 +125,33 @@ pub(super) fn close_pairs(
 enum Edge {
     /// A critical speed: λ passes through zero.
     Critical,
-    /// The meeting of two real λ, which go on as flutter: neither is zero.
-    Meeting,
+    /// The coalescence of two real λ, which go on as flutter: neither is zero.
+    Coalescence,
     /// The range ends inside.
     Range,
 }
 
-/// Where divergence begins or ends between a stable and an unstable station: at the
-/// critical speed or the meeting of two real λ between them, or at the end of the range.
-fn edge(
-    model: &SpectralModel,
-    stations: &[Station],
-    events: &[Vec<Event>],
-    stable: Option<usize>,
-    unstable: usize,
-) -> (f64, Edge) {
-    let inner = stations[unstable].speed_rad_per_s;
+/// Where divergence begins or ends between a stable and an unstable signature: at the
+/// critical speed or the coalescence of two real λ between them, or at the end of the range.
+fn edge(model: &SpectralModel, path: &Path, stable: Option<usize>, unstable: usize) -> (f64, Edge) {
+    let inner = path.signatures[unstable].speed_rad_per_s;
     let Some(stable) = stable else {
         return (inner, Edge::Range);
     };
-    let outer = stations[stable].speed_rad_per_s;
+    let outer = path.signatures[stable].speed_rad_per_s;
     let (low, high) = (inner.min(outer), inner.max(outer));
     let mut critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    let mut meetings = events[stable.min(unstable)]
-        .iter()
-        .filter_map(|event| match event {
-            Event::Begin(at) | Event::End(at) if at.real => Some(at.speed_rad_per_s),
-            _ => None,
-        });
-    let meeting = if stable < unstable {
-        meetings.next_back()
-    } else {
-        meetings.next()
-    };
-    let critical = critical.find(|c| (low..=high).contains(c));
-    match (critical, meeting) {
-        (Some(speed), _) => (speed, Edge::Critical),
-        (None, Some(speed)) => (speed, Edge::Meeting),
+    if let Some(speed) = critical.find(|c| (low..=high).contains(c)) {
+        return (speed, Edge::Critical);
+    }
+    match path.steps[stable.min(unstable)].event {
+        Some(Event::Begin(_, edge) | Event::End(_, edge))
+            if edge.coalescence == Coalescence::Real =>
+        {
+            (edge.speed_rad_per_s, Edge::Coalescence)
+        }
         // The events between the two were too close to tell apart.
-        (None, None) => (inner, Edge::Meeting),
+        _ => (inner, Edge::Coalescence),
     }
 }
 

@@ -1,181 +1,238 @@
-//! Flutter: a + and a − mode that have merged.
+//! Flutter bands: what a quadruple does from the speed at which it begins to that at which it ends.
 
 use rayon::prelude::*;
 
-use super::bands::{Instability, InstabilityKind};
-use super::finder::{Edge, Event, Finder};
-use super::peak::maximise;
-use super::pursuit::Pursuit;
-use super::station::Station;
+use super::band::{Instability, InstabilityKind};
+use super::evaluator::SignatureEvaluator;
+use super::matching::matched;
+use super::maximum::{Sample, maximise};
+use super::pair_continuation::{Edge, NarrowBand, PairContinuation};
+use super::search::{Event, Path};
+use super::signature::SignedMode;
 use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
 
-/// Bands in which a + and a − mode have merged.
-pub(super) fn flutter(
-    model: &SpectralModel,
-    finder: &Finder<'_>,
-    stations: &[Station],
-    events: Vec<Vec<Event>>,
-) -> Result<Vec<Instability>, SpectrumError> {
-    let Some((first, last)) = stations.first().zip(stations.last()) else {
-        return Ok(Vec::new());
-    };
-    // Pairs merged at the current speed, by frequency, with where they began.
-    let begun = End::of_range(first.speed_rad_per_s);
-    let mut open: Vec<End> = first.merged().map(|_| begun).collect();
-    let mut ranges: Vec<(End, End)> = Vec::new();
-    for events in events {
-        for event in events {
-            match event {
-                Event::Begin(edge) => {
-                    open.insert(edge.index.min(open.len()), End::of_pair(edge));
-                }
-                Event::End(edge) if edge.index < open.len() => {
-                    ranges.push((open.remove(edge.index), End::of_pair(edge)));
-                }
-                Event::End(_) => {}
-                Event::Band(from, to) => ranges.push((End::merging(from), End::merging(to))),
-            }
-        }
-    }
-    let end = End::of_range(last.speed_rad_per_s);
-    ranges.extend(open.iter().map(|begin| (*begin, end)));
-    ranges
-        .into_par_iter()
-        .map(|ends| band(model, finder, ends))
-        .collect()
+/// A quadruple followed over speed.
+#[derive(Debug, Clone)]
+pub(super) struct Quadruple {
+    begin: End,
+    end: End,
+    /// It at ascending speeds.
+    points: Vec<(f64, SignedMode)>,
 }
 
 /// Where a band begins or ends.
 #[derive(Debug, Clone, Copy)]
-struct End {
-    speed: f64,
-    /// The range does not end inside the band.
-    closed: bool,
-    /// Two waves merge: growth begins at zero. Where two real λ meet it does not.
-    at_zero: bool,
+enum End {
+    /// At a coalescence.
+    Edge(Edge),
+    /// Inside the band, at the end of the range.
+    Range(f64),
+    /// Between two speeds too close to tell what happens.
+    Unknown(f64),
 }
 
 impl End {
-    fn merging(speed: f64) -> Self {
-        End {
-            speed,
-            closed: true,
-            at_zero: true,
+    fn speed(&self) -> f64 {
+        match self {
+            End::Edge(edge) => edge.speed_rad_per_s,
+            End::Range(speed) | End::Unknown(speed) => *speed,
         }
     }
 
-    fn of_pair(edge: Edge) -> Self {
-        End {
-            at_zero: !edge.real,
-            ..End::merging(edge.speed_rad_per_s)
-        }
-    }
-
-    fn of_range(speed: f64) -> Self {
-        End {
-            speed,
-            closed: false,
-            at_zero: false,
-        }
+    /// σ² there, where no signature says so.
+    fn sample(&self) -> Option<Sample> {
+        let End::Edge(edge) = self else { return None };
+        Some(Sample {
+            at: edge.speed_rad_per_s,
+            value: edge.growth_square,
+            slope: edge.growth_square_slope,
+        })
     }
 }
 
-fn band(
-    model: &SpectralModel,
-    finder: &Finder<'_>,
-    (begin, end): (End, End),
-) -> Result<Instability, SpectrumError> {
-    let (from, to) = (begin.speed, end.speed);
-    let zero_at_ends = [begin.at_zero, end.at_zero];
-    let ends = [from + 0.01 * (to - from), to - 0.01 * (to - from)];
-    let mut frequencies = [0.0; 2];
-    for (speed, frequency) in ends.into_iter().zip(&mut frequencies) {
-        let station = finder.station(speed)?;
-        // Of several merged pairs the one that has only just merged is the one at its edge.
-        let slowest = station
-            .merged()
-            .min_by(|x, y| x.growth.total_cmp(&y.growth));
-        *frequency = slowest.map_or(0.0, |t| t.frequency);
+/// Joins the steps of a path: every quadruple that lasts from one speed to another.
+fn quadruples(path: &Path) -> Vec<Quadruple> {
+    let mut found: Vec<Quadruple> = Vec::new();
+    let Some(first) = path.signatures.first() else {
+        return found;
+    };
+    let mut start = |begin: End, speed: f64, mode: SignedMode| {
+        found.push(Quadruple {
+            begin,
+            end: End::Range(speed),
+            points: vec![(speed, mode)],
+        });
+        found.len() - 1
+    };
+    // For every quadruple of the present signature its place in the list.
+    let mut here: Vec<usize> = Vec::new();
+    for mode in &first.quadruples {
+        let speed = first.speed_rad_per_s;
+        here.push(start(End::Range(speed), speed, *mode));
     }
-    let expected = |speed: f64| {
-        let share = (speed - from) / (to - from);
-        frequencies[0] + share * (frequencies[1] - frequencies[0])
-    };
-    let pursued = fastest_of_pair(finder, (from, to), zero_at_ends, &expected)?;
-    let (peak, peak_growth_per_s, frequency) = match pursued {
-        Some(found) => found,
-        None => fastest_of_words(finder, (from, to), zero_at_ends, &expected)?,
-    };
+    let mut ends: Vec<(usize, End)> = Vec::new();
+    let mut points: Vec<(usize, (f64, SignedMode))> = Vec::new();
+    for (step, pair) in path.steps.iter().zip(path.signatures.windows(2)) {
+        let unknown = End::Unknown(0.5 * (pair[0].speed_rad_per_s + pair[1].speed_rad_per_s));
+        for (k, quadruple) in here.iter().enumerate() {
+            if step.continued.iter().all(|(before, _)| *before != k) {
+                let end = match step.event {
+                    Some(Event::End(index, edge)) if index == k => End::Edge(edge),
+                    _ => unknown,
+                };
+                ends.push((*quadruple, end));
+            }
+        }
+        let speed = pair[1].speed_rad_per_s;
+        let next = pair[1].quadruples.iter().enumerate().map(|(k, mode)| {
+            let before = step.continued.iter().find(|(_, after)| *after == k);
+            if let Some((before, _)) = before {
+                points.push((here[*before], (speed, *mode)));
+                return here[*before];
+            }
+            let begin = match step.event {
+                Some(Event::Begin(index, edge)) if index == k => End::Edge(edge),
+                _ => unknown,
+            };
+            start(begin, speed, *mode)
+        });
+        here = next.collect();
+    }
+    for (quadruple, point) in points {
+        found[quadruple].points.push(point);
+        found[quadruple].end = End::Range(point.0);
+    }
+    for (quadruple, end) in ends {
+        found[quadruple].end = end;
+    }
+    found
+}
+
+/// Bands in which a + and a − mode have coalesced.
+pub(super) fn flutter(
+    model: &SpectralModel,
+    evaluator: &SignatureEvaluator<'_>,
+    path: &Path,
+) -> Result<Vec<Instability>, SpectrumError> {
+    let wide: Vec<Result<Instability, SpectrumError>> = quadruples(path)
+        .into_par_iter()
+        .map(|quadruple| band(model, evaluator, &quadruple))
+        .collect();
+    let narrow = path.steps.iter().filter_map(|step| match step.event {
+        Some(Event::Band(band)) => Some(band),
+        _ => None,
+    });
+    let narrow = narrow.map(|band| narrow_band(model, band));
+    wide.into_iter().chain(narrow).collect()
+}
+
+fn narrow_band(model: &SpectralModel, band: NarrowBand) -> Result<Instability, SpectrumError> {
     Ok(Instability {
         kind: InstabilityKind::Flutter,
-        from,
-        to,
-        closed: begin.closed && end.closed,
-        peak,
-        peak_growth_per_s,
-        frequency,
-        modes: meeting_modes(model, from, frequencies[0])?,
+        from: band.from_rad_per_s,
+        to: band.to_rad_per_s,
+        closed: true,
+        peak: band.peak_rad_per_s,
+        peak_growth_per_s: band.growth_per_s,
+        frequency: band.frequency_rad_per_s,
+        modes: meeting_modes(model, band.from_rad_per_s, band.frequency_rad_per_s)?,
         curve: Vec::new(),
     })
 }
 
-/// Speed, growth rate and frequency of the fastest growth within a band: of its pair, pursued
-/// from the middle. `None` where the pair is lost.
-fn fastest_of_pair(
-    finder: &Finder<'_>,
-    (from, to): (f64, f64),
-    zero_at_ends: [bool; 2],
-    expected: &dyn Fn(f64) -> f64,
-) -> Result<Option<(f64, f64, f64)>, SpectrumError> {
-    let middle = 0.5 * (from + to);
-    let Some(begun) = Pursuit::begin(finder, middle, expected(middle))? else {
-        return Ok(None);
+fn band(
+    model: &SpectralModel,
+    evaluator: &SignatureEvaluator<'_>,
+    quadruple: &Quadruple,
+) -> Result<Instability, SpectrumError> {
+    let (from, to) = (quadruple.begin.speed(), quadruple.end.speed());
+    let (peak, fastest) = quadruple.fastest(evaluator)?;
+    let onset_frequency = match quadruple.begin {
+        End::Edge(edge) => edge.frequency_rad_per_s,
+        _ => quadruple.points[0].1.lambda.im,
     };
-    let mut known = vec![begun];
-    let mut lost = false;
-    let (peak, square) = maximise((from, to), zero_at_ends, |speed| {
-        let Some(pair) = nearest(&known, speed).and_then(|pair| pair.to(speed)) else {
-            lost = true;
-            return Ok(0.0);
-        };
-        let square = -pair.discriminant();
-        known.push(pair);
-        Ok(square)
-    })?;
-    let Some(pair) = nearest(&known, peak).filter(|_| !lost && square > 0.0) else {
-        return Ok(None);
-    };
-    let seen = finder.station(peak)?.merged().any(|t| pair.is_token(t));
-    Ok(seen.then(|| (peak, square.sqrt(), pair.mean_frequency())))
+    let is_open = |end: &End| matches!(end, End::Range(_));
+    Ok(Instability {
+        kind: InstabilityKind::Flutter,
+        from,
+        to,
+        closed: !is_open(&quadruple.begin) && !is_open(&quadruple.end),
+        peak,
+        peak_growth_per_s: fastest.0,
+        frequency: fastest.1,
+        modes: meeting_modes(model, from, onset_frequency)?,
+        curve: Vec::new(),
+    })
 }
 
-fn nearest<'a, 'b>(known: &'a [Pursuit<'b>], speed: f64) -> Option<&'a Pursuit<'b>> {
-    let distance = |pair: &Pursuit<'_>| (pair.speed_rad_per_s - speed).abs();
-    known
-        .iter()
-        .min_by(|x, y| distance(x).total_cmp(&distance(y)))
+impl Quadruple {
+    /// Speed of the largest growth, with growth rate and frequency there.
+    fn fastest(
+        &self,
+        evaluator: &SignatureEvaluator<'_>,
+    ) -> Result<(f64, (f64, f64)), SpectrumError> {
+        let mut known = self.points.clone();
+        let mut samples: Vec<Sample> = self.points.iter().map(sample).collect();
+        samples.extend(
+            [self.begin.sample(), self.end.sample()]
+                .into_iter()
+                .flatten(),
+        );
+        samples.sort_by(|x, y| x.at.total_cmp(&y.at));
+        let found = maximise(samples, |speed| {
+            let Some(mode) = continued(evaluator, &known, speed)? else {
+                return Ok(None);
+            };
+            let place = known.partition_point(|(at, _)| *at < speed);
+            known.insert(place, (speed, mode));
+            Ok(Some(sample(&known[place])))
+        })?;
+        let at = found.map_or(self.points[0].0, |sample| sample.at);
+        let nearest = |x: &&(f64, SignedMode)| (x.0 - at).abs();
+        let nearest = known
+            .iter()
+            .min_by(|x, y| nearest(x).total_cmp(&nearest(y)));
+        let (speed, mode) = nearest.copied().unwrap_or(self.points[0]);
+        // To rounding, where the search goes by coarser models.
+        let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
+        let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
+        Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))
+    }
 }
 
-/// The same read off the words of speeds.
-fn fastest_of_words(
-    finder: &Finder<'_>,
-    range: (f64, f64),
-    zero_at_ends: [bool; 2],
-    expected: &dyn Fn(f64) -> f64,
-) -> Result<(f64, f64, f64), SpectrumError> {
-    let merged = |speed: f64| -> Result<(f64, f64), SpectrumError> {
-        let near = |f: f64| (f - expected(speed)).abs();
-        let station = finder.station(speed)?;
-        let nearest = station
-            .merged()
-            .min_by(|x, y| near(x.frequency).total_cmp(&near(y.frequency)));
-        Ok(nearest.map_or((0.0, 0.0), |t| (t.growth, t.frequency)))
+/// σ² of a quadruple at a speed.
+fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
+    Sample {
+        at: *speed,
+        value: mode.lambda.re.powi(2),
+        slope: 2.0 * mode.lambda.re * mode.slope.re,
+    }
+}
+
+/// The quadruple at another speed, from what it is at those next to it. `None` where that is
+/// not certain.
+fn continued(
+    evaluator: &SignatureEvaluator<'_>,
+    known: &[(f64, SignedMode)],
+    speed: f64,
+) -> Result<Option<SignedMode>, SpectrumError> {
+    let signature = evaluator.at(speed)?;
+    let place = known.partition_point(|(at, _)| *at < speed);
+    let neighbours = [place.checked_sub(1), Some(place)];
+    let neighbours = neighbours
+        .into_iter()
+        .flatten()
+        .filter_map(|k| known.get(k));
+    let of = |(at, mode): &(f64, SignedMode)| {
+        let matching = matched(&[*mode], &signature.quadruples, speed - at);
+        matching.pairs.first().map(|(_, k)| *k)
     };
-    let (peak, _) = maximise(range, zero_at_ends, |speed| Ok(merged(speed)?.0.powi(2)))?;
-    let (growth_per_s, frequency) = merged(peak)?;
-    let sharp = Pursuit::begin(finder, peak, frequency)?;
-    let sharp = sharp.map(|pair| (-pair.discriminant()).max(0.0).sqrt());
-    Ok((peak, sharp.unwrap_or(growth_per_s), frequency))
+    let mut found: Vec<usize> = neighbours.filter_map(of).collect();
+    found.dedup();
+    Ok(match found.as_slice() {
+        [one] => Some(signature.quadruples[*one]),
+        _ => None,
+    })
 }
 
 /// Names of the + and the − mode next to a frequency just below an onset.

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use super::bands::Instability;
+use super::band::Instability;
 use crate::campbell::{Sighted, match_modes};
 use crate::spectrum::{LowModel, Mode, ModeKind, SpectralModel, SpectrumError};
 

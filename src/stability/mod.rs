@@ -1,29 +1,33 @@
 //! Critical speeds, instability bands, flutter speed, and the verdict.
 
 mod analysis;
+mod band;
 mod bands;
 mod basis;
+mod certificate;
 mod damped;
 mod divergence;
-mod finder;
+mod evaluator;
 mod flutter;
 mod heat;
+mod interpolation;
 mod loci;
+mod matching;
+mod maximum;
 mod onsets;
-mod peak;
-mod pursuit;
-mod refine;
+mod pair_continuation;
+mod search;
 mod sensitivity;
-mod station;
+mod signature;
 mod tradeoff;
 mod verdict;
 
 pub use analysis::{Analysis, Detail, OPERATING_LIMIT};
-pub use bands::{
-    Certificate, CurvePoint, Instability, InstabilityKind, StabilityChart, chart, undamped_bands,
-};
+pub use band::{CurvePoint, Instability, InstabilityKind};
+pub use bands::{StabilityChart, chart, undamped_bands};
 pub use basis::ChosenBasis;
 pub(crate) use basis::resolved_plate;
+pub use certificate::{Certificate, Mismatch};
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
 pub use onsets::{Onsets, search_bands};

@@ -7,7 +7,7 @@
 use faer::{Col, c64};
 
 use super::analysis::Analysis;
-use super::bands::{Instability, InstabilityKind};
+use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
 use crate::scene::{MembraneFile, Scene, SceneError, SceneFile};
 use crate::spectrum::{Mode, Part, SpectrumError, derivative};

@@ -6,7 +6,8 @@ use faer::{Mat, Side};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::bands::{InstabilityKind, StabilityChart, chart};
+use super::band::InstabilityKind;
+use super::bands::{StabilityChart, chart};
 use super::basis::{ChosenBasis, LADDER};
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};

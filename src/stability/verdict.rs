@@ -10,8 +10,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::bands::{CurvePoint, Instability, InstabilityKind};
-use super::station::hermite;
+use super::band::{CurvePoint, Instability, InstabilityKind};
+use super::interpolation::Cubic;
 
 /// What becomes of a saw at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -166,7 +166,11 @@ fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     if steepness.is_nan() || steepness > 8.0 * size {
         return straight;
     }
-    hermite(share, before.0, before.1, after.0, after.1)
+    let cubic = Cubic {
+        values: [before.0, after.0],
+        slopes: [before.1, after.1],
+    };
+    cubic.at(share)
 }
 
 /// Speed between two points of a curve at which Re λ has a value, by bisection.

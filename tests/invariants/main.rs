@@ -5,6 +5,7 @@ mod common;
 #[path = "../common/draw.rs"]
 mod draw;
 
+mod band_lists;
 mod certified_bands;
 mod charts;
 mod damped;

@@ -1,6 +1,6 @@
 //! Bands of a damped blade from the paths of its eigenvalues.
 
-use super::super::bands::{CurvePoint, Instability, InstabilityKind};
+use super::super::band::{CurvePoint, Instability, InstabilityKind};
 use super::link::between;
 use super::spectrum::{Eigenvalue, Solver, Spectrum};
 use super::trace::Path;

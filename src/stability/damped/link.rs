@@ -7,7 +7,7 @@
 
 use faer::c64;
 
-use super::super::station::hermite;
+use super::super::interpolation::Cubic;
 use super::spectrum::{Eigenvalue, Spectrum};
 
 /// A match must fit this much better than the next best one.
@@ -43,7 +43,13 @@ impl Pair {
 /// λ at a share of an interval, by the cubic through values and slopes at its ends.
 pub fn between(ends: &[Eigenvalue; 2], width: f64, share: f64) -> c64 {
     let [a, b] = ends;
-    let cubic = |f0, d0: f64, f1, d1: f64| hermite(share, f0, d0 * width, f1, d1 * width);
+    let cubic = |f0, d0: f64, f1, d1: f64| {
+        Cubic {
+            values: [f0, f1],
+            slopes: [d0 * width, d1 * width],
+        }
+        .at(share)
+    };
     c64::new(
         cubic(a.lambda.re, a.slope.re, b.lambda.re, b.slope.re),
         cubic(a.lambda.im, a.slope.im, b.lambda.im, b.slope.im),

@@ -15,10 +15,9 @@ mod trace;
 use faer::c64;
 use rayon::prelude::*;
 
-use super::bands::{
-    self, Certificate, CurvePoint, Instability, InstabilityKind, StabilityChart,
-    with_critical_speeds,
-};
+use super::band::{CurvePoint, Instability, InstabilityKind};
+use super::bands::{self, StabilityChart, with_critical_speeds};
+use super::certificate::Certificate;
 use crate::campbell::{self, Campbell, Progress};
 use crate::spectrum::{
     Direction, Mode, ModeName, SpectralModel, SpectrumError, Strategy, in_words,

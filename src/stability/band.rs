@@ -1,0 +1,58 @@
+//! Bands of unstable speeds.
+
+use faer::c64;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Kind of an instability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum InstabilityKind {
+    /// Exponential growth without oscillation.
+    Divergence,
+    /// Growing oscillation.
+    Flutter,
+}
+
+/// A band of unstable speeds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instability {
+    /// Divergence or flutter.
+    pub kind: InstabilityKind,
+    /// Onset, in rad/s.
+    pub from: f64,
+    /// End, or the end of the range.
+    pub to: f64,
+    /// False when the range begins or ends inside the band.
+    pub closed: bool,
+    /// Speed of largest growth.
+    pub peak: f64,
+    /// Largest growth rate.
+    pub peak_growth_per_s: f64,
+    /// Frequency at the peak, in rad/s.
+    pub frequency: f64,
+    /// The modes that meet.
+    pub modes: Vec<String>,
+    /// The eigenvalue from the first to the last speed of a band of a damped blade, close
+    /// enough for cubics between the points; empty for an undamped blade.
+    pub curve: Vec<CurvePoint>,
+}
+
+/// An eigenvalue at one speed of a band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// λ, Im λ ≥ 0.
+    pub lambda: c64,
+    /// dλ/dΩ.
+    pub slope: c64,
+}
+
+impl Instability {
+    /// Whether it counts as an instability of the saw: flutter slower than the threshold drowns
+    /// in damping that no scene names; a blade that leans over does not come back.
+    pub fn counts(&self, threshold_per_s: f64) -> bool {
+        self.kind == InstabilityKind::Divergence || self.peak_growth_per_s >= threshold_per_s
+    }
+}

@@ -1,0 +1,165 @@
+//! What was checked of a list of bands, and what did not agree.
+
+use super::band::{Instability, InstabilityKind};
+use super::signature::Signature;
+
+/// Checks of a list of bands.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Certificate {
+    /// Number of speeds at which the Krein index was compared.
+    pub speeds_checked: usize,
+    /// Speeds at which it did not match, not even on the full model, in rad/s.
+    pub violations: Vec<f64>,
+    /// Speeds at which the list of bands contradicts the eigenvalues found there.
+    pub mismatches: Vec<Mismatch>,
+    /// Whether the search ran out of its allowance of speeds.
+    pub gave_up: bool,
+}
+
+impl Certificate {
+    /// Whether every check agrees.
+    pub fn is_clean(&self) -> bool {
+        self.violations.is_empty() && self.mismatches.is_empty() && !self.gave_up
+    }
+}
+
+/// A contradiction between the list of bands and the eigenvalues of one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mismatch {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Which kind of band.
+    pub kind: InstabilityKind,
+    /// Unstable modes of that kind, of divergence 1 or 0.
+    pub unstable_modes: usize,
+    /// Bands of that kind that cover the speed.
+    pub bands: usize,
+    /// Growth of the fastest of the modes, in 1/s.
+    pub growth_per_s: f64,
+    /// Largest peak of the bands, in 1/s.
+    pub peak_per_s: f64,
+}
+
+/// A speed this close to an edge of a band, relatively, may be on either side of it.
+const EDGE_TOLERANCE: f64 = 1e-7;
+/// A mode may grow this much faster than the peak of its band: coarse models of the search are
+/// off by as much, see `LIKENESS` of the continuation.
+const PEAK_TOLERANCE: f64 = 0.03;
+
+/// Holds a list of bands against the modes of a speed: as many bands of each kind as unstable
+/// modes, none that grows faster than the peak of its band. `floor_per_s` is the growth below
+/// which a mode may be rounding.
+pub fn mismatches(bands: &[Instability], signature: &Signature, floor_per_s: f64) -> Vec<Mismatch> {
+    let speed = signature.speed_rad_per_s;
+    let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;
+    if bands.iter().any(|band| near(band.from) || near(band.to)) {
+        return Vec::new();
+    }
+    let flutter = signature.quadruples.iter().map(|mode| mode.lambda.re);
+    let divergence = signature.divergence().map(|mode| mode.lambda.re);
+    let growth = [
+        (InstabilityKind::Flutter, flutter.collect()),
+        (
+            InstabilityKind::Divergence,
+            divergence.into_iter().collect::<Vec<f64>>(),
+        ),
+    ];
+    growth
+        .into_iter()
+        .filter_map(|(kind, growth)| mismatch(bands, speed, kind, growth, floor_per_s))
+        .collect()
+}
+
+fn mismatch(
+    bands: &[Instability],
+    speed: f64,
+    kind: InstabilityKind,
+    mut growth: Vec<f64>,
+    floor_per_s: f64,
+) -> Option<Mismatch> {
+    let covers = |b: &&Instability| b.kind == kind && (b.from..=b.to).contains(&speed);
+    let mut peaks: Vec<f64> = bands
+        .iter()
+        .filter(covers)
+        .map(|b| b.peak_growth_per_s)
+        .collect();
+    let descending = |x: &f64, y: &f64| y.total_cmp(x);
+    growth.sort_by(descending);
+    peaks.sort_by(descending);
+    let certain = growth
+        .iter()
+        .filter(|growth| **growth > floor_per_s)
+        .count();
+    let above =
+        |(growth, peak): (&f64, &f64)| *growth > peak * (1.0 + PEAK_TOLERANCE) + floor_per_s;
+    let is_faster = growth.iter().zip(&peaks).any(above);
+    let strong = peaks.iter().filter(|peak| **peak > floor_per_s).count();
+    (certain > peaks.len() || strong > growth.len() || is_faster).then(|| Mismatch {
+        speed_rad_per_s: speed,
+        kind,
+        unstable_modes: growth.len(),
+        bands: peaks.len(),
+        growth_per_s: growth.first().copied().unwrap_or(0.0),
+        peak_per_s: peaks.first().copied().unwrap_or(0.0),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::c64;
+
+    use super::*;
+    use crate::stability::signature::{Sign, SignedMode};
+
+    fn band(kind: InstabilityKind, from: f64, to: f64, peak_growth_per_s: f64) -> Instability {
+        Instability {
+            kind,
+            from,
+            to,
+            closed: true,
+            peak: 0.5 * (from + to),
+            peak_growth_per_s,
+            frequency: 1.0,
+            modes: Vec::new(),
+            curve: Vec::new(),
+        }
+    }
+
+    /// Two flutter modes of growth 2 and 1 at 100 rad/s.
+    fn fluttering() -> Signature {
+        let mode = |growth| SignedMode {
+            sign: Sign::Quadruple,
+            lambda: c64::new(growth, 10.0),
+            slope: c64::new(0.0, 0.0),
+        };
+        Signature {
+            speed_rad_per_s: 100.0,
+            waves: Vec::new(),
+            quadruples: vec![mode(1.0), mode(2.0)],
+            real: Vec::new(),
+        }
+    }
+
+    fn wrong(bands: &[Instability]) -> usize {
+        mismatches(bands, &fluttering(), 1e-3).len()
+    }
+
+    #[test]
+    fn a_list_with_a_band_missing_open_doubled_or_too_low_is_refused() {
+        use InstabilityKind::{Divergence, Flutter};
+        let right = [
+            band(Flutter, 90.0, 110.0, 2.5),
+            band(Flutter, 95.0, 105.0, 1.0),
+        ];
+        assert_eq!(wrong(&right), 0);
+        assert_eq!(wrong(&right[..1]), 1);
+        let [first, second] = &right;
+        let never_closed = band(Flutter, 50.0, 200.0, 3.0);
+        assert_eq!(wrong(&[first.clone(), second.clone(), never_closed]), 1);
+        assert_eq!(wrong(&[first.clone(), band(Flutter, 95.0, 105.0, 0.5)]), 1);
+        assert_eq!(
+            wrong(&[first.clone(), band(Divergence, 95.0, 105.0, 1.0)]),
+            2
+        );
+    }
+}

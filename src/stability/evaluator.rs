@@ -1,0 +1,213 @@
+//! The signature of an undamped blade at any speed, held against its Krein index.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use faer::c64;
+
+use super::certificate::Certificate;
+use super::signature::Signature;
+use crate::spectrum::{LowModel, LowModes, ModePair, SpectralModel, SpectrumError};
+
+/// Relative distance kept from a critical speed: λ² passes through zero there, and is
+/// known to 1e-15 of the stiffness only.
+pub const CRITICAL_GAP: f64 = 5e-6;
+/// Critical speeds closer than this are passed in one step. The divergence between them
+/// grows by less than a hundredth of 1/s; that it is there follows from the inertia.
+pub const CRITICAL_GROUP: f64 = 2e-5;
+/// Speeds that a search may look at: twenty times what a saw needs. It bounds the time
+/// where modes cannot be told apart.
+const MOST_SPEEDS: usize = 20_000;
+
+/// Speeds at which the search solves the whole projected system; between two of them it goes
+/// by their modes.
+const ANCHORS: usize = 13;
+
+/// Where the Krein index was compared, and where it did not match.
+#[derive(Debug, Default)]
+struct Tally {
+    checked: AtomicUsize,
+    violations: Mutex<Vec<f64>>,
+}
+
+/// Evaluates signatures, checks the Krein index of each, and counts.
+pub struct SignatureEvaluator<'a> {
+    model: &'a SpectralModel,
+    low: Option<LowModel<'a>>,
+    /// The same between neighbouring anchors, with the upper of both.
+    pieces: Vec<(f64, LowModel<'a>)>,
+    tally: Tally,
+}
+
+impl<'a> SignatureEvaluator<'a> {
+    /// An evaluator on an undamped blade, for the speeds between the first and the last given.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
+        let low = model.low_model();
+        let mut pieces = Vec::new();
+        if let Some(low) = &low {
+            let anchors: Vec<_> = anchors(speeds)
+                .into_par_iter()
+                .map(|speed| low.modes(speed))
+                .collect();
+            let anchors: Vec<LowModes> = anchors.into_iter().collect::<Result<_, _>>()?;
+            pieces = anchors
+                .par_windows(2)
+                .map(|ends| (ends[1].speed_rad_per_s, low.between([&ends[0], &ends[1]])))
+                .collect();
+        }
+        Ok(SignatureEvaluator {
+            model,
+            low,
+            pieces,
+            tally: Tally::default(),
+        })
+    }
+
+    /// The speeds checked so far.
+    pub fn certificate(&self) -> Certificate {
+        let violations = self.tally.violations.lock();
+        let mut violations =
+            violations.map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
+        violations.sort_by(f64::total_cmp);
+        Certificate {
+            speeds_checked: self.tally.checked.load(Ordering::Relaxed),
+            violations,
+            mismatches: Vec::new(),
+            gave_up: self.is_exhausted(),
+        }
+    }
+
+    /// Whether it has looked at as many speeds as it may.
+    pub fn is_exhausted(&self) -> bool {
+        self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
+    }
+
+    /// The signature at a speed. Where it contradicts the Krein index it is read
+    /// again off the whole basis; what contradicts even then is a violation.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        self.tally.checked.fetch_add(1, Ordering::Relaxed);
+        if let Some(low) = self.near(speed_rad_per_s) {
+            let modes = low.modes(speed_rad_per_s)?.modes;
+            let signature = Signature::new(speed_rad_per_s, modes.iter());
+            if self.matches(&signature) {
+                return Ok(signature);
+            }
+        }
+        self.exactly_at(speed_rad_per_s)
+    }
+
+    /// The same from the whole reduced model, without the coarser models between anchors.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn exactly_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        let modes = match &self.low {
+            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            None => self.model.all_modes(speed_rad_per_s)?,
+        };
+        let signature = Signature::new(speed_rad_per_s, modes.iter());
+        if self.matches(&signature) {
+            return Ok(signature);
+        }
+        let modes = self.model.full_modes(speed_rad_per_s)?;
+        let signature = Signature::new(speed_rad_per_s, modes.iter());
+        if !self.matches(&signature)
+            && let Ok(mut violations) = self.tally.violations.lock()
+        {
+            violations.push(speed_rad_per_s);
+        }
+        Ok(signature)
+    }
+
+    /// The smallest model for a speed.
+    fn near(&self, speed_rad_per_s: f64) -> Option<&LowModel<'a>> {
+        let place = self.pieces.partition_point(|(to, _)| *to < speed_rad_per_s);
+        self.pieces.get(place).map(|(_, low)| low)
+    }
+
+    /// The two modes of a speed next to two eigenvalues, to rounding.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn pair(
+        &self,
+        speed_rad_per_s: f64,
+        lambdas: [c64; 2],
+    ) -> Result<Option<ModePair>, SpectrumError> {
+        match self.near(speed_rad_per_s).or(self.low.as_ref()) {
+            Some(low) => low.pair(speed_rad_per_s, lambdas),
+            None => Ok(None),
+        }
+    }
+
+    /// A pair followed to another speed.
+    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        self.low.as_ref()?.moved(pair, speed_rad_per_s)
+    }
+
+    /// Largest growth of a divergent mode next to a critical speed, where the Krein index
+    /// cannot be read off rounded eigenvalues.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
+        let modes = match &self.low {
+            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            None => return Ok(0.0),
+        };
+        Ok(Signature::new(speed_rad_per_s, modes.iter())
+            .divergence()
+            .map_or(0.0, |mode| mode.lambda.re))
+    }
+
+    /// Whether a critical speed lies between two speeds.
+    pub fn spans_critical(&self, from_rad_per_s: f64, to_rad_per_s: f64) -> bool {
+        let below = |speed| self.model.negative_stiffness_directions(speed);
+        below(from_rad_per_s) != below(to_rad_per_s)
+    }
+
+    /// Holds the spectrum against the inertia of the stiffness, which comes from
+    /// another, symmetric eigenproblem on the whole basis.
+    fn matches(&self, signature: &Signature) -> bool {
+        signature.krein_index()
+            == self
+                .model
+                .negative_stiffness_directions(signature.speed_rad_per_s)
+    }
+
+    /// The signatures of many speeds, in parallel.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] of the lowest speed that fails.
+    pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Signature>, SpectrumError> {
+        let signatures: Vec<_> = speeds.par_iter().map(|&speed| self.at(speed)).collect();
+        signatures.into_iter().collect()
+    }
+}
+
+/// Of ascending speeds the first, the last, and some about evenly spread between.
+fn anchors(speeds: &[f64]) -> Vec<f64> {
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
+        return Vec::new();
+    };
+    let spacing = (last - first) / ANCHORS as f64;
+    let mut chosen = vec![first];
+    for &speed in speeds {
+        let latest = chosen[chosen.len() - 1];
+        if speed - latest >= spacing && last - speed >= 0.5 * spacing {
+            chosen.push(speed);
+        }
+    }
+    if last > first {
+        chosen.push(last);
+    }
+    chosen
+}

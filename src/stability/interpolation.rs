@@ -1,0 +1,108 @@
+//! Cubic interpolation between two speeds.
+
+/// Cubic Hermite polynomial on [0, 1]: values and slopes at both ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cubic {
+    /// Values at 0 and 1.
+    pub values: [f64; 2],
+    /// Slopes at 0 and 1.
+    pub slopes: [f64; 2],
+}
+
+impl Cubic {
+    /// Its value.
+    pub fn at(&self, t: f64) -> f64 {
+        let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
+        let u = 1.0 - t;
+        u * u * ((1.0 + 2.0 * t) * f0 + t * d0) + t * t * ((1.0 + 2.0 * u) * f1 - u * d1)
+    }
+
+    /// Where its slope is zero inside (0, 1), with the values there.
+    fn stationary(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
+        // f′ = a t² + b t + d0
+        let (a, b) = (
+            6.0 * (f0 - f1) + 3.0 * (d0 + d1),
+            -6.0 * (f0 - f1) - 4.0 * d0 - 2.0 * d1,
+        );
+        let discriminant = (b * b - 4.0 * a * d0).max(-0.0);
+        // The form that does not cancel (Press et al., Numerical Recipes, 5.6).
+        let q = -0.5 * (b + b.signum() * discriminant.sqrt());
+        let roots = [q / a, d0 / q];
+        let inside = roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0);
+        inside.map(|t| (t, self.at(t)))
+    }
+
+    /// Place and value of its largest value on [0, 1].
+    pub fn highest(&self) -> (f64, f64) {
+        let ends = [(0.0, self.values[0]), (1.0, self.values[1])];
+        let all = ends.into_iter().chain(self.stationary());
+        all.fold((0.0, f64::NEG_INFINITY), |best, x| {
+            if x.1 > best.1 { x } else { best }
+        })
+    }
+
+    /// Its smallest value on [0, 1].
+    pub fn lowest(&self) -> f64 {
+        let all = self
+            .values
+            .into_iter()
+            .chain(self.stationary().map(|x| x.1));
+        all.fold(f64::INFINITY, f64::min)
+    }
+
+    /// A zero in [0, 1] where the ends differ in sign, to the digits that a guess needs.
+    pub fn sign_change(&self) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..24 {
+            let middle = 0.5 * (low + high);
+            if self.at(middle) * self.values[0] > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cubic_meets_its_ends() {
+        let line = Cubic {
+            values: [2.0, 5.0],
+            slopes: [1.0, 1.0],
+        };
+        assert_eq!((line.at(0.0), line.at(1.0)), (2.0, 5.0));
+        let bend = Cubic {
+            values: [0.0, 1.0],
+            slopes: [1.0, 1.0],
+        };
+        assert_eq!(bend.at(0.5), 0.5);
+    }
+
+    /// t(1 − t)(2 − t) has its maximum at 1 − 1/√3 and its zeros at both ends.
+    #[test]
+    fn the_extremes_of_a_cubic_are_exact() {
+        let hump = Cubic {
+            values: [0.0, 0.0],
+            slopes: [2.0, -1.0],
+        };
+        let (place, value) = hump.highest();
+        assert!((place - (1.0 - 1.0 / 3.0_f64.sqrt())).abs() < 1e-12);
+        assert!((value - 2.0 / 27.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(hump.lowest(), 0.0);
+    }
+
+    #[test]
+    fn a_straight_line_has_no_extreme_inside() {
+        let line = Cubic {
+            values: [1.0, 3.0],
+            slopes: [2.0, 2.0],
+        };
+        assert_eq!((line.highest(), line.lowest()), ((1.0, 3.0), 1.0));
+    }
+}

@@ -1,0 +1,121 @@
+//! The largest value of a smooth function of the speed: the fastest growth of a band.
+
+use super::interpolation::Cubic;
+use crate::spectrum::SpectrumError;
+
+/// A value of the function with its slope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// Speed, in rad/s.
+    pub at: f64,
+    /// f.
+    pub value: f64,
+    /// df/dΩ; not finite where it is not known.
+    pub slope: f64,
+}
+
+/// The maximum is refined until the cubics promise no more than this share of it.
+const TOLERANCE: f64 = 1e-5;
+/// Samples added at most.
+const MOST_SAMPLES: usize = 24;
+
+/// Sample of the largest f, from samples at ascending speeds, which are added to where the
+/// cubics between neighbours promise more: so a narrow second hump between two samples is
+/// found where their slopes tell of it. `None` without samples.
+///
+/// # Errors
+/// Those of `f`.
+pub fn maximise(
+    mut samples: Vec<Sample>,
+    mut f: impl FnMut(f64) -> Result<Option<Sample>, SpectrumError>,
+) -> Result<Option<Sample>, SpectrumError> {
+    let greatest = |samples: &[Sample]| {
+        let greatest = samples.iter().max_by(|x, y| x.value.total_cmp(&y.value));
+        greatest.copied()
+    };
+    for _ in 0..MOST_SAMPLES {
+        let Some(best) = greatest(&samples) else {
+            break;
+        };
+        let promised = samples.windows(2).enumerate().map(|(place, ends)| {
+            let (share, value) = promise(ends);
+            (place, ends[0].at + share * (ends[1].at - ends[0].at), value)
+        });
+        let promised = promised.max_by(|x, y| x.2.total_cmp(&y.2));
+        let Some((place, speed, value)) = promised else {
+            break;
+        };
+        if value <= best.value * (1.0 + TOLERANCE) {
+            break;
+        }
+        let Some(sample) = f(speed)? else { break };
+        samples.insert(place + 1, sample);
+    }
+    Ok(greatest(&samples))
+}
+
+/// Share of the way and value of the largest f that the cubic between two samples promises.
+fn promise(ends: &[Sample]) -> (f64, f64) {
+    let width = ends[1].at - ends[0].at;
+    let secant = ends[1].value - ends[0].value;
+    let slope = |sample: &Sample| match sample.slope.is_finite() {
+        true => sample.slope * width,
+        false => secant,
+    };
+    let cubic = Cubic {
+        values: [ends[0].value, ends[1].value],
+        slopes: [slope(&ends[0]), slope(&ends[1])],
+    };
+    let (share, value) = cubic.highest();
+    // Next to an end the cubic says no more than the sample there.
+    if (1e-6..=1.0 - 1e-6).contains(&share) {
+        (share, value)
+    } else {
+        (0.5, f64::NEG_INFINITY)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn largest(ends: &[f64], f: impl Fn(f64) -> (f64, f64)) -> Sample {
+        let sample = |at: f64| {
+            let (value, slope) = f(at);
+            Sample { at, value, slope }
+        };
+        let samples = ends.iter().map(|at| sample(*at)).collect();
+        maximise(samples, |at| Ok(Some(sample(at))))
+            .unwrap()
+            .unwrap()
+    }
+
+    #[test]
+    fn the_maximum_of_a_skew_hump_is_found() {
+        let f = |x: f64| (x * (-x * x).exp(), (1.0 - 2.0 * x * x) * (-x * x).exp());
+        let found = largest(&[0.0, 2.0], f);
+        assert!((found.value - (-0.5_f64).exp() / 2.0_f64.sqrt()).abs() < 1e-5);
+    }
+
+    /// Divergence that ends where two real λ coalesce is fastest there, not zero.
+    #[test]
+    fn the_maximum_may_be_at_an_end() {
+        let found = largest(&[1.0, 2.0], |x| (x - 1.0, 1.0));
+        assert_eq!((found.at, found.value), (2.0, 1.0));
+    }
+
+    /// A hump of 0.3 at 0.5, and one of 1.0 at 1.7 that is a fifth as wide.
+    #[test]
+    fn a_narrow_second_hump_is_found() {
+        let bell = |x: f64, at: f64, width: f64| {
+            let u = (x - at) / width;
+            ((-u * u).exp(), -2.0 * u / width * (-u * u).exp())
+        };
+        let f = |x: f64| {
+            let (wide, narrow) = (bell(x, 0.5, 0.5), bell(x, 1.7, 0.1));
+            (0.3 * wide.0 + narrow.0, 0.3 * wide.1 + narrow.1)
+        };
+        let found = largest(&[0.0, 0.4, 0.8, 1.2, 1.6, 2.0], f);
+        assert!((found.value - f(1.7).0).abs() < 1e-3, "{found:?}");
+    }
+}

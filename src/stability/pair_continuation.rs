@@ -1,0 +1,285 @@
+//! Two modes followed over speed together: their invariant subspace is smooth where they
+//! coalesce and split, which their eigenvalues are not.
+//!
+//! Of the quadruple ±σ ± iω, σ² passes linearly through zero where it comes from two waves of
+//! opposite Krein sign, and ω² where it goes on as two real λ. These roots are well conditioned;
+//! the root of the growth rate itself, which starts like a square root, is not.
+
+use faer::c64;
+
+use super::evaluator::SignatureEvaluator;
+use super::signature::SignedMode;
+use crate::spectrum::{ModePair, SpectrumError};
+
+/// Relative differences of speed for the slope and the curvature of σ²: its rounding is 1e-15
+/// of ω², and the pair is exact to the square of the distance.
+const NEWTON_DIFFERENCE: f64 = 1e-6;
+const VERTEX_DIFFERENCE: f64 = 1e-5;
+/// A last step of this relative length leaves its square, times how many widths of the
+/// band the speed is: below the accuracy asked.
+const NEWTON_TOLERANCE: f64 = 1e-8;
+/// The same for the vertex of a crossing: what is left of it, (nΩδ)², is below the square of
+/// the least growth rate told from rounding.
+const VERTEX_TOLERANCE: f64 = 1e-6;
+const MAX_STEPS: usize = 40;
+const MAX_NEWTON: usize = 8;
+/// Share of the way to the coalescence of two real λ that one step goes: beyond it the pair has
+/// no complex states to be followed by.
+const SHORT_OF_REAL: f64 = 0.999;
+/// Share of a growth rate by which the coarse models of the search may be off.
+const LIKENESS: f64 = 0.025;
+
+/// How a quadruple begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coalescence {
+    /// Of a + and a − wave: σ = 0.
+    Waves,
+    /// Of two real λ: ω = 0.
+    Real,
+}
+
+/// Begin or end of a quadruple.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Of what.
+    pub coalescence: Coalescence,
+    /// ω there, in rad/s.
+    pub frequency_rad_per_s: f64,
+    /// σ² there, in 1/s².
+    pub growth_square: f64,
+    /// dσ²/dΩ there, in 1/s.
+    pub growth_square_slope: f64,
+}
+
+/// What a pair of waves that has exchanged its order did in between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Passage {
+    /// It crossed.
+    Crossing,
+    /// It coalesced and split.
+    Band(NarrowBand),
+}
+
+/// A band between two speeds at which the pair is apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NarrowBand {
+    /// Onset, in rad/s.
+    pub from_rad_per_s: f64,
+    /// End, in rad/s.
+    pub to_rad_per_s: f64,
+    /// Speed of the largest growth, in rad/s.
+    pub peak_rad_per_s: f64,
+    /// Largest growth.
+    pub growth_per_s: f64,
+    /// Frequency there, in rad/s.
+    pub frequency_rad_per_s: f64,
+}
+
+/// A pair at a speed.
+pub struct PairContinuation<'a> {
+    evaluator: &'a SignatureEvaluator<'a>,
+    pair: ModePair,
+    speed: f64,
+}
+
+impl<'a> PairContinuation<'a> {
+    /// The pair of two eigenvalues. `None` where there are none such.
+    fn begin(
+        evaluator: &'a SignatureEvaluator<'a>,
+        speed: f64,
+        lambdas: [c64; 2],
+    ) -> Result<Option<Self>, SpectrumError> {
+        let pair = evaluator.pair(speed, lambdas)?;
+        Ok(pair.map(|pair| PairContinuation {
+            evaluator,
+            pair,
+            speed,
+        }))
+    }
+
+    /// The pair of a quadruple: it and its mirror image.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn of_quadruple(
+        evaluator: &'a SignatureEvaluator<'a>,
+        speed_rad_per_s: f64,
+        mode: &SignedMode,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let lambdas = [mode.lambda, -mode.lambda.conj()];
+        let begun = Self::begin(evaluator, speed_rad_per_s, lambdas)?;
+        Ok(begun.filter(|pair| pair.is_mode(mode)))
+    }
+
+    /// Follows the pair to a speed. `None` where it is lost.
+    fn to(&self, speed: f64) -> Option<Self> {
+        Some(PairContinuation {
+            evaluator: self.evaluator,
+            pair: self.evaluator.moved(&self.pair, speed)?,
+            speed,
+        })
+    }
+
+    /// σ² and ω².
+    fn squares(&self) -> [f64; 2] {
+        self.pair.squares(self.speed)
+    }
+
+    /// Growth rate and frequency while coalesced, in 1/s and rad/s.
+    pub fn growth_and_frequency(&self) -> Option<(f64, f64)> {
+        let [growth, frequency] = self.squares();
+        (growth > 0.0 && frequency >= 0.0).then(|| (growth.sqrt(), frequency.sqrt()))
+    }
+
+    /// Whether a quadruple is this pair: a pair may be taken for its neighbours on the way.
+    fn is_mode(&self, mode: &SignedMode) -> bool {
+        self.growth_and_frequency()
+            .is_some_and(|(growth, frequency)| {
+                let off = (growth - mode.lambda.re).hypot(frequency - mode.lambda.im);
+                off <= LIKENESS * mode.lambda.re
+            })
+    }
+
+    /// First derivatives of σ² and ω² and the second of σ², by central differences.
+    fn derivatives(&self, relative_difference: f64) -> ([f64; 2], f64) {
+        let h = relative_difference * self.speed;
+        let at = |d: f64| self.pair.squares(self.speed + d);
+        let (before, here, after) = (at(-h), at(0.0), at(h));
+        let slopes = [0, 1].map(|k| (after[k] - before[k]) / (2.0 * h));
+        let bend = (before[0] - 2.0 * here[0] + after[0]) / (h * h);
+        (slopes, bend)
+    }
+
+    /// The speed next to which σ² or ω² is zero, on the way to `end`.
+    fn root(&self, end: f64) -> Option<Edge> {
+        let (slopes, _) = self.derivatives(NEWTON_DIFFERENCE);
+        let direction = (end - self.speed).signum();
+        let squares = self.squares();
+        let of = |k: usize, coalescence| {
+            // Past its root Newton's method comes back.
+            let falls = slopes[k] * direction < 0.0;
+            let speed_rad_per_s = self.speed - squares[k] / slopes[k];
+            let left = speed_rad_per_s - self.speed;
+            let at_root = [0, 1].map(|k| squares[k] + slopes[k] * left);
+            falls.then_some(Edge {
+                speed_rad_per_s,
+                coalescence,
+                frequency_rad_per_s: at_root[1].max(0.0).sqrt(),
+                growth_square: at_root[0].max(0.0),
+                growth_square_slope: slopes[0],
+            })
+        };
+        let edges = [of(0, Coalescence::Waves), of(1, Coalescence::Real)];
+        let away = |edge: &Edge| (edge.speed_rad_per_s - self.speed) * direction;
+        let edges = edges.into_iter().flatten();
+        edges.min_by(|x, y| away(x).total_cmp(&away(y)))
+    }
+
+    /// Where the quadruple ends on the way from here to `end`, a speed at which it is not any
+    /// more. `None` where it is lost on the way.
+    pub fn edge(mut self, end: f64) -> Option<Edge> {
+        let (start, direction) = (self.speed, (end - self.speed).signum());
+        // The last speed known inside, and the first known outside.
+        let (mut inside, mut outside) = (start, end);
+        for _ in 0..MAX_STEPS {
+            let found = self.root(end);
+            let distance = |edge: &Edge| (edge.speed_rad_per_s - self.speed).abs();
+            if let Some(edge) = found.filter(|e| distance(e) <= NEWTON_TOLERANCE * self.speed) {
+                let from_start = (edge.speed_rad_per_s - start) * direction;
+                let to_end = (end - edge.speed_rad_per_s) * direction;
+                return (from_start >= 0.0 && to_end >= 0.0).then_some(edge);
+            }
+            let share = match found.map(|edge| edge.coalescence) {
+                Some(Coalescence::Real) => SHORT_OF_REAL,
+                _ => 1.0,
+            };
+            let guess = found.map(|e| self.speed + share * (e.speed_rad_per_s - self.speed));
+            let between = |guess: &f64| {
+                (guess - inside) * direction > 0.0 && (outside - guess) * direction > 0.0
+            };
+            let next = guess.filter(between).unwrap_or(0.5 * (inside + outside));
+            self = self.to(next)?;
+            let [growth, frequency] = self.squares();
+            if growth > 0.0 && frequency > 0.0 {
+                inside = next;
+            } else {
+                outside = next;
+            }
+        }
+        None
+    }
+
+    /// The speed of largest σ² between the ends, and its curvature there: the zero of its
+    /// slope by the secant method, for a pair's own curvature lacks what it becomes elsewhere.
+    fn vertex(mut self, ends: (f64, f64)) -> Option<(Self, f64)> {
+        let ([mut slope, _], mut bend) = self.derivatives(VERTEX_DIFFERENCE);
+        for _ in 0..MAX_NEWTON {
+            let step = -slope / bend;
+            if bend >= 0.0 || !(ends.0..=ends.1).contains(&(self.speed + step)) {
+                return None;
+            }
+            self = self.to(self.speed + step)?;
+            if step.abs() <= VERTEX_TOLERANCE * self.speed {
+                return Some((self, bend));
+            }
+            let ([next, _], _) = self.derivatives(VERTEX_DIFFERENCE);
+            (slope, bend) = (next, (next - slope) / step);
+        }
+        None
+    }
+}
+
+/// What the two waves do whose crossing is expected at a speed and a frequency, between two
+/// speeds at which they stand in opposite order. `None` where they cannot be followed.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn passage(
+    evaluator: &SignatureEvaluator<'_>,
+    ends: (f64, f64),
+    (speed, waves): (f64, [&SignedMode; 2]),
+    floor_per_s: f64,
+) -> Result<Option<Passage>, SpectrumError> {
+    let lambdas = waves.map(|wave| wave.lambda);
+    let Some(pair) = PairContinuation::begin(evaluator, speed, lambdas)? else {
+        return Ok(None);
+    };
+    let Some((vertex, bend)) = pair.vertex(ends) else {
+        return Ok(None);
+    };
+    let [largest, frequency] = vertex.squares();
+    if largest <= floor_per_s.powi(2) {
+        // Two waves of one sign avoid each other: σ² stays below zero.
+        return Ok((largest >= -floor_per_s.powi(2)).then_some(Passage::Crossing));
+    }
+    let shown = evaluator.at(vertex.speed)?;
+    if !shown.quadruples.iter().any(|mode| vertex.is_mode(mode)) {
+        return Ok(None);
+    }
+    let half = (-2.0 * largest / bend).sqrt();
+    let edge = |outer: f64, end: f64| {
+        // A little outside the parabola's root: the pair is followed from inside.
+        let reach = vertex.speed + 2.0 * (outer - vertex.speed);
+        let end = if (end - vertex.speed).abs() < (reach - vertex.speed).abs() {
+            end
+        } else {
+            reach
+        };
+        vertex
+            .to(vertex.speed + 0.5 * (outer - vertex.speed))?
+            .edge(end)
+    };
+    let from = edge(vertex.speed - half, ends.0);
+    let to = edge(vertex.speed + half, ends.1);
+    Ok(from.zip(to).map(|(from, to)| {
+        Passage::Band(NarrowBand {
+            from_rad_per_s: from.speed_rad_per_s,
+            to_rad_per_s: to.speed_rad_per_s,
+            peak_rad_per_s: vertex.speed,
+            growth_per_s: largest.sqrt(),
+            frequency_rad_per_s: frequency.max(0.0).sqrt(),
+        })
+    }))
+}
