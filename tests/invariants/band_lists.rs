@@ -49,7 +49,7 @@ impl Draw {
 
 pub fn drawn_saw(index: u64) -> SceneFile {
     let mut draw = Draw(index.wrapping_mul(0x2545_f491_4f6c_dd1d));
-    let mut file = Scene::paper().file;
+    let mut file = Scene::paper().file().clone();
     (file.sweep, file.measured, file.operating_rpm) = (None, None, None);
     (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
     file.accuracy = Accuracy::Draft;
@@ -210,6 +210,73 @@ fn list(file: &SceneFile) -> String {
         )
     });
     lines.collect::<Vec<_>>().join("\n")
+}
+
+fn pad(radius_m: f64, angle_deg: f64, side_m: f64, stiffness_n_per_m: f64) -> GuideFile {
+    GuideFile {
+        radius_m,
+        angle_deg,
+        radial_length_m: side_m,
+        tangential_length_m: side_m,
+        stiffness_n_per_m,
+        damping_n_s_per_m: 0.0,
+    }
+}
+
+/// The 400 mm blade between collars, on guides.
+fn collar_saw(guides: Vec<GuideFile>) -> SceneFile {
+    let mut file = crate::common::scene("collar-400mm").file().clone();
+    file.accuracy = Accuracy::Draft;
+    file.guides = guides;
+    file
+}
+
+fn read(name: &str) -> SceneFile {
+    let path = crate::common::path(&format!("tests/reference/{name}.json"));
+    let mut file = Scene::from_path(path).unwrap().file().clone();
+    file.accuracy = Accuracy::Draft;
+    file
+}
+
+#[track_caller]
+fn assert_right(file: &SceneFile) {
+    let wrong = wrong_bands(file);
+    assert!(wrong.is_empty(), "{wrong:#?}\n{}", list(file));
+}
+
+/// Its quadruples change their order in frequency while they last.
+#[test]
+fn bands_of_a_collar_blade_on_a_small_pad_end_where_its_eigenvalues_do() {
+    assert_right(&read("band_trial_1"));
+}
+
+/// A quadruple of it ends on the real axis, at 3100.3 rpm, and goes on as two real λ.
+#[test]
+fn flutter_that_ends_as_two_real_eigenvalues_ends_there() {
+    assert_right(&read("band_trial_2"));
+}
+
+#[test]
+fn flutter_past_the_second_pair_of_critical_speeds_is_found_on_two_equal_pads() {
+    assert_right(&collar_saw(
+        [0.0, 180.0]
+            .map(|angle| pad(0.17, angle, 0.03, 1e5))
+            .to_vec(),
+    ));
+}
+
+/// Flutter of 1 Hz is not divergence.
+#[test]
+fn slow_flutter_is_not_called_divergence() {
+    assert_right(&collar_saw(vec![pad(0.19, 0.0, 0.0, 2e5)]));
+}
+
+#[test]
+fn weak_pads_on_a_loose_blade_leave_no_contradiction() {
+    let mut file = Scene::paper().file().clone();
+    (file.sweep, file.accuracy) = (None, Accuracy::Draft);
+    file.guides[0].stiffness_n_per_m = 100.0;
+    assert_right(&file);
 }
 
 #[test]
