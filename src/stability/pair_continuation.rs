@@ -26,8 +26,10 @@ const MAX_NEWTON: usize = 8;
 /// Share of the way to the coalescence of two real λ that one step goes: beyond it the pair has
 /// no complex states to be followed by.
 const SHORT_OF_REAL: f64 = 0.999;
-/// Share of a growth rate by which the coarse models of the search may be off.
-const LIKENESS: f64 = 0.025;
+/// Share of σ² and, of the speed, the shift of an edge by which the coarser models between the
+/// anchors of the search may be off.
+const LIKENESS: f64 = 0.05;
+pub const VICINITY: f64 = 3e-5;
 
 /// How a quadruple begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,11 +137,14 @@ impl<'a> PairContinuation<'a> {
 
     /// Whether a quadruple is this pair: a pair may be taken for its neighbours on the way.
     fn is_mode(&self, mode: &SignedMode) -> bool {
-        self.growth_and_frequency()
-            .is_some_and(|(growth, frequency)| {
-                let off = (growth - mode.lambda.re).hypot(frequency - mode.lambda.im);
-                off <= LIKENESS * mode.lambda.re
-            })
+        let [growth, frequency] = self.squares();
+        let (sigma, omega) = (mode.lambda.re, mode.lambda.im);
+        let shift = VICINITY * self.speed;
+        let off = |square: f64, part: f64, slope: f64| {
+            let allowed = LIKENESS * sigma * sigma.max(part) + 2.0 * part * slope.abs() * shift;
+            (square - part * part).abs() <= allowed
+        };
+        off(growth, sigma, mode.slope.re) && off(frequency, omega, mode.slope.im)
     }
 
     /// First derivatives of σ² and ω² and the second of σ², by central differences.
@@ -181,14 +186,16 @@ impl<'a> PairContinuation<'a> {
     /// more. `None` where it is lost on the way.
     pub fn edge(mut self, end: f64) -> Option<Edge> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
-        // The last speed known inside, and the first known outside.
-        let (mut inside, mut outside) = (start, end);
+        // The last speed known inside, and the first known outside. Where the edge is next to
+        // an end, a coarser model may have seen it on the other side.
+        let margin = direction * VICINITY * self.speed;
+        let (mut inside, mut outside) = (start - margin, end + margin);
         for _ in 0..MAX_STEPS {
             let found = self.root(end);
             let distance = |edge: &Edge| (edge.speed_rad_per_s - self.speed).abs();
             if let Some(edge) = found.filter(|e| distance(e) <= NEWTON_TOLERANCE * self.speed) {
-                let from_start = (edge.speed_rad_per_s - start) * direction;
-                let to_end = (end - edge.speed_rad_per_s) * direction;
+                let from_start = (edge.speed_rad_per_s - start + margin) * direction;
+                let to_end = (end + margin - edge.speed_rad_per_s) * direction;
                 return (from_start >= 0.0 && to_end >= 0.0).then_some(edge);
             }
             let share = match found.map(|edge| edge.coalescence) {

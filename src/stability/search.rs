@@ -9,7 +9,9 @@ use rayon::prelude::*;
 
 use super::evaluator::SignatureEvaluator;
 use super::matching::{Matching, matched};
-use super::pair_continuation::{Coalescence, Edge, NarrowBand, PairContinuation, Passage, passage};
+use super::pair_continuation::{
+    Coalescence, Edge, NarrowBand, PairContinuation, Passage, VICINITY, passage,
+};
 use super::signature::{
     Change, Sign, Signature, SignedMode, between_crossings, change, crossing, may_touch,
 };
@@ -22,8 +24,10 @@ const LEAST_WIDTH: f64 = 1e-9;
 const CROSSING_WIDTH: f64 = 1e-5;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
-/// Share of an interval that is left on each side of a coalescence when the rest is searched.
+/// Share of an interval, and at least so much of the speed, that is left on each side of a
+/// coalescence when the rest is searched.
 const BESIDE_EDGE: f64 = 0.02;
+const LEAST_BESIDE: f64 = 2.0 * VICINITY;
 
 /// What happens between two neighbouring speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +136,11 @@ impl Search<'_> {
                     Some(share) if depth % 4 != 3 => share,
                     _ => 0.5,
                 };
-                let middle = self.evaluator.at(x + share * (y - x))?;
+                let middle = x + share * (y - x);
+                let middle = match y - x <= EXACT_WIDTH * y {
+                    true => self.evaluator.exactly_at(middle)?,
+                    false => self.evaluator.at(middle)?,
+                };
                 self.between(a, &middle, depth + 1, path)?;
                 self.between(&middle, b, depth + 1, path)
             }
@@ -147,11 +155,13 @@ impl Search<'_> {
         depth: usize,
         path: &mut Path,
     ) -> Result<(), SpectrumError> {
-        let beside = BESIDE_EDGE * (b.speed_rad_per_s - a.speed_rad_per_s);
+        let width = b.speed_rad_per_s - a.speed_rad_per_s;
+        let beside = (BESIDE_EDGE * width).max(LEAST_BESIDE * edge.speed_rad_per_s);
         let speeds = [-beside, beside].map(|away| edge.speed_rad_per_s + away);
         let mut ends = vec![a.clone()];
         for speed in speeds {
-            if a.speed_rad_per_s < speed && speed < b.speed_rad_per_s {
+            let inner = [a, b].map(|end| (end.speed_rad_per_s - speed).abs() > beside);
+            if inner == [true; 2] && (a.speed_rad_per_s..b.speed_rad_per_s).contains(&speed) {
                 ends.push(self.evaluator.at(speed)?);
             }
         }
@@ -265,6 +275,9 @@ impl Search<'_> {
     }
 }
 
+/// Relative width from which the coarser models between the anchors may show an edge on the
+/// wrong side of a speed.
+const EXACT_WIDTH: f64 = 4.0 * VICINITY;
 /// Depth from which an interval about a coalescence is not parted any more.
 const EDGE_DEPTH: usize = 1000;
 
