@@ -187,6 +187,7 @@ mod tests {
             lambda: c64::new(re, im),
             kind: ModeKind::Damped,
             frequency_slope: 0.0,
+            growth_slope: c64::new(0.0, 0.0),
             action: 1,
             part: 0,
             coordinates: Col::from_fn(4, |i| c64::new(f64::from(u8::from(i == place)), 0.0)),

@@ -67,6 +67,7 @@ pub fn empty_report(name: &str) -> Report {
             speeds_checked: 0,
             krein_violations: 0,
             violating_rpm: Vec::new(),
+            mismatches: Vec::new(),
             max_backward_error: 0.0,
         },
         campbell: CampbellEntry {

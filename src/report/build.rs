@@ -9,13 +9,15 @@ use super::branches::{Numbered, standing};
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry,
-    RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
+    InstabilityEntry, MembraneEntry, MismatchEntry, OperatingEntry, Report, RestMode,
+    RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, StabilityState};
+use crate::stability::{
+    Analysis, Instability, Mismatch, OPERATING_LIMIT, Sensitivity, StabilityState,
+};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -86,6 +88,7 @@ impl Report {
                 speeds_checked: certificate.speeds_checked,
                 krein_violations: certificate.violations.len(),
                 violating_rpm: certificate.violations.iter().map(|s| rpm(*s)).collect(),
+                mismatches: certificate.mismatches.iter().map(mismatch).collect(),
                 max_backward_error: errors.fold(0.0, f64::max),
             },
             campbell: CampbellEntry {
@@ -318,5 +321,16 @@ fn work(counters: &WorkCounters) -> WorkEntry {
         reduced_solves: count(&counters.reduced_solves),
         local_solves: count(&counters.local_solves),
         refined_pairs: count(&counters.refined_pairs),
+    }
+}
+
+fn mismatch(mismatch: &Mismatch) -> MismatchEntry {
+    MismatchEntry {
+        rpm: rpm(mismatch.speed_rad_per_s),
+        kind: mismatch.kind,
+        unstable_modes: mismatch.unstable_modes,
+        bands: mismatch.bands,
+        growth_per_s: mismatch.growth_per_s,
+        peak_per_s: mismatch.peak_per_s,
     }
 }

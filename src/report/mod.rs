@@ -283,8 +283,45 @@ pub struct CertificateEntry {
     pub krein_violations: usize,
     /// These speeds.
     pub violating_rpm: Vec<f64>,
+    /// Where the list of bands contradicts the eigenvalues that the search or the chart found;
+    /// expected none.
+    pub mismatches: Vec<MismatchEntry>,
     /// Largest backward error of any mode shown.
     pub max_backward_error: f64,
+}
+
+impl CertificateEntry {
+    /// The speeds of everything that does not agree, ascending.
+    pub fn disagreeing_rpm(&self) -> Vec<f64> {
+        let mismatches = self.mismatches.iter().map(|mismatch| mismatch.rpm);
+        let mut speeds: Vec<f64> = self
+            .violating_rpm
+            .iter()
+            .copied()
+            .chain(mismatches)
+            .collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        speeds
+    }
+}
+
+/// A speed at which the list of bands contradicts the eigenvalues found there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MismatchEntry {
+    /// The speed.
+    pub rpm: f64,
+    /// Kind of the modes and bands compared.
+    pub kind: InstabilityKind,
+    /// Unstable modes of that kind found there; for divergence 1 or 0.
+    pub unstable_modes: usize,
+    /// Bands of that kind that cover the speed.
+    pub bands: usize,
+    /// Growth of the fastest of these modes.
+    pub growth_per_s: f64,
+    /// Largest growth that the bands list.
+    pub peak_per_s: f64,
 }
 
 /// The Campbell diagram.

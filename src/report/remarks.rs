@@ -63,6 +63,7 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
         out_of_balance(scene),
         rounded(analysis, at_rest),
         mismatched(certificate, analysis.model.is_conservative()),
+        contradicted(certificate),
         cut_short(certificate),
         left_free(analysis),
     ];
@@ -135,6 +136,16 @@ fn mismatched(certificate: &Certificate, is_undamped: bool) -> Option<String> {
         certificate.violations.len(),
         certificate.speeds_checked,
         rpm(*first)
+    ))
+}
+
+fn contradicted(certificate: &Certificate) -> Option<String> {
+    let first = certificate.mismatches.first()?;
+    Some(format!(
+        "the list of bands contradicts the eigenvalues found at {} speeds, first at {:.3} rpm: a \
+         band may be missing or wrong there",
+        certificate.mismatches.len(),
+        rpm(first.speed_rad_per_s)
     ))
 }
 

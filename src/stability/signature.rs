@@ -35,8 +35,8 @@ pub struct SignedMode {
 pub struct Signature {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// + and − modes by frequency, up to the first + mode above the last − mode: the others have
-    /// nothing to coalesce with.
+    /// Waves of both signs by frequency, up to the first + mode above the last − mode: the
+    /// others have nothing to coalesce with.
     pub waves: Vec<SignedMode>,
     /// Coalesced modes by frequency.
     pub quadruples: Vec<SignedMode>,

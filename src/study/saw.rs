@@ -104,7 +104,8 @@ impl Study {
             kept: criteria.iter().flatten().map(|c| c.passed).collect(),
             functions: onsets.functions,
             estimated_relative_error: onsets.estimated_relative_error,
-            krein_violations: onsets.certificate.violations.len(),
+            krein_violations: onsets.certificate.violations.len()
+                + onsets.certificate.mismatches.len(),
         })
     }
 }

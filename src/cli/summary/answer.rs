@@ -133,14 +133,14 @@ fn open_end(report: &Report, rpm: f64) -> &'static str {
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;
-    let found = match certificate.krein_violations {
-        0 => "no band missed".to_owned(),
-        1 => "1 speed at which a mode may be missing".to_owned(),
-        count => format!("{count} speeds at which a mode may be missing"),
+    let found = match certificate.disagreeing_rpm().len() {
+        0 => "modes and bands agree".to_owned(),
+        1 => "modes and bands disagree at 1 speed".to_owned(),
+        count => format!("modes and bands disagree at {count} speeds"),
     };
     writeln!(
         text,
-        "Certificate: {} at {} speeds compared; largest backward error {:.0e}",
+        "Certificate: {}, {} speeds compared; largest backward error {:.0e}",
         found, certificate.speeds_checked, certificate.max_backward_error
     )?;
     if let Some(error) = report.accuracy.estimated_relative_error {

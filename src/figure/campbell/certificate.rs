@@ -32,27 +32,30 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
 
 fn violation(report: &Report) -> Option<String> {
     let certificate = &report.certificate;
-    let speeds = match certificate.krein_violations {
+    let disagreeing = certificate.disagreeing_rpm();
+    let speeds = match disagreeing.len() {
         0 => return None,
         1 => "1 speed".to_owned(),
         many => format!("{many} speeds"),
     };
-    let at = match certificate.violating_rpm[..] {
+    let at = match disagreeing[..] {
         [] => String::new(),
         [only] => format!(", {only:.0} rpm"),
         [first, .., last] => format!(", {first:.0} to {last:.0} rpm"),
     };
-    Some(match is_damped(report) {
-        true => format!("growing modes and bands do not match at {speeds}{at}"),
-        false => format!("Krein index does not match at {speeds}{at}"),
-    })
+    Some(
+        match is_damped(report) || !certificate.mismatches.is_empty() {
+            true => format!("growing modes and bands do not match at {speeds}{at}"),
+            false => format!("Krein index does not match at {speeds}{at}"),
+        },
+    )
 }
 
 fn facts(report: &Report) -> Vec<String> {
     let (certificate, accuracy) = (&report.certificate, &report.accuracy);
     let mut facts = Vec::new();
     let checked = certificate.speeds_checked;
-    if checked > 0 && certificate.krein_violations == 0 {
+    if checked > 0 && certificate.disagreeing_rpm().is_empty() {
         facts.push(match is_damped(report) {
             true => format!("growing modes match the bands at {checked} of {checked} speeds"),
             false => format!("Krein index matches at {checked} of {checked} speeds"),

@@ -104,6 +104,7 @@ fn bands(
     let certificate = Certificate {
         speeds_checked: spectra.len(),
         violations: mismatches(&solver, &spectra, &instabilities),
+        mismatches: Vec::new(),
         gave_up: solver.is_exhausted(),
     };
     Ok((instabilities, certificate))
