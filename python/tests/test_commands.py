@@ -93,7 +93,9 @@ def test_fit_finds_the_guide_of_the_paper(tmp_path: Path) -> None:
     again = saw.fit(rows, to_rpm=1250, starts=3)
     assert again.rms_hz == found.rms_hz
     path = tmp_path / "measured.csv"
-    path.write_text("rpm,a,b,c,d\n" + "\n".join(f"{r},{','.join(map(str, f))}" for r, f in rows))
+    path.write_text(
+        "rpm,f1_hz,f2_hz,f3_hz,f4_hz\n" + "\n".join(f"{r},{','.join(map(str, f))}" for r, f in rows)
+    )
     assert saw.fit(path, to_rpm=1250, starts=3).rms_hz == found.rms_hz
 
 
@@ -119,7 +121,7 @@ def test_what_cannot_be_fitted_is_refused(draft: sf.Scene, tmp_path: Path) -> No
     with pytest.raises(FileNotFoundError):
         draft.fit("no-such-table.csv")
     table = tmp_path / "measured.csv"
-    table.write_text("rpm,a,b\n100,20,30\n200,21,thirty\n")
+    table.write_text("rpm,f1_hz,f2_hz\n100,20,30\n200,21,thirty\n")
     with pytest.raises(sf.InputError, match="line 3"):
         draft.fit(table)
 
