@@ -59,6 +59,9 @@ const INSIDE: f64 = 20.0;
 const TOP: f64 = 0.02;
 /// Frequencies below this share of the height are those of real λ.
 const STOPPED: f64 = 1e-9;
+/// Weight of growth that has turned into decay, of damped modes: of two that have met the shapes
+/// are conjugate and the frequencies equal, and growth alone tells them apart.
+const REGROWN: f64 = 0.2;
 /// Cost of two modes that nothing can turn into each other.
 const NEVER: f64 = 1e3;
 
@@ -116,6 +119,7 @@ struct Carrier<'a> {
     shape: &'a Col<c64>,
     conjugated: bool,
     damped: bool,
+    growth: f64,
 }
 
 impl<'a> Carrier<'a> {
@@ -129,6 +133,7 @@ impl<'a> Carrier<'a> {
             shape,
             conjugated,
             damped: mode.kind == ModeKind::Damped,
+            growth: mode.lambda.re,
         }
     }
 
@@ -161,9 +166,19 @@ impl<'a> Carrier<'a> {
         let moved = other.frequency - self.frequency;
         // Next to a merging the slope of a frequency has no bound, and one end says more.
         let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
-        let off = slopes.map(|slope| (moved - slope * step).abs());
-        let off = off.into_iter().fold(f64::INFINITY, f64::min) / height;
-        (1.0 - likeness + OFF * off, likeness)
+        // Of two damped modes that have met the slope, which is that without damping, says nothing.
+        let level = self.damped.then_some(0.0);
+        let off = slopes
+            .into_iter()
+            .chain(level)
+            .map(|slope| (moved - slope * step).abs());
+        let off = off.fold(f64::INFINITY, f64::min) / height;
+        let size = (self.growth.abs() + other.growth.abs()).max(f64::MIN_POSITIVE);
+        let regrown = match self.damped {
+            true => REGROWN * (self.growth - other.growth).abs() / size,
+            false => 0.0,
+        };
+        (1.0 - likeness + OFF * off + regrown, likeness)
     }
 
     /// |xᴴy|², 1 for the same shape.

@@ -20,7 +20,7 @@ Examples:
   sawflutter analyze                                  the built-in saw
   sawflutter analyze my-saw.json --out my-saw         your own saw
   sawflutter analyze saws/*.json --out saws-out       a folder each, and a table
-  make-scene | sawflutter analyze -                   a scene from another program
+  make-scene | sawflutter analyze -                   a scene from a program
   sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
   sawflutter analyze --at-rpm 1800                    the modes of one speed
   sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";

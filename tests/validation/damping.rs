@@ -251,3 +251,34 @@ fn growth_of_a_damped_band_is_drawn_as_it_is() {
         }
     }
 }
+
+/// Within the stretch in which a band counts one branch of the chart has its growth at every
+/// speed: the growing and the decaying one of two modes that have met are not taken for each
+/// other.
+#[test]
+fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
+    let analysis = Analysis::new(&damped_pad(), &|_, _| ()).unwrap();
+    let campbell = &analysis.chart.campbell;
+    let mut followed = 0;
+    for band in &analysis.chart.instabilities {
+        for (from, to) in band.counted(0.25) {
+            let follows = |branch: &sawflutter::campbell::Branch| {
+                let mut inside = branch.points.iter().filter_map(|&point| {
+                    let speed = campbell.samples[point.0].speed_rad_per_s;
+                    let growth = campbell.mode(point).mode.lambda.re;
+                    let is_inside = from * (1.0 + 1e-6) < speed && speed < to * (1.0 - 1e-6);
+                    is_inside.then(|| (growth, band.growth_at(speed).unwrap()))
+                });
+                let first = inside.next();
+                let close = |(found, expected): (f64, f64)| {
+                    (found - expected).abs() <= 0.02 * expected.abs() + 1e-3
+                };
+                first.is_some_and(close) && inside.all(close)
+            };
+            let found = campbell.branches.iter().any(follows);
+            assert!(found, "{} to {} rpm", rpm(from), rpm(to));
+            followed += 1;
+        }
+    }
+    assert!(followed >= 6, "{followed}");
+}
