@@ -61,6 +61,8 @@ pub fn empty_report(name: &str) -> Report {
             tolerance: 1e-2,
             reached: true,
             estimated_relative_error: None,
+            estimated_resting_error: None,
+            estimated_drawn_error: None,
         },
         work: WorkEntry::default(),
         certificate: CertificateEntry {
@@ -133,6 +135,8 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         branches: Vec::new(),
         modes: Vec::new(),
         counted_rpm: vec![[from, to]],
+        estimated_relative_error: None,
+        estimated_relative_growth_error: None,
     }
 }
 
@@ -150,6 +154,7 @@ pub fn busy_report() -> Report {
         name: String::new(),
         nodal_diameters: 2 + i / 2,
         nodal_circles: 0,
+        estimated_relative_error: None,
     };
     let ends = stand.flat_map(|band| [band.from_rpm, band.to_rpm]);
     report.critical_speeds = ends.enumerate().map(critical).collect();

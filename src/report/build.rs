@@ -46,26 +46,9 @@ impl Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
             terms: terms(&model.plate),
-            modes_at_rest: (at_rest.iter().enumerate())
-                .map(|(i, mode)| {
-                    let branch = branches.of_mode_at_rest(i);
-                    let name = branch.map(|number| branches.name(number));
-                    RestMode {
-                        branch,
-                        name: name.unwrap_or_else(|| mode.name.in_shares()),
-                        ..rest_mode(analysis, mode)
-                    }
-                })
-                .collect(),
+            modes_at_rest: rest_modes(analysis, &at_rest, &branches),
             critical_speeds: critical_speeds(analysis, &branches),
-            instabilities: analysis
-                .chart
-                .instabilities
-                .iter()
-                .map(|band| {
-                    InstabilityEntry::in_chart(band, &branches, scene.flutter_threshold_per_s())
-                })
-                .collect(),
+            instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
             flutter_speed_rpm: analysis.flutter_speed.map(rpm),
             first_merge_rpm: analysis.first_merge.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
@@ -82,6 +65,8 @@ impl Report {
                 tolerance: scene.tolerance(),
                 reached: reached(scene, analysis),
                 estimated_relative_error: analysis.estimated_relative_error,
+                estimated_resting_error: analysis.estimates.as_ref().map(|e| e.at_rest),
+                estimated_drawn_error: analysis.estimates.as_ref().map(|e| e.drawn),
             },
             work: work(&model.counters),
             certificate: CertificateEntry {
@@ -143,6 +128,52 @@ impl From<&Sensitivity> for SensitivityEntry {
     }
 }
 
+/// The modes at rest, each with its branch and its estimated error.
+fn rest_modes(
+    analysis: &Analysis,
+    at_rest: &[DescribedMode],
+    branches: &Numbered<'_>,
+) -> Vec<RestMode> {
+    let errors = match &analysis.estimates {
+        Some(estimates) => estimates.frequencies(&analysis.model, 0.0, at_rest),
+        None => vec![None; at_rest.len()],
+    };
+    let modes = at_rest.iter().zip(errors).enumerate();
+    modes
+        .map(|(i, (mode, truncation))| {
+            let branch = branches.of_mode_at_rest(i);
+            let name = branch.map(|number| branches.name(number));
+            let rounding = analysis.model.relative_rounding(&mode.mode);
+            RestMode {
+                branch,
+                name: name.unwrap_or_else(|| mode.name.in_shares()),
+                estimated_relative_error: truncation.map(|error| error + rounding),
+                ..rest_mode(analysis, mode)
+            }
+        })
+        .collect()
+}
+
+/// The bands, each with its branches and its estimated errors.
+fn instabilities(
+    analysis: &Analysis,
+    branches: &Numbered<'_>,
+    threshold_per_s: f64,
+) -> Vec<InstabilityEntry> {
+    let bands = analysis.chart.instabilities.iter().enumerate();
+    let errors = |k: usize| analysis.estimates.as_ref()?.bands.get(k).copied();
+    bands
+        .map(|(k, band)| {
+            let error = errors(k).unwrap_or_default();
+            InstabilityEntry {
+                estimated_relative_error: error.speed,
+                estimated_relative_growth_error: error.growth,
+                ..InstabilityEntry::in_chart(band, branches, threshold_per_s)
+            }
+        })
+        .collect()
+}
+
 fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
     let name = &described.name;
     let plate = &analysis.model.plate;
@@ -154,6 +185,7 @@ fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
         branch: None,
         damping_ratio: described.mode.damping_ratio(),
         logarithmic_decrement: described.mode.logarithmic_decrement(),
+        estimated_relative_error: None,
         backward_error: described.backward_error,
         harmonics: name
             .harmonics
@@ -220,8 +252,9 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
 
 /// Critical speeds up to the end of the sweep; the double ones of a free blade once.
 fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<CriticalSpeedEntry> {
+    let estimates = analysis.estimates.as_ref();
     let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
-    for critical in &analysis.model.critical {
+    for (index, critical) in analysis.model.critical.iter().enumerate() {
         if critical.speed_rad_per_s > analysis.range.1 {
             break;
         }
@@ -239,6 +272,7 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
                 name: branch.map_or_else(|| standing(critical), |number| branches.name(number)),
                 nodal_diameters: critical.diameters,
                 nodal_circles: critical.circles,
+                estimated_relative_error: estimates.and_then(|e| e.critical.get(index).copied()),
             });
         }
     }
@@ -260,6 +294,8 @@ impl InstabilityEntry {
             branches: Vec::new(),
             modes: Vec::new(),
             counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+            estimated_relative_error: None,
+            estimated_relative_growth_error: None,
         }
     }
 }

@@ -101,6 +101,9 @@ pub struct RestMode {
     pub damping_ratio: Option<f64>,
     /// −2π Re λ/|Im λ| of a damped scene.
     pub logarithmic_decrement: Option<f64>,
+    /// Estimated relative error of the frequency.
+    #[serde(default)]
+    pub estimated_relative_error: Option<f64>,
     /// ‖L(λ)q‖ relative to the size of its terms.
     pub backward_error: f64,
     /// Share of each harmonic in the kinetic energy, largest first.
@@ -147,6 +150,9 @@ pub struct CriticalSpeedEntry {
     pub nodal_diameters: usize,
     /// Nodal circles of that harmonic.
     pub nodal_circles: usize,
+    /// Estimated relative error of the speed.
+    #[serde(default)]
+    pub estimated_relative_error: Option<f64>,
 }
 
 /// A band of unstable speeds.
@@ -175,6 +181,13 @@ pub struct InstabilityEntry {
     /// whole; flutter of an undamped blade as a whole when its largest growth reaches the
     /// threshold, of a damped one where its growth does.
     pub counted_rpm: Vec<[f64; 2]>,
+    /// Estimated relative error of the onset.
+    #[serde(default)]
+    pub estimated_relative_error: Option<f64>,
+    /// Estimated relative error of the largest growth rate, a small difference of large numbers:
+    /// it may exceed the tolerance.
+    #[serde(default)]
+    pub estimated_relative_growth_error: Option<f64>,
 }
 
 /// The operating speed against the lowest critical speed.
@@ -250,12 +263,18 @@ pub struct AccuracyEntry {
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Relative error allowed of critical speeds and onsets.
+    /// Relative error allowed of critical speeds, onsets and the lowest frequencies at rest.
     pub tolerance: f64,
     /// Whether the estimate is within the tolerance: the largest basis may fall short of it.
     pub reached: bool,
     /// Estimated relative error of the critical speeds, extrapolated from coarser bases.
     pub estimated_relative_error: Option<f64>,
+    /// Estimated relative error of the lowest frequencies at rest, measured on a larger basis.
+    #[serde(default)]
+    pub estimated_resting_error: Option<f64>,
+    /// The same of the frequencies that are drawn, each relative to what it is seen from the blade.
+    #[serde(default)]
+    pub estimated_drawn_error: Option<f64>,
 }
 
 /// Eigenproblems solved, largest first.

@@ -47,10 +47,15 @@ pub fn terms(plate: &Plate) -> Vec<String> {
     terms
 }
 
+/// Largest estimated error of what the tolerance is promised for.
+fn promised_error(analysis: &Analysis) -> Option<f64> {
+    let at_rest = analysis.estimates.as_ref().map_or(0.0, |e| e.at_rest);
+    Some(analysis.estimated_relative_error?.max(at_rest))
+}
+
 /// Whether the estimated error is within the tolerance asked for.
 pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
-    let error = analysis.estimated_relative_error;
-    error.is_some_and(|error| error <= scene.tolerance())
+    promised_error(analysis).is_some_and(|error| error <= scene.tolerance())
 }
 
 /// Limits of the model that this scene comes near to.
@@ -75,7 +80,7 @@ pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
-    let error = analysis.estimated_relative_error?;
+    let error = promised_error(analysis)?;
     (!reached(scene, analysis)).then(|| {
         format!(
             "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",

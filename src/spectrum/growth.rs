@@ -88,7 +88,7 @@ fn certified(
         return Ok(None);
     };
     let negative = values.iter().filter(|value| **value < 0.0).count();
-    let vectors: Vec<Col<f64>> = lowest_eigenpairs(full, speed_rad_per_s, LOOKED_AT, scale)
+    let vectors: Vec<Col<f64>> = lowest_eigenpairs(full, speed_rad_per_s, LOOKED_AT, scale)?
         .into_iter()
         .flat_map(|(_, q)| {
             let (re, im) = split(&q);

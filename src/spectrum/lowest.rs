@@ -44,7 +44,7 @@ impl LowestModes {
             let mut pairs = Vec::new();
             if system.order() > SMALL {
                 let shift = 0.5 * self.scale_rad_per_s;
-                pairs = lowest_eigenpairs(system, speed, count + MORE, shift);
+                pairs = lowest_eigenpairs(system, speed, count + MORE, shift)?;
             }
             if pairs.len() < count {
                 pairs = companion_eigenpairs(system, speed)?;

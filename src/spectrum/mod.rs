@@ -1,11 +1,13 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
+mod at_rest;
 mod buckling;
 mod deflation;
 mod dense;
 pub mod derivative;
-mod free_reduction;
+mod free_wave;
 mod growth;
+mod larger_basis;
 mod low;
 mod lowest;
 mod mode;
@@ -20,9 +22,11 @@ mod shift_invert;
 mod state;
 mod stop;
 
+pub(crate) use at_rest::modes_at_rest;
 pub use buckling::{AddedStress, SingularStress, first_singular};
 pub use dense::{companion_eigenpairs, time_scale};
 pub use growth::{fastest_growing, fastest_growing_of};
+pub use larger_basis::LargerBasis;
 pub use low::{LowModel, LowModes};
 pub use lowest::LowestModes;
 pub use mode::{Mode, ModeKind, split};

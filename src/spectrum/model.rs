@@ -6,7 +6,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use faer::{Col, c64};
+use faer::{Col, Mat, c64};
 
 use crate::plate::Plate;
 
@@ -16,9 +16,8 @@ use super::low::LowModel;
 use super::mode::{Mode, ModeKind, classify};
 use super::name::ModeName;
 use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
-use super::projection::{Projection, pairs_of};
-use super::{SpectrumError, Stop, companion_eigenpairs};
-use super::{free_reduction, reduction};
+use super::projection::pairs_of;
+use super::{SpectrumError, Stop, companion_eigenpairs, free_wave, reduction};
 
 /// How the modes of a speed are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -74,6 +73,8 @@ pub struct SpectralModel {
     pub complete_to_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
+    /// Whether each part is a harmonic of an undamped free blade, a symmetric problem.
+    has_free_waves: bool,
 }
 
 /// At rest the two waves of equal n are degenerate. This share of the blade's
@@ -123,15 +124,14 @@ impl SpectralModel {
         let mut complete_to_rad_per_s = f64::INFINITY;
         if strategy != Strategy::Dense {
             let scale = frequency_scale(&plate);
-            for (index, part) in parts.iter_mut().enumerate() {
-                let bands_alone = match strategy == Strategy::Bands && !plate.is_axisymmetric() {
+            // Harmonics that nothing couples are small enough to be solved whole.
+            let coupled = parts.iter_mut().filter(|_| !plate.is_axisymmetric());
+            for part in coupled {
+                let bands_alone = match strategy == Strategy::Bands {
                     true => reduction::for_bands(&part.full, range, scale, &critical, &counters)?,
                     false => None,
                 };
-                if plate.is_axisymmetric() {
-                    let basis = free_reduction::of_harmonic(&plate, index, range);
-                    part.chart = vec![Projection::new(&part.full, basis, range.1)];
-                } else if let Some((low, height)) = bands_alone {
+                if let Some((low, height)) = bands_alone {
                     part.chart = vec![low.clone()];
                     part.low = Some((low, height));
                     complete_to_rad_per_s = height;
@@ -144,7 +144,9 @@ impl SpectralModel {
                 }
             }
         }
+        let conservative = parts.iter().all(|part| part.full.is_conservative());
         let mut model = SpectralModel {
+            has_free_waves: strategy != Strategy::Dense && plate.is_axisymmetric() && conservative,
             plate,
             parts,
             critical,
@@ -244,11 +246,23 @@ impl SpectralModel {
     }
 
     /// What rounding may change a frequency at rest by, relative to it: a backward stable
-    /// solver changes ω² by ε times the largest one.
+    /// solver changes ω² by ε times the largest one. The inverse that gives the waves of a free
+    /// blade keeps low ones accurate to their own size; there the numbers of the matrix are
+    /// rounded, each by ε of itself.
     pub fn relative_rounding(&self, mode: &Mode) -> f64 {
-        let system = &self.parts[mode.part].at(0.0).reduced;
+        let stiffness = &self.parts[mode.part].at(0.0).reduced.stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
-        0.5 * f64::EPSILON * system.stiffness.norm_l2() / square
+        let size = match self.has_free_waves {
+            true => {
+                let q = &mode.coordinates;
+                let sizes = Col::from_fn(q.nrows(), |i| q[i].norm());
+                let entries = stiffness.nrows();
+                let absolute = Mat::from_fn(entries, entries, |i, k| f64::abs(stiffness[(i, k)]));
+                sizes.transpose() * absolute * &sizes
+            }
+            false => stiffness.norm_l2(),
+        };
+        0.5 * f64::EPSILON * size / square
     }
 
     fn solve(
@@ -263,7 +277,10 @@ impl SpectralModel {
             self.counters.stop.check()?;
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
             let system = &part.at(speed_rad_per_s).reduced;
-            let mut pairs = companion_eigenpairs(system, speed)?;
+            let mut pairs = match self.has_free_waves {
+                true => free_wave::eigenpairs(&self.plate, index, system, speed)?,
+                false => companion_eigenpairs(system, speed)?,
+            };
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
             modes.extend(classify(system, speed, index, pairs));
         }

@@ -26,7 +26,8 @@ pub struct CriticalSpeed {
 /// stiffening them makes A definite and moves nothing else.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
+/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
+/// [`SpectrumError::NoConvergence`].
 pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
     let softening = Scale(-1.0) * system.standing_spin();
     let found = singular_multiples(&system.stiffness, &system.free_rigid, &softening)?;
@@ -41,7 +42,8 @@ pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, 
 /// symmetric A and B. A is positive definite but for the motions `free`, on which both vanish.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness.
+/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
+/// [`SpectrumError::NoConvergence`].
 pub fn singular_multiples(
     stiffness: &Mat<f64>,
     free: &[Col<f64>],
@@ -61,7 +63,8 @@ pub fn singular_multiples(
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let mut whitened = whitened.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
-    let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower).map_err(|_| unstable())?;
+    let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower)
+        .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
     let noise = 1e-14 * whitened.norm_l2();
     let mut multiples: Vec<(f64, Col<f64>)> = (0..order)
         .map(|i| (eigen.S()[i], i))

@@ -8,11 +8,13 @@
 //! critical speed. The iteration is not restarted: the few dozen vectors fit, and the
 //! Schur forms that restarts need cost more than the steps they save.
 
-use faer::linalg::solvers::{DenseSolveCore, Eigen};
+use faer::linalg::solvers::{DenseSolveCore, Eigen, EvdError};
 use faer::{Col, ColRef, Mat, Scale, c64};
 
+use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
+use super::SpectrumError;
 use super::dense::{Eigenpair, by_magnitude, unit};
 use super::mode::{rigid_noise, split};
 
@@ -90,6 +92,8 @@ impl ShiftedInverse {
     }
 }
 
+/// Share of a vector that is left beside the span of the others, below which it is rounding.
+const BREAKDOWN: f64 = 1e-14;
 /// Relative residual at which a Krylov vector is good enough to span a mode.
 const TOLERANCE: f64 = 1e-10;
 /// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
@@ -103,12 +107,15 @@ const STEPS_EACH: usize = 12;
 
 /// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,
 /// ordered by |λ|. Fewer come back when the iteration stalls.
+///
+/// # Errors
+/// [`SpectrumError::NoConvergence`].
 pub fn lowest_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     count: usize,
     shift_per_s: f64,
-) -> Vec<Eigenpair> {
+) -> Result<Vec<Eigenpair>, SpectrumError> {
     let operator = ShiftedInverse::new(system, speed_rad_per_s, shift_per_s);
     let order = operator.order();
     let wanted = (2 * count).min(order);
@@ -116,12 +123,17 @@ pub fn lowest_eigenpairs(
     let mut krylov = Krylov::new(order, most);
     let mut steps = (wanted + STEPS_BEYOND).min(most);
     loop {
-        let finished = krylov.extend(&operator, steps) < steps || steps == most;
+        krylov.extend(&operator, steps);
+        let finished = krylov.exhausted || steps == most;
         let found = krylov.eigenpairs(wanted, shift_per_s, finished);
-        if let Some(mut pairs) = found {
+        let found = found.map_err(|_| SpectrumError::NoConvergence {
+            order,
+            rpm: rpm(speed_rad_per_s),
+        });
+        if let Some(mut pairs) = found? {
             // Free rigid motions are known exactly; these are their rounded doubles.
             pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
-            return pairs;
+            return Ok(pairs);
         }
         steps = (steps + MORE_STEPS.max(steps / 8)).min(most);
     }
@@ -132,6 +144,8 @@ struct Krylov {
     vectors: Mat<f64>,
     hessenberg: Mat<f64>,
     steps: usize,
+    /// Whether the vectors span an invariant subspace: there is no next direction.
+    exhausted: bool,
 }
 
 impl Krylov {
@@ -147,12 +161,13 @@ impl Krylov {
             vectors,
             hessenberg: Mat::zeros(most + 1, most),
             steps: 0,
+            exhausted: false,
         }
     }
 
     /// Goes on to a number of steps; fewer where the space is exhausted.
-    fn extend(&mut self, operator: &ShiftedInverse, steps: usize) -> usize {
-        while self.steps < steps {
+    fn extend(&mut self, operator: &ShiftedInverse, steps: usize) {
+        while self.steps < steps && !self.exhausted {
             let k = self.steps;
             let mut next = operator.apply(&self.vectors.col(k).to_owned());
             let size = next.norm_l2();
@@ -166,26 +181,34 @@ impl Krylov {
                 }
             }
             let rest = next.norm_l2();
-            if rest <= 1e-14 * size || !rest.is_finite() {
-                break;
+            // What the operator makes of the last vector lies in the span: its column of the
+            // Hessenberg matrix is complete, and belongs to the invariant subspace.
+            self.exhausted = rest.is_nan() || rest <= BREAKDOWN * size;
+            if !self.exhausted {
+                self.hessenberg[(k + 1, k)] = rest;
+                self.vectors
+                    .col_mut(k + 1)
+                    .copy_from(Scale(1.0 / rest) * next);
             }
-            self.hessenberg[(k + 1, k)] = rest;
-            self.vectors
-                .col_mut(k + 1)
-                .copy_from(Scale(1.0 / rest) * next);
             self.steps += 1;
         }
-        self.steps
     }
 
     /// The eigenvalues nearest to the shift, if all of the wanted ones, or as many as
     /// there are in the end, have converged.
-    fn eigenpairs(&self, wanted: usize, shift: f64, finished: bool) -> Option<Vec<Eigenpair>> {
+    fn eigenpairs(
+        &self,
+        wanted: usize,
+        shift: f64,
+        finished: bool,
+    ) -> Result<Option<Vec<Eigenpair>>, EvdError> {
         let m = self.steps;
         let half = self.vectors.nrows() / 2;
         let square = self.hessenberg.get(..m, ..m).to_owned();
-        let Ok(eigen) = Eigen::new_from_real(square.as_ref()) else {
-            return finished.then(Vec::new);
+        let eigen = match Eigen::new_from_real(square.as_ref()) {
+            Ok(eigen) => eigen,
+            Err(_) if !finished => return Ok(None),
+            Err(error) => return Err(error),
         };
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&i, &k| eigen.S()[k].norm().total_cmp(&eigen.S()[i].norm()));
@@ -203,7 +226,7 @@ impl Krylov {
         let all = order.len();
         order.retain(converged);
         if order.len() < all && !finished {
-            return None;
+            return Ok(None);
         }
         let deflections = self.vectors.get(..half, ..m);
         let pairs = order
@@ -217,7 +240,7 @@ impl Krylov {
             })
             .filter(|(lambda, _)| lambda.im >= 0.0 && lambda.is_finite())
             .collect();
-        Some(by_magnitude(pairs))
+        Ok(Some(by_magnitude(pairs)))
     }
 }
 
@@ -237,7 +260,7 @@ mod tests {
         let system = GyroscopicSystem::of_plate(&Plate::new(&Scene::paper(), resolution));
         for speed in [0.0, 1000.0, 2300.0] {
             let dense = companion_eigenpairs(&system, rad_per_s(speed)).unwrap();
-            let few = lowest_eigenpairs(&system, rad_per_s(speed), 10, 100.0);
+            let few = lowest_eigenpairs(&system, rad_per_s(speed), 10, 100.0).unwrap();
             assert!(few.len() >= 9);
             for (found, exact) in few.iter().zip(&dense).take(9) {
                 let distance = (found.0 - exact.0).norm() / exact.0.norm();
@@ -264,11 +287,38 @@ mod tests {
         let dense = companion_eigenpairs(&system, 1.0).unwrap();
         let spread = dense[13].0.norm() / dense[0].0.norm();
         assert!(spread < 1.1, "no cluster: {spread}");
-        let few = lowest_eigenpairs(&system, 1.0, 14, 1.0);
+        let few = lowest_eigenpairs(&system, 1.0, 14, 1.0).unwrap();
         assert!(few.len() >= 14);
         for (found, exact) in few.iter().zip(&dense).take(14) {
             let distance = (found.0 - exact.0).norm() / exact.0.norm();
             assert!(distance < 1e-9, "{} {}", found.0, exact.0);
+        }
+    }
+
+    /// Uncoupled oscillators of which many are alike: the iteration from one vector sees one of
+    /// each kind and then has no next direction. With the last vector of the subspace dropped,
+    /// the frequencies of all kinds would be wrong.
+    #[test]
+    fn on_breakdown_the_last_direction_counts() {
+        let order = 12;
+        let kinds = [1.0, 2.0, 3.0];
+        let zero = || Mat::<f64>::zeros(order, order);
+        let system = GyroscopicSystem {
+            stiffness: Mat::from_fn(order, order, |i, k| match i == k {
+                true => f64::powi(kinds[i % 3], 2),
+                false => 0.0,
+            }),
+            spin: zero(),
+            gyroscopic: zero(),
+            damping: None,
+            circulatory: None,
+            free_rigid: Vec::new(),
+            drift: None,
+        };
+        let found = lowest_eigenpairs(&system, 0.0, 12, 1.0).unwrap();
+        assert_eq!(found.len(), kinds.len());
+        for ((lambda, _), exact) in found.iter().zip(kinds) {
+            assert!((lambda - c64::new(0.0, exact)).norm() < 1e-10, "{lambda}");
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::band::{Instability, InstabilityKind};
 use super::bands::{StabilityChart, chart, drawn};
 use super::basis::ChosenBasis;
+use super::estimate::Estimates;
 use super::loci::RootLoci;
 use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
@@ -51,6 +52,8 @@ pub struct Analysis {
     /// Estimated relative error of the critical speeds within the range, extrapolated from
     /// coarser bases.
     pub estimated_relative_error: Option<f64>,
+    /// Estimated errors of single numbers.
+    pub estimates: Option<Estimates>,
 }
 
 impl Analysis {
@@ -77,14 +80,16 @@ impl Analysis {
             critical,
             range,
             estimated_relative_error,
+            estimated_resting_error,
+            larger,
         } = ChosenBasis::stoppable(scene, scene.tolerance(), stop)?;
-        let estimated_relative_error = Some(estimated_relative_error);
         let model = SpectralModel::stoppable(plate, critical, range, Strategy::Reduced, stop)?;
         let chart = match (model.plate.is_axisymmetric(), detail) {
             (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
             (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, detail, progress)?,
         };
+        let estimates = Estimates::new(&model, range, &chart, larger, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
         let loci = model.is_conservative() && detail == Detail::Full;
@@ -96,7 +101,8 @@ impl Analysis {
             None => None,
         };
         Ok(Analysis {
-            estimated_relative_error,
+            estimated_relative_error: Some(estimated_relative_error),
+            estimates: Some(estimates),
             model,
             range,
             chart,

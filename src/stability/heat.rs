@@ -94,7 +94,7 @@ impl HeatLimits {
         let buckles_first = buckling.is_some_and(before);
         // At speed the rotation still holds flat what has buckled at rest.
         let operating = operating.filter(|_| !buckles_first);
-        let curves = heating.curves(operating, buckling);
+        let curves = heating.curves(operating, buckling)?;
         Ok(Some(HeatLimits {
             operating,
             past_critical,
@@ -183,16 +183,20 @@ impl<'a> Heating<'a> {
         }
     }
 
-    fn curves(&self, operating: Option<HeatLimit>, buckling: Option<HeatLimit>) -> Vec<HeatCurve> {
+    fn curves(
+        &self,
+        operating: Option<HeatLimit>,
+        buckling: Option<HeatLimit>,
+    ) -> Result<Vec<HeatCurve>, SpectrumError> {
         let rises = self.rises(operating, buckling);
-        let speeds: Vec<Vec<Named>> = rises
+        let speeds: Result<Vec<Vec<Named>>, SpectrumError> = rises
             .par_iter()
             .map(|rise_k| self.lowest_critical(*rise_k))
             .collect();
         // Of a free blade a wave keeps its name; of a guided one its place.
         let free = self.model.plate.is_axisymmetric();
         let mut curves: Vec<HeatCurve> = Vec::new();
-        for (rise_k, found) in rises.iter().zip(speeds) {
+        for (rise_k, found) in rises.iter().zip(speeds?) {
             for (place, wave) in found.into_iter().enumerate() {
                 let named = |curve: &HeatCurve| curve.diameters == wave.diameters;
                 let index = match free {
@@ -214,12 +218,12 @@ impl<'a> Heating<'a> {
                 curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);
             }
         }
-        curves
+        Ok(curves)
     }
 
     /// The lowest critical speeds at a peak, one of each number of diameters of a free blade;
     /// none where the blade has buckled.
-    fn lowest_critical(&self, rise_k: f64) -> Vec<Named> {
+    fn lowest_critical(&self, rise_k: f64) -> Result<Vec<Named>, SpectrumError> {
         let plate = &self.model.plate;
         let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();
         let mut lowest = Vec::new();
@@ -231,8 +235,10 @@ impl<'a> Heating<'a> {
             };
             let mut system = part.full.clone();
             system.stiffness += faer::Scale(rise_k - self.now_k) * spread(plate, range, &blocks);
-            let Ok(found) = critical_speeds(&system) else {
-                return Vec::new();
+            let found = match critical_speeds(&system) {
+                Ok(found) => found,
+                Err(SpectrumError::UnstableAtRest { .. }) => return Ok(Vec::new()),
+                Err(error) => return Err(error),
             };
             let kept = if free { 1 } else { CURVES };
             lowest.extend(found.into_iter().take(kept).map(|critical| {
@@ -247,7 +253,7 @@ impl<'a> Heating<'a> {
         }
         lowest.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         lowest.truncate(CURVES);
-        lowest
+        Ok(lowest)
     }
 }
 

@@ -40,6 +40,7 @@ impl Onsets {
             critical,
             range,
             estimated_relative_error,
+            ..
         } = ChosenBasis::new(scene, scene.tolerance())?;
         let lowest_critical = critical.first().map(|c| c.speed_rad_per_s);
         let functions = plate.degrees_of_freedom();

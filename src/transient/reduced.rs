@@ -46,7 +46,11 @@ impl ReducedBlade {
         } in snapshots
         {
             vectors.extend(system.free_rigid.iter().cloned());
-            for (_, q) in lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) {
+            // Without the modes to span the motions of the blade all its functions are kept.
+            let Ok(lowest) = lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) else {
+                return Self::whole(plate);
+            };
+            for (_, q) in lowest {
                 let (re, im) = split(&q);
                 vectors.extend([re, im]);
             }

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod estimates;
 mod orders;
 mod tolerance;
 mod work;

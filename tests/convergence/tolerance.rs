@@ -11,14 +11,14 @@ use sawflutter::scene::{GuideFile, Scene};
 use sawflutter::spectrum::SpectralModel;
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind};
 
-const TRUTH: Resolution = Resolution {
+pub const TRUTH: Resolution = Resolution {
     max_diameters: 42,
     radial_functions: 14,
 };
 
-struct Saw {
-    what: String,
-    scene: Scene,
+pub struct Saw {
+    pub what: String,
+    pub scene: Scene,
 }
 
 fn saws() -> Vec<Saw> {
@@ -57,7 +57,7 @@ fn saws() -> Vec<Saw> {
 /// Saws with every quantity spread evenly over its range, by the fractions of multiples of
 /// irrational numbers. The first fifteen had a part in choosing the margin of the estimate, the
 /// others had none.
-fn other_saws() -> Vec<Saw> {
+pub fn other_saws() -> Vec<Saw> {
     let saw = |k: usize| {
         let spread = |prime: f64, low: f64, high: f64| {
             low + (high - low) * ((k + 1) as f64 * prime.sqrt()).fract()

@@ -91,6 +91,7 @@ fn an_undamped_unloaded_saw_keeps_its_energy() {
 /// The lowest modes of a system at a speed, as a basis.
 fn low_modes(system: &GyroscopicSystem, speed: f64) -> Mat<f64> {
     let vectors: Vec<Col<f64>> = lowest_eigenpairs(system, speed, 6, 300.0)
+        .unwrap()
         .into_iter()
         .flat_map(|(_, q)| {
             let (re, im) = split(&q);

@@ -72,5 +72,6 @@ pub fn dense_analysis(
         flutter_threshold_per_s: 0.25,
         root_loci: None,
         estimated_relative_error: None,
+        estimates: None,
     }
 }

@@ -26,6 +26,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
         name: String::new(),
         nodal_diameters: 2,
         nodal_circles: 0,
+        estimated_relative_error: None,
     };
     crowded.critical_speeds.extend(extra.map(entry));
     let copies = crowded.campbell.branches.clone();

@@ -56,8 +56,10 @@ impl Builder<'_> {
 
     fn draws_well(&self, piece: &Projection, model: &StateModel, speed: f64) -> bool {
         self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
-        let pairs = model.eigenpairs(speed).unwrap_or_default();
-        let error = self.frequency_error(piece, speed, self.window, &pairs);
-        error <= LOCAL_TOLERANCE * self.window
+        // What these states cannot draw, the piece itself does.
+        model.eigenpairs(speed).is_ok_and(|pairs| {
+            let error = self.frequency_error(piece, speed, self.window, &pairs);
+            error <= LOCAL_TOLERANCE * self.window
+        })
     }
 }

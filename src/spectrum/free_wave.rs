@@ -1,0 +1,122 @@
+//! The waves of one harmonic of an undamped blade that nothing holds in space.
+//!
+//! Seen from the blade it is a symmetric problem, (K_b + K_m + Ω²K_σ) x = ω_b² x, of the radial
+//! functions alone. In space a forward wave has ω = ω_b + nΩ and q = (x, −ix) in (cos, sin), a
+//! backward one ω = ω_b − nΩ and q = (x, ix); past its critical speed, where nΩ > ω_b, it is
+//! reflected: ω = nΩ − ω_b and q = (x, −ix).
+
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Col, Mat, Side, c64};
+
+use super::SpectrumError;
+use super::dense::{Eigenpair, by_magnitude, unit};
+use crate::plate::Plate;
+use crate::scene::rpm;
+use crate::system::{GyroscopicSystem, body_frame_stiffness};
+
+/// Every eigenpair with Im λ ≥ 0 of n nodal diameters, ‖q‖ = 1, ordered by |λ|; of each rigid
+/// motion that nothing holds one with λ = 0 exactly. `system` is that of the harmonic.
+///
+/// # Errors
+/// [`SpectrumError::NoConvergence`].
+pub fn eigenpairs(
+    plate: &Plate,
+    n: usize,
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    let radial = plate.basis.count();
+    // The rigid motion is decoupled to the last bit.
+    let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);
+    let stiffness = body_frame_stiffness(&plate.harmonics[n], speed_rad_per_s);
+    let elastic = stiffness.get(rigid.., rigid..).to_owned();
+    let drift = n as f64 * speed_rad_per_s;
+    let mut pairs = Vec::new();
+    let mut add = |frequency: f64, sine: c64, shape: &Col<f64>| {
+        let q = Col::from_fn(system.order(), |i| match i.checked_sub(radial) {
+            Some(i) => sine * shape[i],
+            None => c64::new(shape[i], 0.0),
+        });
+        pairs.push((c64::new(0.0, frequency), unit(q.as_ref())));
+    };
+    let (forward, backward) = (c64::new(0.0, -1.0), c64::new(0.0, 1.0));
+    for (frequency, mode) in symmetric_modes(elastic, speed_rad_per_s)? {
+        let shape = Col::from_fn(radial, |i| if i < rigid { 0.0 } else { mode[i - rigid] });
+        add(frequency + drift, forward, &shape);
+        match frequency >= drift {
+            _ if n == 0 => {}
+            true => add(frequency - drift, backward, &shape),
+            false => add(drift - frequency, forward, &shape),
+        }
+    }
+    if rigid == 1 && n == 1 {
+        // The tilt stays in space, which is a free motion below, or turns twice a turn.
+        let tilt = Col::from_fn(radial, |i| f64::from(u8::from(i == 0)));
+        add(2.0 * speed_rad_per_s, forward, &tilt);
+    }
+    let still = c64::new(0.0, 0.0);
+    let free = system.free_rigid.iter();
+    pairs.extend(free.map(|z| (still, Col::from_fn(z.nrows(), |i| c64::new(z[i], 0.0)))));
+    Ok(by_magnitude(pairs))
+}
+
+/// √(eigenvalue) and eigenvector of a positive definite matrix, from its inverse: the low ones
+/// are accurate to their own size, where the rounding of a direct solver is relative to the
+/// largest.
+fn symmetric_modes(
+    matrix: Mat<f64>,
+    speed_rad_per_s: f64,
+) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
+    let order = matrix.nrows();
+    let failed = || SpectrumError::NoConvergence {
+        order,
+        rpm: rpm(speed_rad_per_s),
+    };
+    let flexibility = matrix.llt(Side::Lower).map_err(|_| failed())?.inverse();
+    let eigen = flexibility.self_adjoint_eigen(Side::Lower);
+    let eigen = eigen.map_err(|_| failed())?;
+    let frequency = |k: usize| eigen.S()[k].sqrt().recip();
+    let modes = (0..order).map(|k| (frequency(k), eigen.U().col(k).to_owned()));
+    Ok(modes
+        .filter(|(frequency, _)| frequency.is_finite())
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::Resolution;
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::companion_eigenpairs;
+    use crate::spectrum::mode::real_times;
+
+    /// L(λ)q = 0 to the size of its terms, and the same eigenvalues as the quadratic problem of
+    /// the space-fixed frame, before and past critical speeds.
+    #[test]
+    fn they_solve_the_quadratic_problem() {
+        let scene = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
+        let resolution = Resolution {
+            max_diameters: 4,
+            radial_functions: 6,
+        };
+        let plate = Plate::new(&scene, resolution);
+        for n in 0..=4 {
+            let system = GyroscopicSystem::of_harmonic(&plate, n);
+            for speed in [0.01, 1000.0, 2600.0].map(rad_per_s) {
+                let pairs = eigenpairs(&plate, n, &system, speed).unwrap();
+                let dense = companion_eigenpairs(&system, speed).unwrap();
+                assert_eq!(pairs.len(), dense.len(), "{n} {speed}");
+                let size = system.stiffness.norm_l2();
+                for ((lambda, q), (exact, _)) in pairs.iter().zip(&dense) {
+                    let momentum = real_times(&system.velocity_at(speed), q);
+                    let force = real_times(&system.stiffness_at(speed), q);
+                    let residual = Col::<c64>::from_fn(q.nrows(), |i| {
+                        lambda * (lambda * q[i] + momentum[i]) + force[i]
+                    });
+                    assert!(residual.norm_l2() < 1e-12 * size, "{n} {speed} {lambda}");
+                    assert!((lambda - exact).norm() < 1e-6 * (1.0 + exact.norm()));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! What the functions that a basis lacks would change: its error, measured.
+//!
+//! On a larger basis L(λ) has the block L_cc that was solved, L_nn of the new functions and L_nc
+//! between them. A mode q leaves the residual L_nc q there, and what the larger basis takes off
+//! qᵀLq is (L_nc q)ᵀ S⁻¹ (L_nc q), S = L_nn − L_nc L_cc⁻¹ L_cn: the old functions give way too.
+//! Mass and gyroscopic matrix couple no two functions of different index, so L_nc = K_nc(Ω); in S
+//! the stiffness at rest stands for L, for it is ruled by functions of high frequency.
+
+use faer::linalg::solvers::Llt;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Col, Mat, Par, Scale, Side, c64};
+
+use super::SpectrumError;
+use super::at_rest::RestingMode;
+use super::mode::{Mode, ModeKind, real_times};
+use super::model::DescribedMode;
+use super::part::{NamedCriticalSpeed, Part};
+use crate::plate::Plate;
+use crate::system::GyroscopicSystem;
+
+/// A larger basis that contains the one of a plate.
+#[derive(Debug)]
+pub struct LargerBasis {
+    /// Of each part of the plate.
+    added: Vec<AddedFunctions>,
+}
+
+/// Functions that a part lacks.
+#[derive(Debug)]
+struct AddedFunctions {
+    /// K₀ between them and those of the part.
+    stiffness: Mat<f64>,
+    /// K_σ − N between them.
+    spin: Mat<f64>,
+    /// Of S = K_nn − K_nc K_cc⁻¹ K_cn.
+    factor: Llt<f64>,
+}
+
+impl LargerBasis {
+    /// The functions that `larger` has beyond those of `plate`, the same saw on fewer.
+    ///
+    /// # Errors
+    /// [`SpectrumError::UnstableAtRest`] when the blade is unstable on the larger basis.
+    pub fn new(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
+        let added = match plate.is_axisymmetric() {
+            true => (0..=plate.max_diameters())
+                .map(|n| {
+                    let system = GyroscopicSystem::of_harmonic(larger, n);
+                    AddedFunctions::new(&system, &kept(plate, larger, n..=n))
+                })
+                .collect::<Result<_, _>>()?,
+            false => {
+                let system = GyroscopicSystem::of_plate(larger);
+                let kept = kept(plate, larger, 0..=plate.max_diameters());
+                vec![AddedFunctions::new(&system, &kept)?]
+            }
+        };
+        Ok(LargerBasis { added })
+    }
+
+    /// Relative error of a frequency at rest.
+    pub fn resting_error(&self, mode: &RestingMode) -> f64 {
+        let shape = column(&mode.shape);
+        let softening = self.added[mode.part].softening(0.0, &shape)[(0, 0)];
+        0.5 * softening / mode.frequency_rad_per_s.powi(2)
+    }
+
+    /// Relative error of a critical speed Ω, xᵀK₀x = Ω² xᵀ(N − K_σ)x.
+    pub fn critical_error(&self, parts: &[Part], critical: &NamedCriticalSpeed) -> f64 {
+        let shape = column(&critical.shape);
+        let speed = critical.speed_rad_per_s;
+        let softening = self.added[critical.part].softening(speed, &shape)[(0, 0)];
+        let x = &critical.shape;
+        let stiffness = x.transpose() * &parts[critical.part].full.stiffness * x;
+        0.5 * softening / stiffness
+    }
+
+    /// Errors of the frequencies of modes of one speed, each relative to what it is seen from the
+    /// blade, ‖λq + ΩGq‖/‖q‖; `None` of a mode that grows or does not oscillate. A wave of n
+    /// diameters has ω_b = ω ± nΩ there, and a softening of its stiffness by s ω_b² lowers both
+    /// frequencies by sω_b/2.
+    pub fn frequency_errors(
+        &self,
+        parts: &[Part],
+        speed_rad_per_s: f64,
+        modes: &[DescribedMode],
+    ) -> Vec<Option<f64>> {
+        let mut errors = vec![None; modes.len()];
+        for (index, part) in parts.iter().enumerate() {
+            let own = |k: &usize| modes[*k].mode.part == index && oscillates(&modes[*k].mode);
+            let places: Vec<usize> = (0..modes.len()).filter(own).collect();
+            if places.is_empty() {
+                continue;
+            }
+            let shapes: Vec<Col<c64>> = places
+                .iter()
+                .map(|&k| part.coordinates(&modes[k].shape))
+                .collect();
+            let columns = Mat::from_fn(part.full.order(), 2 * shapes.len(), |i, k| {
+                let q = shapes[k / 2][i];
+                if k % 2 == 0 { q.re } else { q.im }
+            });
+            let force = self.added[index].whitened_force(speed_rad_per_s, &columns);
+            for (k, (&place, q)) in places.iter().zip(&shapes).enumerate() {
+                let softening = [2 * k, 2 * k + 1]
+                    .map(|column| force.col(column).squared_norm_l2())
+                    .iter()
+                    .sum::<f64>();
+                let turned =
+                    Scale(c64::new(speed_rad_per_s, 0.0)) * real_times(&part.full.gyroscopic, q);
+                let velocity = Scale(modes[place].mode.lambda) * q + turned;
+                errors[place] = Some(0.5 * softening / velocity.squared_norm_l2());
+            }
+        }
+        errors
+    }
+
+    /// What eliminating the functions takes off the stiffness of a part, projected on columns.
+    pub fn softening(&self, part: usize, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        self.added[part].softening(speed_rad_per_s, columns)
+    }
+}
+
+impl AddedFunctions {
+    fn new(larger: &GyroscopicSystem, kept: &[usize]) -> Result<Self, SpectrumError> {
+        let order = larger.order();
+        let unstable = |_| SpectrumError::UnstableAtRest { order };
+        let added: Vec<usize> = (0..order)
+            .filter(|i| kept.binary_search(i).is_err())
+            .collect();
+        let block = |matrix: &Mat<f64>, rows: &[usize], columns: &[usize]| {
+            Mat::from_fn(rows.len(), columns.len(), |i, k| {
+                matrix[(rows[i], columns[k])]
+            })
+        };
+        // Stiffening the free rigid motions, which have no part in the new functions, makes K_cc
+        // definite and changes nothing else.
+        let mut old = block(&larger.stiffness, kept, kept);
+        let mean = old.norm_l2() / (kept.len() as f64).sqrt();
+        for z in &larger.free_rigid {
+            let z = Col::from_fn(kept.len(), |i| z[kept[i]]);
+            old += Scale(mean) * &z * z.transpose();
+        }
+        let old = old.llt(Side::Lower).map_err(unstable)?;
+        let mut whitened = block(&larger.stiffness, kept, &added);
+        solve_lower_triangular_in_place(old.L(), whitened.as_mut(), Par::Seq);
+        let schur = block(&larger.stiffness, &added, &added) - whitened.transpose() * &whitened;
+        Ok(AddedFunctions {
+            stiffness: block(&larger.stiffness, &added, kept),
+            spin: block(&larger.spin, &added, kept),
+            factor: schur.llt(Side::Lower).map_err(unstable)?,
+        })
+    }
+
+    /// QᵀK_cn S⁻¹ K_nc Q.
+    fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        let force = self.whitened_force(speed_rad_per_s, columns);
+        force.transpose() * &force
+    }
+
+    /// L⁻¹K_nc Q, S = LLᵀ.
+    fn whitened_force(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        let mut force =
+            &self.stiffness * columns + Scale(speed_rad_per_s.powi(2)) * &self.spin * columns;
+        solve_lower_triangular_in_place(self.factor.L(), force.as_mut(), Par::Seq);
+        force
+    }
+}
+
+/// Whether a mode has a frequency that its functions determine smoothly.
+fn oscillates(mode: &Mode) -> bool {
+    match mode.kind {
+        ModeKind::Positive | ModeKind::Negative => true,
+        ModeKind::Damped => mode.lambda.im > mode.lambda.re.abs(),
+        _ => false,
+    }
+}
+
+fn column(x: &Col<f64>) -> Mat<f64> {
+    Mat::from_fn(x.nrows(), 1, |i, _| x[i])
+}
+
+/// Where the functions of some harmonics of a plate stand in a larger basis, ascending.
+fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
+    let (few, many) = (plate.basis.count(), larger.basis.count());
+    let first = larger.offset(*range.start());
+    range
+        .flat_map(|n| {
+            let cosine = larger.offset(n) - first;
+            let phases = if n == 0 { 1 } else { 2 };
+            (0..phases).flat_map(move |phase| (0..few).map(move |j| cosine + phase * many + j))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::Resolution;
+    use crate::scene::Scene;
+    use crate::spectrum::{SpectralModel, at_rest::modes_at_rest};
+
+    /// Against the differences of two bases that were both solved.
+    #[test]
+    fn it_tells_what_the_larger_basis_gives() {
+        let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
+        for scene in [Scene::paper(), free] {
+            let [plate, larger] = [(10, 6), (18, 10)].map(|(max_diameters, radial_functions)| {
+                let resolution = Resolution {
+                    max_diameters,
+                    radial_functions,
+                };
+                Plate::new(&scene, resolution)
+            });
+            let basis = LargerBasis::new(&plate, &larger).unwrap();
+            let [parts, finer] = [&plate, &larger].map(Part::of);
+            let [coarse, fine] = [&parts, &finer].map(|parts| modes_at_rest(parts, 10).unwrap());
+            for (coarse, fine) in coarse.iter().zip(&fine) {
+                let error = coarse.frequency_rad_per_s / fine.frequency_rad_per_s - 1.0;
+                let told = basis.resting_error(coarse);
+                assert!((told / error - 1.0).abs() < 0.1, "{told} {error}");
+            }
+            let [coarse, fine] =
+                [&plate, &larger].map(|plate| SpectralModel::critical_speeds(plate).unwrap());
+            for (coarse, fine) in coarse.iter().zip(&fine).take(6) {
+                let error = coarse.speed_rad_per_s / fine.speed_rad_per_s - 1.0;
+                let told = basis.critical_error(&parts, coarse);
+                assert!((told / error - 1.0).abs() < 0.2, "{told} {error}");
+            }
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Goal: every number that is listed or drawn has an estimated error, the true one is below it,
+//! and where the estimate is within the tolerance the promise is kept.
+//!
+//! The truth is Bessel roots for blades that nothing touches, else a basis of 1176 functions.
+
+use crate::common::{AnnulusRoot, Worst, table};
+use crate::tolerance::{Saw, TRUTH, other_saws};
+use sawflutter::plate::Plate;
+use sawflutter::report::Report;
+use sawflutter::scene::{Accuracy, InPlane, Mount, Scene, SweepFile};
+use sawflutter::spectrum::{LowestModes, Mode, SpectralModel};
+use sawflutter::stability::{Analysis, ChosenBasis, Instability, search_bands};
+
+/// A blade that no guide touches, at an accuracy.
+fn annulus(bc: &str, nu: f64, ratio: f64, accuracy: Accuracy) -> Scene {
+    let mut file = Scene::paper().file().clone();
+    file.guides.clear();
+    file.sweep = Some(SweepFile {
+        from_rpm: 0.0,
+        to_rpm: 1000.0,
+    });
+    (file.cut, file.runup, file.probe, file.measured) = (None, None, None, None);
+    (file.operating_rpm, file.tolerance) = (None, None);
+    file.accuracy = accuracy;
+    file.blade.inner_diameter_m = ratio * file.blade.outer_diameter_m;
+    file.blade.material.poisson_ratio = nu;
+    file.mount = match bc {
+        "FF" => Mount::Spline {},
+        _ => Mount::Collar {
+            diameter_m: file.blade.inner_diameter_m,
+            in_plane: InPlane::Free,
+        },
+    };
+    Scene::try_from(file).unwrap()
+}
+
+/// The roots were computed for ν = 0.3; a free blade of bore ratio 0.1 listed its mode of one
+/// diameter and one circle 1.1 % too high at `reference`, where 1e-4 is promised.
+#[test]
+fn every_mode_at_rest_that_is_listed_keeps_the_tolerance() {
+    let roots: Vec<AnnulusRoot> = table("annulus_exact.csv");
+    let mut errors = Worst::default();
+    for accuracy in [Accuracy::Draft, Accuracy::Design, Accuracy::Reference] {
+        let mut promises = Worst::default();
+        for bc in ["FF", "CF"] {
+            for ratio in [0.1, 0.3, 0.5, 0.7, 0.9] {
+                let scene = annulus(bc, 0.3, ratio, accuracy);
+                let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+                let report = Report::new(&scene, &analysis).unwrap();
+                let what = format!("{bc}, a/b = {ratio}, {accuracy:?}");
+                assert!(report.accuracy.reached, "{what}");
+                let blade = scene.blade();
+                let unit = (blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()).sqrt()
+                    / blade.outer_radius_m.powi(2);
+                for mode in &report.modes_at_rest {
+                    let (n, s) = (mode.nodal_diameters, mode.nodal_circles);
+                    // Rigid heave and tilt have no frequency: the first of n = 0 and 1 has a circle.
+                    let s = s - usize::from(bc == "FF" && n <= 1);
+                    let same =
+                        |r: &&AnnulusRoot| (r.bc.as_str(), r.ratio, r.n, r.s) == (bc, ratio, n, s);
+                    let Some(root) = roots.iter().find(same) else {
+                        continue;
+                    };
+                    let found = mode.frequency_hz * std::f64::consts::TAU / unit;
+                    let error = (found / root.lambda2 - 1.0).abs();
+                    let estimate = mode.estimated_relative_error.unwrap();
+                    errors.add(error / (estimate + ROUNDING), || {
+                        format!("{what}, {}", mode.name)
+                    });
+                    promises.add(error, || format!("{what}, {}", mode.name));
+                }
+            }
+        }
+        promises.assert_at_most(
+            &format!("modes at rest, {accuracy:?}"),
+            accuracy.tolerance(),
+        );
+        assert!(promises.count > 80);
+    }
+    errors.assert_at_most("true error over its estimate", 1.0);
+}
+
+/// What a saw's numbers are off by, over what is estimated.
+#[derive(Default)]
+struct Ratios {
+    at_rest: Worst,
+    drawn: Worst,
+    critical: Worst,
+    growth: Worst,
+    onsets: Worst,
+    promise: Worst,
+}
+
+/// The same saw on the basis of the truth.
+struct Truth {
+    lowest: LowestModes,
+    at_rest: Vec<Mode>,
+    critical: Vec<f64>,
+    bands: Vec<Instability>,
+}
+
+impl Truth {
+    fn new(scene: &Scene) -> Self {
+        let plate = Plate::new(scene, TRUTH);
+        let lowest = LowestModes::new(&plate);
+        let named = SpectralModel::critical_speeds(&plate).unwrap();
+        let critical = named.iter().map(|c| c.speed_rad_per_s).collect();
+        let range = ChosenBasis::new(scene, 1e-3).unwrap().range;
+        Truth {
+            at_rest: lowest.at(0.0, 30).unwrap(),
+            critical,
+            bands: search_bands(plate, named, range).unwrap().0,
+            lowest,
+        }
+    }
+
+    /// The band next to one that was found, by onset and frequency.
+    fn band(&self, found: &Instability, height: f64) -> Option<&Instability> {
+        let off = |b: &Instability| {
+            (b.from / found.from - 1.0).abs() + (b.frequency - found.frequency).abs() / height
+        };
+        let same = |b: &&Instability| b.kind == found.kind && b.closed == found.closed;
+        let near = self.bands.iter().filter(same).filter(|b| off(b) < 0.02);
+        near.min_by(|x, y| off(x).total_cmp(&off(y)))
+    }
+}
+
+fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
+    let scene = saw.scene.edited(|saw| saw.tolerance = Some(tolerance));
+    let scene = scene.unwrap();
+    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    let report = Report::new(&scene, &analysis).unwrap();
+    let estimates = analysis.estimates.as_ref().unwrap();
+    let what = |kind: String| format!("{}, {tolerance:e}, {kind}", saw.what);
+    for (found, truth) in report.modes_at_rest.iter().zip(&truth.at_rest) {
+        let exact = truth.frequency_rad_per_s() / std::f64::consts::TAU;
+        let error = (found.frequency_hz / exact - 1.0).abs();
+        let estimate = found.estimated_relative_error.unwrap();
+        let place = || what(format!("{exact:.2} Hz at rest"));
+        ratios.at_rest.add(error / (estimate + ROUNDING), place);
+        if report.accuracy.reached {
+            ratios.promise.add(error / tolerance, place);
+        }
+    }
+    let found = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+    for ((found, truth), estimate) in found.zip(&truth.critical).zip(&estimates.critical) {
+        let place = || what(format!("critical at {truth:.1} rad/s"));
+        let error = (found / truth - 1.0).abs();
+        ratios.critical.add(error / (estimate + ROUNDING), place);
+    }
+    drawn_at_the_top(&analysis, &truth.lowest, &what, ratios);
+    for (found, error) in analysis.chart.instabilities.iter().zip(&estimates.bands) {
+        let Some(truth) = truth.band(found, analysis.model.complete_to_rad_per_s) else {
+            continue;
+        };
+        let (growth, speed) = (error.growth.unwrap_or(f64::NAN), error.speed.unwrap());
+        let off = (found.peak_growth_per_s / truth.peak_growth_per_s - 1.0).abs();
+        let place = || {
+            what(format!(
+                "{:?} at {:.2} rad/s, {:.3} 1/s, off by {off:.1e}, estimated {growth:.1e}",
+                found.kind, found.from, found.peak_growth_per_s
+            ))
+        };
+        println!("{}", place());
+        ratios.growth.add(off / (growth + ROUNDING), place);
+        let error = (found.from / truth.from - 1.0).abs();
+        ratios.onsets.add(error / (speed + ROUNDING), place);
+    }
+}
+
+/// Solvers, of the truth too, are good to this.
+const ROUNDING: f64 = 1e-7;
+
+/// The frequencies at the end of the sweep, where most waves are reflected.
+fn drawn_at_the_top(
+    analysis: &Analysis,
+    lowest: &LowestModes,
+    what: &dyn Fn(String) -> String,
+    ratios: &mut Ratios,
+) {
+    let sample = analysis.chart.campbell.samples.last().unwrap();
+    let speed = sample.speed_rad_per_s;
+    let truth = lowest.at(speed, sample.modes.len() + 4).unwrap();
+    let estimates = analysis.estimates.as_ref().unwrap();
+    let errors = estimates.frequencies(&analysis.model, speed, &sample.modes);
+    let drawn = sample.modes.iter().zip(errors);
+    for (mode, estimate) in drawn.filter_map(|(mode, estimate)| Some((mode, estimate?))) {
+        let frequency = mode.mode.frequency_rad_per_s();
+        let same = |m: &&Mode| m.kind == mode.mode.kind;
+        let distances = truth.iter().filter(same);
+        let distance = distances.map(|m| (m.frequency_rad_per_s() - frequency).abs());
+        let error = distance.fold(f64::INFINITY, f64::min) / mode.name.body_frequency_rad_per_s;
+        let place = || what(format!("{frequency:.2} rad/s at the top"));
+        if error.is_finite() {
+            ratios.drawn.add(error / (estimate + 1e-5), place);
+        }
+    }
+}
+
+/// Draft and design, where the error is largest, on saws of which four had no part in choosing
+/// any margin.
+#[test]
+fn true_errors_are_below_their_estimates() {
+    let mut ratios = Ratios::default();
+    for saw in other_saws().iter().step_by(5) {
+        let truth = Truth::new(&saw.scene);
+        for tolerance in [1e-2, 1e-3] {
+            compare(saw, &truth, tolerance, &mut ratios);
+        }
+    }
+    for (what, worst) in [
+        ("at rest", &ratios.at_rest),
+        ("drawn", &ratios.drawn),
+        ("critical speeds", &ratios.critical),
+        ("onsets", &ratios.onsets),
+        ("growth", &ratios.growth),
+    ] {
+        println!(
+            "{what}: {} values, {:.2} at {}",
+            worst.count, worst.error, worst.place
+        );
+    }
+    ratios
+        .promise
+        .assert_at_most("true error over the tolerance", 1.0);
+}
