@@ -36,6 +36,9 @@ struct AddedFunctions {
     factor: Llt<f64>,
 }
 
+/// Least slope of a mode whose frequency is told, relative to its frequency seen from the blade.
+const LEAST_SLOPE: f64 = 0.3;
+
 impl LargerBasis {
     /// The functions that `larger` has beyond those of `plate`, the same saw on fewer.
     ///
@@ -76,9 +79,9 @@ impl LargerBasis {
     }
 
     /// Errors of the frequencies of modes of one speed, each relative to what it is seen from the
-    /// blade, ‖λq + ΩGq‖/‖q‖; `None` of a mode that grows or does not oscillate. A wave of n
-    /// diameters has ω_b = ω ± nΩ there, and a softening of its stiffness by s ω_b² lowers both
-    /// frequencies by sω_b/2.
+    /// blade, ‖λq + ΩGq‖/‖q‖. qᴴL(ω)q has the slope 2 (ω + Ωγ), qᴴGq = iγ. `None` of a mode that
+    /// grows, and of one that is about to merge with another or to stand still: there the slope
+    /// vanishes, and what is smooth is not the frequency but the speed at which it happens.
     pub fn frequency_errors(
         &self,
         parts: &[Part],
@@ -106,10 +109,16 @@ impl LargerBasis {
                     .map(|column| force.col(column).squared_norm_l2())
                     .iter()
                     .sum::<f64>();
+                let lambda = modes[place].mode.lambda;
                 let turned =
                     Scale(c64::new(speed_rad_per_s, 0.0)) * real_times(&part.full.gyroscopic, q);
-                let velocity = Scale(modes[place].mode.lambda) * q + turned;
-                errors[place] = Some(0.5 * softening / velocity.squared_norm_l2());
+                let on_blade = (Scale(lambda) * q + &turned).norm_l2();
+                // (ω + Ωγ)‖q‖, γ = −i qᴴGq/qᴴq.
+                let drift: c64 = q.adjoint() * &turned;
+                let slope = (lambda.im * q.norm_l2() + drift.im / q.norm_l2()).abs();
+                if slope > LEAST_SLOPE * on_blade {
+                    errors[place] = Some(0.5 * softening / (slope * on_blade));
+                }
             }
         }
         errors
