@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::figure;
-use crate::report::{CutReport, CutRunEntry, Verdict};
+use crate::report::{CutCriterion, CutReport, CutRunEntry, Verdict};
 use crate::scene::CutRun;
 use crate::transient::Cutting;
 use anyhow::bail;
@@ -11,7 +11,8 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::common::{Common, NamedFile, progress_bar, show};
-use super::summary::wrapped;
+use super::paste::cut_block;
+use super::summary::{WIDTH, shortened, wrapped};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -35,7 +36,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let Some(cut) = &scene.cut() else {
         bail!(
-            "cut is missing, but must say which forces act on the teeth; add it to the scene: `sawflutter schema` prints its keys"
+            "cut is missing, but must say which forces act on the teeth; paste this behind the first brace of the scene and put in the numbers of your wood{}",
+            cut_block(scene.file())
         );
     };
     let asked = arguments.rpm.iter().map(|rpm| cut.at_rpm(*rpm));
@@ -84,75 +86,107 @@ fn figures(report: &CutReport) -> Result<Vec<NamedFile>, figure::FigureError> {
 fn summary(report: &CutReport) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "{}", report.scene.name);
-    for run in &report.runs {
-        let _ = of_run(&mut text, run);
-    }
-    for warning in &report.warnings {
-        let _ = writeln!(text, "{}", wrapped(&format!("Note: {warning}")));
-    }
+    let _ = of_report(&mut text, report);
     text
 }
 
-fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
-    let word = |verdict: Verdict| match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "UNSTABLE",
+fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    for run in &report.runs {
+        writeln!(text, "{}", wrapped(&in_one_line(run)))?;
+    }
+    for run in &report.runs {
+        of_run(text, run)?;
+    }
+    if !report.warnings.is_empty() {
+        writeln!(text)?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
+    }
+    Ok(())
+}
+
+/// The verdict of a speed.
+fn in_one_line(run: &CutRunEntry) -> String {
+    let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
+    let Some(entry) = decisive.filter(|entry| entry.verdict == Verdict::Unstable) else {
+        return format!("{} rpm: stable", run.rpm);
     };
+    let frequency = match entry.frequency_hz {
+        Some(hz) if hz > 0.0 => format!(" at {hz:.2} Hz"),
+        Some(_) => " without oscillation".into(),
+        None => String::new(),
+    };
+    format!(
+        "{} rpm: UNSTABLE, growth of {:.3} 1/s{frequency} ({})",
+        run.rpm, entry.growth_per_s, entry.criterion
+    )
+}
+
+fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
     writeln!(
         text,
-        "\n{:.0} rpm, {} N against, {} N inwards, {} N across on each tooth: {}",
+        "\n{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across",
         run.rpm,
         run.tangential_n_per_tooth.round(),
         run.radial_n_per_tooth.round(),
-        run.lateral_n_per_tooth,
-        word(run.verdict)
+        run.lateral_n_per_tooth
     )?;
-    let hertz = |value: Option<f64>| value.map_or("-".into(), |hz| format!("{hz:.2} Hz"));
-    writeln!(
-        text,
-        "  eigenvalues   {:>9.3} 1/s {:>10}",
-        run.growth_per_s,
-        hertz(run.frequency_hz.filter(|_| run.growth_per_s > 0.0))
-    )?;
-    if let (Some(verdict), Some(growth)) = (run.transient_verdict, run.transient_growth_per_s) {
+    writeln!(text, "                              growth  frequency")?;
+    writeln!(text, "                               [1/s]       [Hz]")?;
+    for entry in &run.criteria {
+        let hertz = entry.frequency_hz;
         writeln!(
             text,
-            "  time history  {growth:>9.3} 1/s {:>10}  {}, {}",
-            hertz(run.transient_frequency_hz),
-            word(verdict),
-            if run.agree == Some(true) {
-                "agrees"
-            } else {
-                "DISAGREES"
-            }
+            "  {:<25} {:>9.3} {:>10}  {}{}",
+            entry.criterion.to_string(),
+            entry.growth_per_s,
+            hertz.map_or("-".into(), |hz| format!("{hz:.2}")),
+            in_capitals(entry.verdict),
+            remark(run, entry.criterion)
         )?;
     }
-    let passing = &run.tooth_passing;
-    writeln!(
-        text,
-        "  passing teeth {:>9.3} 1/s {:>10.0} Hz tooth passing frequency",
-        passing.passing_growth_per_s, passing.tooth_frequency_hz
-    )?;
-    writeln!(
-        text,
-        "  without them  {:>9.3} 1/s             {}",
-        run.idle_growth_per_s,
-        word(run.idle_verdict)
-    )?;
-    if let Some(spline) = &run.spline {
-        writeln!(
-            text,
-            "  spline's own reaction {:.3} 1/s: {}; it changes K_e by {:.0} %",
-            spline.growth_per_s,
-            word(spline.verdict),
-            1e2 * spline.stiffness_change
-        )?;
+    writeln!(text, "  {}", deflections(run))
+}
+
+fn in_capitals(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::Unstable => "UNSTABLE",
     }
-    writeln!(
-        text,
-        "  largest deflection at the probe: {:.2} mm in the cut, {:.2} mm after it",
-        1e3 * run.largest_deflection_in_cut_m,
-        1e3 * run.largest_deflection_after_m
-    )
+}
+
+/// What is to be said beside a criterion.
+fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
+    match criterion {
+        CutCriterion::TimeHistory => match run.agree {
+            Some(true) => ", agrees".into(),
+            _ => ", DISAGREES".into(),
+        },
+        CutCriterion::MovingToothLoads => {
+            let per_second = run.tooth_passing.tooth_frequency_hz;
+            format!(", {per_second:.0} teeth/s")
+        }
+        CutCriterion::SplineReaction => run.spline.as_ref().map_or(String::new(), |spline| {
+            format!(", K_e changes by {:.0} %", 1e2 * spline.stiffness_change)
+        }),
+        CutCriterion::Eigenvalues | CutCriterion::OutOfCut => String::new(),
+    }
+}
+
+fn deflections(run: &CutRunEntry) -> String {
+    let millimetres = |metres: f64| format!("{:.2} mm", 1e3 * metres);
+    let (in_cut, after) = (
+        run.largest_deflection_in_cut_m.map(millimetres),
+        run.largest_deflection_after_m.map(millimetres),
+    );
+    let probe = "largest deflection at the probe:";
+    match (in_cut, after) {
+        (Some(in_cut), Some(after)) => format!("{probe} {in_cut} in the cut, {after} after it"),
+        (Some(in_cut), None) => {
+            format!("{probe} {in_cut} in the cut; after it the linear model ends")
+        }
+        (None, _) => "the deflection in the cut leaves the linear model".into(),
+    }
 }

@@ -11,6 +11,7 @@ mod fit;
 mod free;
 mod output;
 mod paint;
+mod paste;
 mod place;
 mod runup;
 mod schema;

@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use crate::figure;
 use crate::report::{InstabilityKind, RunUpReport};
-use crate::transient::RunningUp;
+use crate::transient::{LINEAR_THICKNESSES, RunningUp};
 use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
 
 use super::common::{Common, NamedFile, progress_bar, show};
-use super::summary::wrapped;
+use super::paste::runup_block;
+use super::summary::{WIDTH, shortened, wrapped};
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -31,7 +32,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let Some(runup) = &scene.runup() else {
         bail!(
-            "runup is missing, but must say from and to which speed, in which time and under which force; add it to the scene: `sawflutter schema` prints its keys"
+            "runup is missing, but must say from and to which speed, in which time and under which force; paste this behind the first brace of the scene and put in your own numbers{}",
+            runup_block(scene.file())
         );
     };
     let folder = arguments.common.folder()?;
@@ -70,29 +72,49 @@ fn summary(report: &RunUpReport) -> String {
 }
 
 fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
-    writeln!(text, "{}", report.scene.name)?;
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    if report.bands.is_empty() {
+        writeln!(text, "No instability: stable at every speed of the run-up")?;
+    } else {
+        bands(text, report)?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+/// How far the run-up stays within the model, and the largest deflection up to there.
+fn verdict(report: &RunUpReport) -> String {
+    let end = match report.linear_until_rpm {
+        None => "within the linear model".to_owned(),
+        Some(rpm) => format!(
+            "valid up to about {:.0} rpm, where the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) and the linear model ends",
+            10.0 * (0.1 * rpm).round(),
+            1e3 * report.linear_limit_m
+        ),
+    };
     let largest = report.deflection_m.iter().map(|w| w.abs());
     let largest = largest.zip(&report.rpm).max_by(|x, y| x.0.total_cmp(&y.0));
-    if let (Some(first), Some(last), Some((w, at))) =
-        (report.rpm.first(), report.rpm.last(), largest)
-    {
-        writeln!(
-            text,
-            "Run-up from {first:.0} to {last:.0} rpm at {:.1} rpm/s; the probe sees {:.2} mm at most, at {at:.0} rpm",
-            report.rate_rpm_per_s,
-            1e3 * w
-        )?;
-    }
-    if report.bands.is_empty() {
-        return writeln!(text, "No instability: stable at every speed of the run-up");
-    }
+    let (w, at) = largest.unwrap_or((0.0, &report.from_rpm));
+    format!(
+        "Run-up from {:.0} to {:.0} rpm at {:.1} rpm/s: {end}; largest deflection {:.2} mm, at {at:.0} rpm",
+        report.from_rpm,
+        report.to_rpm,
+        report.rate_rpm_per_s,
+        1e3 * w
+    )
+}
+
+fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(
         text,
-        "\nInstabilities        from         to     time   growth   at most      seen"
+        "\nInstabilities        from         to     time  exponent  amplification"
     )?;
     writeln!(
         text,
-        "                    [rpm]      [rpm]      [s]  ∫Re λ dt    growth  amplified"
+        "                    [rpm]      [rpm]      [s]  ∫Re λ dt  predicted  simulated"
     )?;
     for entry in &report.bands {
         let kind = match entry.band.kind {
@@ -101,7 +123,7 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
         };
         writeln!(
             text,
-            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>9} {:>10}",
+            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>10} {:>10}",
             entry.band.from_rpm,
             entry.band.to_rpm,
             entry.time_s,
@@ -110,16 +132,15 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
             entry.seen_amplification.map_or("-".into(), times)
         )?;
     }
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
     Ok(())
 }
 
+/// What multiplies a motion by more leaves the linear model however small it was.
+const MOST_TIMES: f64 = 1e3;
+
 fn times(factor: f64) -> String {
-    if factor < 1e4 {
-        format!("{factor:.2} x")
-    } else {
-        format!("{factor:.0e} x")
+    match factor <= MOST_TIMES {
+        true => format!("{factor:.2} x"),
+        false => format!("> {MOST_TIMES:.0} x"),
     }
 }

@@ -4,18 +4,21 @@
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
+use super::columns::{Columns, draw_end_of_model, name_of_row};
 use super::style::{
     ALARM, AXIS_SIZE, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, tint,
+    LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, shorten, tint,
 };
-use super::{FigureError, heading, render};
-use crate::report::{CutReport, CutRunEntry, Verdict};
+use super::{FigureError, render};
+use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, Verdict};
 
-const WIDTH: u32 = 1200;
-const ROW: f64 = 470.0;
-const FIRST_TOP: f64 = 136.0;
-const PLOT_HEIGHT: f64 = 330.0;
-const COLUMNS: [[f64; 2]; 2] = [[92.0, 580.0], [680.0, 1168.0]];
+const PANELS: Columns = Columns {
+    lefts: [92.0, 680.0],
+    top: 136.0,
+    width: 488.0,
+    height: 330.0,
+    row: 470.0,
+};
 
 /// The cut as PNG, 1200 pixels wide.
 pub fn cut_png(report: &CutReport) -> Result<Vec<u8>, FigureError> {
@@ -28,82 +31,94 @@ pub fn cut_svg(report: &CutReport) -> Result<String, FigureError> {
 }
 
 pub(super) fn sheet(report: &CutReport) -> Sheet {
-    let rows = report.runs.len().div_ceil(2).max(1);
-    let mut sheet = Sheet::new(WIDTH, (60.0 + ROW * rows as f64) as u32);
-    heading::draw(
-        &mut sheet,
-        "Deflection at the probe before, during and after the cut",
-        &report.scene.name,
-    );
+    let title = "Deflection at the probe before, during and after the cut";
+    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
     for (index, run) in report.runs.iter().enumerate() {
-        let top = FIRST_TOP + ROW * (index / 2) as f64;
-        let [left, right] = COLUMNS[index % 2];
-        let panel = Frame {
-            left,
-            top,
-            right,
-            bottom: top + PLOT_HEIGHT,
-        };
-        draw_run(&mut sheet, &panel, run, index % 2 == 0);
+        draw_run(&mut sheet, index, run);
     }
     sheet
 }
 
-fn draw_run(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, first: bool) {
-    let largest_mm = run
-        .deflection_m
-        .iter()
-        .fold(0.0_f64, |max, w| max.max(w.abs()))
-        * 1e3;
-    let reach = if largest_mm > 0.0 {
-        1.12 * largest_mm
-    } else {
-        1.0
+/// The unit of a record, so small that its ticks have few digits: its name, and how many
+/// make a metre.
+fn unit_of(largest_m: f64) -> (&'static str, f64) {
+    match largest_m {
+        w if w >= 1e-5 || w == 0.0 => ("mm", 1e3),
+        w if w >= 1e-8 => ("µm", 1e6),
+        _ => ("nm", 1e9),
+    }
+}
+
+fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
+    let panel = &PANELS.panel(index);
+    let sizes = run.deflection_m.iter().map(|w| w.abs());
+    let largest_m = sizes.fold(0.0_f64, f64::max);
+    let (unit, per_metre) = unit_of(largest_m);
+    let reach = match largest_m > 0.0 {
+        true => 1.12 * per_metre * largest_m,
+        false => 1.0,
     };
-    let end_s = run.time_s.last().copied().unwrap_or(1.0);
+    let end_s = run.forces_to_s + run.forces_from_s;
     let time = Axis::new([0.0, end_s], [panel.left, panel.right], Spread::Linear);
     let deflection = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
-    let in_cut = Frame {
-        left: time.at(run.forces_from_s),
-        right: time.at(run.forces_to_s),
-        ..*panel
-    };
-    let unstable = run.verdict == Verdict::Unstable;
-    let shade = if unstable {
-        FLUTTER_SHADE
-    } else {
-        tint(FORWARD, 0.12)
-    };
-    sheet.fill(in_cut, shade);
-    let name = if first { "deflection\u{2003}[mm]" } else { "" };
-    draw_vertical(sheet, &deflection, panel, name);
+    draw_ground(sheet, panel, run, &time);
+    // Where the unit differs from row to row, each panel has its own.
+    let name = format!("deflection\u{2003}[{unit}]");
+    draw_vertical(sheet, &deflection, panel, name_of_row(index, &name));
+    if index % 2 == 1 && unit != "mm" {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
+        sheet.text([panel.left - 9.0, panel.top - 6.0], letters, unit);
+    }
     let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_horizontal(sheet, &time, panel.bottom, true);
     let middle = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
     let centre = (panel.left + panel.right) / 2.0;
     sheet.text([centre, panel.bottom + 42.0], middle, "time\u{2003}[s]");
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    let label = [(in_cut.left + in_cut.right) / 2.0, panel.top + 16.0];
-    sheet.text(label, letters, "in the cut");
-    if unstable {
-        draw_envelope(sheet, panel, run, (&time, &deflection));
-    }
-    let places: Vec<[f64; 2]> = run
-        .time_s
-        .iter()
-        .zip(&run.deflection_m)
-        .map(|(t, w)| [time.at(*t), deflection.at(1e3 * w)])
-        .collect();
+    let place = |t: f64, w: f64| [time.at(t), deflection.at(per_metre * w)];
+    draw_envelope(sheet, panel, run, place);
+    let record = run.time_s.iter().zip(&run.deflection_m);
+    let places: Vec<[f64; 2]> = record.map(|(t, w)| place(*t, *w)).collect();
     for part in clip(&places, panel) {
         sheet.line(part, Stroke::solid(FORWARD, CURVE));
+    }
+    if let Some(until_s) = run.linear_until_s {
+        draw_end_of_model(sheet, panel, time.at(until_s), "the linear model ends");
     }
     draw_verdict(sheet, panel, run);
 }
 
-/// ± the eigenvalue's exponential, through the largest deflection in the cut.
-fn draw_envelope(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, axes: (&Axis, &Axis)) {
-    let (time, deflection) = axes;
+/// The time in the cut, in the colour of the verdict.
+fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis) {
+    let in_cut = Frame {
+        left: time.at(run.forces_from_s),
+        right: time.at(run.forces_to_s),
+        ..*panel
+    };
+    let shade = match run.verdict {
+        Verdict::Unstable => FLUTTER_SHADE,
+        Verdict::Stable => tint(FORWARD, 0.12),
+    };
+    sheet.fill(in_cut, shade);
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
+    let label = [(in_cut.left + in_cut.right) / 2.0, panel.top + 16.0];
+    sheet.text(label, letters, "in the cut");
+}
+
+/// The eigenvalue's exponential through the largest deflection in the cut; of both signs
+/// where it oscillates.
+fn draw_envelope(
+    sheet: &mut Sheet,
+    panel: &Frame,
+    run: &CutRunEntry,
+    place: impl Fn(f64, f64) -> [f64; 2],
+) {
+    let grows = |c: &&CutCriterionEntry| {
+        c.criterion == CutCriterion::Eigenvalues && c.verdict == Verdict::Unstable
+    };
+    let Some(eigenvalue) = run.criteria.iter().find(grows) else {
+        return;
+    };
     let in_cut = |t: &f64| (run.forces_from_s..=run.forces_to_s).contains(t);
     let record = run.time_s.iter().zip(&run.deflection_m);
     let peak = record
@@ -112,13 +127,19 @@ fn draw_envelope(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, axes: (&Ax
     let Some((peak_s, peak_m)) = peak else {
         return;
     };
-    for sign in [-1.0, 1.0] {
+    let signs: &[f64] = match eigenvalue.frequency_hz {
+        Some(hz) if hz > 0.0 => &[1.0, -1.0],
+        _ => &[1.0],
+    };
+    let end_s = run.linear_until_s.unwrap_or(run.forces_to_s);
+    for sign in signs {
         let places: Vec<[f64; 2]> = (0..=60)
             .map(|k| {
                 let share = f64::from(k) / 60.0;
-                let t = run.forces_from_s + share * (run.forces_to_s - run.forces_from_s);
-                let size = peak_m.abs() * (run.growth_per_s * (t - peak_s)).exp();
-                [time.at(t), deflection.at(1e3 * sign * size)]
+                let t =
+                    run.forces_from_s + share * (end_s.min(run.forces_to_s) - run.forces_from_s);
+                let growth = (eigenvalue.growth_per_s * (t - peak_s)).exp();
+                place(t, sign * peak_m * growth)
             })
             .collect();
         for part in clip(&places, panel) {
@@ -132,28 +153,27 @@ fn draw_envelope(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, axes: (&Ax
 }
 
 fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
-    let (word, colour): (&str, Colour) = match run.verdict {
-        Verdict::Stable => ("stable in the cut", FORWARD),
-        Verdict::Unstable => ("unstable in the cut", ALARM),
+    let (text, colour): (String, Colour) = match run.verdict {
+        Verdict::Stable => (format!("{} rpm: stable", run.rpm), FORWARD),
+        Verdict::Unstable => (
+            format!("{} rpm: unstable ({})", run.rpm, run.decided_by),
+            ALARM,
+        ),
     };
     let title = Lettering {
         weight: Weight::SemiBold,
         ..Lettering::regular(SUBTITLE_SIZE + 2.0, colour, Anchor::Start)
     };
-    let text = format!("{:.0} rpm: {word}", run.rpm);
     sheet.text([panel.left, panel.top - 32.0], title, &text);
-    let hertz = |value: Option<f64>| value.map_or(String::new(), |hz| format!(" at {hz:.2} Hz"));
-    let by_eigenvalue = format!(
-        "eigenvalue {:.2} 1/s{}",
-        run.growth_per_s,
-        hertz(run.frequency_hz.filter(|_| run.growth_per_s > 0.0))
-    );
-    let by_history = run.transient_growth_per_s.map_or(String::new(), |growth| {
-        // Rounding of either sign is no growth.
-        let growth = if growth.abs() < 5e-3 { 0.0 } else { growth };
-        format!("; fitted to this curve {growth:.2} 1/s")
+    // Rounding of either sign is no growth.
+    let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
+    let facts = run.criteria.iter().map(|entry| {
+        let name = entry.criterion;
+        format!("{name} {:.2}", growth(entry.growth_per_s))
     });
+    let text = format!("{} 1/s", facts.collect::<Vec<_>>().join(", "));
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let text = format!("{by_eigenvalue}{by_history}");
+    let room = panel.right - panel.left + 20.0;
+    let text = shorten(&text, LABEL_SIZE, Weight::Regular, room);
     sheet.text([panel.left, panel.top - 12.0], letters, &text);
 }

@@ -2,19 +2,27 @@
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::clip;
+use super::columns::{Columns, axis_over, name_of_row};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{
-    AXIS_SIZE, Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE, Weight,
+    AXIS_SIZE, CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET,
+    SUBTITLE_SIZE, Weight, shorten,
 };
-use super::{FigureError, heading, render};
+use super::{FigureError, render};
 use crate::report::{CutReport, CutRunEntry};
 
-const WIDTH: u32 = 1200;
-const ROW: f64 = 450.0;
-const FIRST_TOP: f64 = 124.0;
-const PLOT_HEIGHT: f64 = 320.0;
-const COLUMNS: [[f64; 2]; 2] = [[92.0, 530.0], [610.0, 1048.0]];
+const PANELS: Columns = Columns {
+    lefts: [92.0, 610.0],
+    top: 124.0,
+    width: 438.0,
+    height: 320.0,
+    row: 450.0,
+};
 const SCALE: [f64; 2] = [1088.0, 1108.0];
+
+/// Name of the axis of the load.
+const LOAD: &str = "load\u{2003}[of the scene's]";
 
 /// Stable, and from slow to fast growth: pale to dark, so that grey prints read too.
 const STABLE: Colour = plotters::style::RGBColor(226, 234, 242);
@@ -36,19 +44,12 @@ pub fn cut_map_svg(report: &CutReport) -> Result<String, FigureError> {
 }
 
 pub(super) fn sheet(report: &CutReport) -> Sheet {
-    let rows = report.runs.len().div_ceil(2).max(1);
-    let mut sheet = Sheet::new(WIDTH, (60.0 + ROW * rows as f64) as u32);
-    heading::draw(
-        &mut sheet,
-        "Growth in the cut over the angle of the guides and the load",
-        &report.scene.name,
-    );
-    let growths = report
-        .runs
-        .iter()
-        .flat_map(|run| run.map.growth_per_s.iter().flatten());
-    let fastest = growths.fold(0.0_f64, |max, growth| max.max(*growth));
-    let fastest = fastest.max(4.0 * report.flutter_threshold_per_s);
+    if report.scene.guides.is_empty() {
+        return over_load(report);
+    }
+    let title = "Growth in the cut over the angle of the guides and the load";
+    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
+    let fastest = fastest_growth(report);
     let shade = |growth: f64| {
         if growth < report.flutter_threshold_per_s {
             STABLE
@@ -57,22 +58,15 @@ pub(super) fn sheet(report: &CutReport) -> Sheet {
         }
     };
     for (index, run) in report.runs.iter().enumerate() {
-        let top = FIRST_TOP + ROW * (index / 2) as f64;
-        let [left, right] = COLUMNS[index % 2];
-        let panel = Frame {
-            left,
-            top,
-            right,
-            bottom: top + PLOT_HEIGHT,
-        };
-        draw_map(&mut sheet, &panel, run, index % 2 == 0, shade);
-        draw_own_point(&mut sheet, &panel, report, run);
+        draw_map(&mut sheet, index, run, shade);
+        draw_own_point(&mut sheet, &PANELS.panel(index), report, run);
     }
+    let first = PANELS.panel(0);
     let scale = Frame {
         left: SCALE[0],
-        top: FIRST_TOP + 10.0,
+        top: first.top + 10.0,
         right: SCALE[1],
-        bottom: FIRST_TOP + PLOT_HEIGHT,
+        bottom: first.bottom,
     };
     let axis = Axis::new([0.0, fastest], [scale.bottom, scale.top], Spread::Linear);
     draw_scale(
@@ -85,40 +79,25 @@ pub(super) fn sheet(report: &CutReport) -> Sheet {
     sheet
 }
 
+/// End of the scale of growth.
+fn fastest_growth(report: &CutReport) -> f64 {
+    let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
+    let fastest = maps.flatten().flatten().copied().fold(0.0_f64, f64::max);
+    fastest.max(4.0 * report.flutter_threshold_per_s)
+}
+
 /// Axes of a map: guide angle and load level.
 fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
-    let ends = |values: &[f64]| {
-        let first = values.first().copied().unwrap_or(0.0);
-        [first, values.last().copied().unwrap_or(1.0)]
-    };
     (
-        Axis::new(
-            ends(&run.map.guide_angle_deg),
-            [panel.left, panel.right],
-            Spread::Linear,
-        ),
-        Axis::new(
-            ends(&run.map.load_level),
-            [panel.bottom, panel.top],
-            Spread::Linear,
-        ),
+        axis_over(&run.map.guide_angle_deg, [panel.left, panel.right]),
+        axis_over(&run.map.load_level, [panel.bottom, panel.top]),
     )
 }
 
-fn draw_map(
-    sheet: &mut Sheet,
-    panel: &Frame,
-    run: &CutRunEntry,
-    first: bool,
-    shade: impl Fn(f64) -> Colour,
-) {
+fn draw_map(sheet: &mut Sheet, index: usize, run: &CutRunEntry, shade: impl Fn(f64) -> Colour) {
+    let panel = &PANELS.panel(index);
     let (angle, level) = axes(panel, run);
-    let name = if first {
-        "load\u{2003}[of the scene's]"
-    } else {
-        ""
-    };
-    draw_vertical(sheet, &level, panel, name);
+    draw_vertical(sheet, &level, panel, name_of_row(index, LOAD));
     draw_grid(
         sheet,
         (&angle, &run.map.guide_angle_deg),
@@ -132,20 +111,75 @@ fn draw_map(
             growth.map_or(PAPER, |growth| shade(*growth))
         },
     );
-    draw_horizontal(sheet, &angle, panel.bottom, true);
+    let name = "angle of the first guide, the cut at its own\u{2003}[°]";
+    draw_level_axis(sheet, panel, &angle, name);
+    draw_forces(sheet, panel, run);
+}
+
+fn draw_level_axis(sheet: &mut Sheet, panel: &Frame, axis: &Axis, name: &str) {
+    draw_horizontal(sheet, axis, panel.bottom, true);
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
     let centre = (panel.left + panel.right) / 2.0;
-    let name = "angle of the first guide, the cut at its own\u{2003}[°]";
     sheet.text([centre, panel.bottom + 42.0], letters, name);
+}
+
+/// The speed and the forces of a panel, as its title.
+fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     let title = Lettering {
         weight: Weight::SemiBold,
         ..Lettering::regular(SUBTITLE_SIZE, INK, Anchor::Start)
     };
     let text = format!(
-        "{:.0} rpm, {:.0} N against and {:.0} N inwards a tooth at load 1",
+        "{} rpm, {:.0} N against and {:.0} N inwards a tooth at load 1",
         run.rpm, run.tangential_n_per_tooth, run.radial_n_per_tooth
     );
+    let room = panel.right - panel.left;
+    let text = shorten(&text, SUBTITLE_SIZE, Weight::SemiBold, room);
     sheet.text([panel.left, panel.top - 14.0], title, &text);
+}
+
+/// The same without guides, which leave the load alone to vary.
+fn over_load(report: &CutReport) -> Sheet {
+    let title = "Growth in the cut over the load";
+    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
+    let fastest = fastest_growth(report);
+    for (index, run) in report.runs.iter().enumerate() {
+        let panel = &PANELS.panel(index);
+        let level = axis_over(&run.map.load_level, [panel.left, panel.right]);
+        let growth = Axis::new([0.0, fastest], [panel.bottom, panel.top], Spread::Linear);
+        draw_vertical(
+            &mut sheet,
+            &growth,
+            panel,
+            name_of_row(index, "growth\u{2003}[1/s]"),
+        );
+        draw_level_axis(&mut sheet, panel, &level, LOAD);
+        let threshold = growth.at(report.flutter_threshold_per_s);
+        let dashed = Stroke {
+            dash: Some(FINE_DASH),
+            ..Stroke::solid(QUIET, HAIRLINE)
+        };
+        sheet.line([[panel.left, threshold], [panel.right, threshold]], dashed);
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
+        let at = [panel.right - 4.0, threshold - 6.0];
+        sheet.text(at, letters, "unstable above");
+        let points = run.map.load_level.iter().zip(&run.map.growth_per_s);
+        let places: Vec<[f64; 2]> = points
+            .filter_map(|(load, row)| Some([level.at(*load), growth.at(*row.first()?)]))
+            .collect();
+        for part in clip(&places, panel) {
+            sheet.line(part, Stroke::solid(FORWARD, CURVE));
+        }
+        let own = Stroke::solid(INK, 1.5 * HAIRLINE);
+        sheet.ring(
+            [level.at(1.0), growth.at(run.growth_per_s)],
+            5.0,
+            own,
+            PAPER,
+        );
+        draw_forces(&mut sheet, panel, run);
+    }
+    sheet
 }
 
 /// The scene itself, and the force that its power allows.

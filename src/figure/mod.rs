@@ -10,6 +10,7 @@ mod campbell;
 mod canvas;
 mod check;
 mod clip;
+mod columns;
 mod cut;
 mod cut_map;
 #[cfg(test)]

@@ -1,20 +1,23 @@
 //! Where the centre of the blade wanders on its arbor, one panel a speed.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::columns::{Columns, name_of_row};
 use super::style::{
     AXIS_SIZE, CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING,
     SUBTITLE_SIZE, Weight, tint,
 };
-use super::{FigureError, heading, render};
+use super::{FigureError, render};
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
-const WIDTH: u32 = 1200;
-const ROW: f64 = 560.0;
-const FIRST_TOP: f64 = 140.0;
 /// Panels are square: a length is as long in x as in y.
-const SIDE: f64 = 420.0;
-const LEFTS: [f64; 2] = [120.0, 700.0];
+const PANELS: Columns = Columns {
+    lefts: [120.0, 700.0],
+    top: 140.0,
+    width: 420.0,
+    height: 420.0,
+    row: 560.0,
+};
 
 /// The orbits as PNG, 1200 pixels wide; `None` if no spline was simulated.
 pub fn spline_orbit_png(report: &CutReport) -> Result<Option<Vec<u8>>, FigureError> {
@@ -35,30 +38,16 @@ pub(super) fn sheet(report: &CutReport) -> Option<Sheet> {
     if runs.is_empty() {
         return None;
     }
-    let rows = runs.len().div_ceil(2);
-    let mut sheet = Sheet::new(WIDTH, (80.0 + ROW * rows as f64) as u32);
     let title = "Orbit of the blade's centre on the splined arbor in the cut";
-    heading::draw(&mut sheet, title, &report.scene.name);
+    let mut sheet = PANELS.sheet(runs.len(), title, &report.scene.name);
     for (index, (run, spline)) in runs.into_iter().enumerate() {
-        let (left, top) = (LEFTS[index % 2], FIRST_TOP + ROW * (index / 2) as f64);
-        let panel = Frame {
-            left,
-            top,
-            right: left + SIDE,
-            bottom: top + SIDE,
-        };
-        draw_orbit(&mut sheet, &panel, run, spline, index % 2 == 0);
+        draw_orbit(&mut sheet, index, run, spline);
     }
     Some(sheet)
 }
 
-fn draw_orbit(
-    sheet: &mut Sheet,
-    panel: &Frame,
-    run: &CutRunEntry,
-    spline: &SplineEntry,
-    first: bool,
-) {
+fn draw_orbit(sheet: &mut Sheet, index: usize, run: &CutRunEntry, spline: &SplineEntry) {
+    let panel = &PANELS.panel(index);
     let all = spline.x_m.iter().chain(&spline.y_m);
     let largest_mm = 1e3 * all.fold(0.0_f64, |max, value| max.max(value.abs()));
     let clearance_mm = 1e3 * spline.clearance_m;
@@ -66,7 +55,7 @@ fn draw_orbit(
     let x = Axis::new([-reach, reach], [panel.left, panel.right], Spread::Linear);
     let y = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
     let name = "a quarter turn further\u{2003}[mm]";
-    draw_vertical(sheet, &y, panel, if first { name } else { "" });
+    draw_vertical(sheet, &y, panel, name_of_row(index, name));
     draw_horizontal(sheet, &x, panel.bottom, true);
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
     let centre = 0.5 * (panel.left + panel.right);

@@ -1,13 +1,21 @@
 //! `cut.json`: what the saw does in the cut.
 
+mod criteria;
+mod warnings;
+
 use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::criteria::{CutCriterion, CutCriterionEntry, Verdict};
+use self::criteria::{agree, criteria, growing_hz, worst};
+use self::warnings::warnings;
 use super::SplineEntry;
 use crate::scene::{Scene, SceneFile, unusual};
-use crate::transient::{Cutting, CuttingRun, Growth, ToothPassing, VerdictMap};
+use crate::transient::{
+    CutHistory, Cutting, CuttingRun, LINEAR_THICKNESSES, ToothPassing, VerdictMap,
+};
 
 /// `cut.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,22 +29,14 @@ pub struct CutReport {
     pub degrees_of_freedom: usize,
     /// Growth rate from which a cut is called unstable.
     pub flutter_threshold_per_s: f64,
+    /// Deflection beyond which none is given, for the linear model ends there.
+    pub linear_limit_m: f64,
     /// Angles of the teeth in the cut.
     pub tooth_angles_deg: Vec<f64>,
     /// One entry a speed.
     pub runs: Vec<CutRunEntry>,
     /// Remarks on the forces and on the validity of the result.
     pub warnings: Vec<String>,
-}
-
-/// Whether a motion grows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// No motion grows as fast as the threshold.
-    Stable,
-    /// Some motion does.
-    Unstable,
 }
 
 /// One speed of the cut.
@@ -51,8 +51,12 @@ pub struct CutRunEntry {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// In the cut, by the eigenvalues.
+    /// The worst of the criteria.
     pub verdict: Verdict,
+    /// The criterion of fastest growth.
+    pub decided_by: CutCriterion,
+    /// What each criterion says.
+    pub criteria: Vec<CutCriterionEntry>,
     /// Largest Re λ in the cut.
     pub growth_per_s: f64,
     /// Frequency of the growing mode; of the largest oscillation where none grows.
@@ -76,10 +80,15 @@ pub struct CutRunEntry {
     pub by_power: Option<ByPowerEntry>,
     /// Loads that pass with the teeth against loads that stand still.
     pub tooth_passing: ToothPassingEntry,
-    /// Largest deflection at the probe before the forces end.
-    pub largest_deflection_in_cut_m: f64,
-    /// Largest deflection at the probe after the forces ended.
-    pub largest_deflection_after_m: f64,
+    /// When the deflection at the probe leaves the linear model, where the record ends; null
+    /// when it does not.
+    pub linear_until_s: Option<f64>,
+    /// Largest deflection at the probe before the forces end; null where the linear model
+    /// ends before them.
+    pub largest_deflection_in_cut_m: Option<f64>,
+    /// Largest deflection at the probe after the forces ended; null where the linear model
+    /// ends before the record should.
+    pub largest_deflection_after_m: Option<f64>,
     /// When the forces set in.
     pub forces_from_s: f64,
     /// When they end.
@@ -118,26 +127,24 @@ pub struct ToothPassingEntry {
     pub mean_growth_per_s: f64,
     /// Growth under the passing loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
-    /// Largest deflection at the probe in the cut under loads that stand still.
-    pub standing_deflection_m: f64,
+    /// Largest deflection at the probe in the cut under loads that stand still; null where
+    /// the linear model ends before the cut.
+    pub standing_deflection_m: Option<f64>,
     /// The same under passing loads.
-    pub passing_deflection_m: f64,
+    pub passing_deflection_m: Option<f64>,
 }
 
 /// Growth rates over guide angle and load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VerdictMapEntry {
-    /// Angles of the first guide, all guides moving with it.
+    /// Angles of the first guide, all guides moving with it; empty without guides.
     pub guide_angle_deg: Vec<f64>,
     /// Multiples of the radial and tangential forces.
     pub load_level: Vec<f64>,
-    /// One row a load level, one column an angle.
+    /// One row a load level, one column an angle; one column without guides.
     pub growth_per_s: Vec<Vec<f64>>,
 }
-
-/// What the two verdicts may differ by in growth.
-const AGREEMENT: f64 = 0.02;
 
 impl CutReport {
     /// Reports a cut.
@@ -148,11 +155,13 @@ impl CutReport {
             .map(|run| CutRunEntry::new(scene, run))
             .collect();
         let thickness_m = scene.blade().thickness_m;
+        let linear_limit_m = LINEAR_THICKNESSES * thickness_m;
         CutReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
             degrees_of_freedom: cutting.plate.degrees_of_freedom(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
+            linear_limit_m,
             tooth_angles_deg: cutting
                 .cut
                 .tooth_angles_rad()
@@ -177,31 +186,24 @@ impl CutRunEntry {
         } = computed;
         let of = |growth: f64| Verdict::of(scene, growth);
         let run = history.run;
-        let verdict = of(history.in_cut.growth_per_s);
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
+        let criteria = criteria(scene, computed);
+        let (verdict, decided_by) = worst(&criteria);
         let dominant = history.dominant_rad_per_s;
-        let (_, end_s) = history.forces_s;
-        let largest = |after: bool| {
-            let record = history.time_s.iter().zip(&history.deflection_m);
-            record
-                .filter(|(time, _)| (**time > end_s) == after)
-                .fold(0.0_f64, |max, (_, w)| max.max(w.abs()))
-        };
-        let growing = Some(history.in_cut).filter(|growth| growth.growth_per_s > 0.0);
+        let [in_cut_m, after_m] = largest_deflections(history);
         CutRunEntry {
             rpm: run.rpm,
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
             verdict,
+            decided_by,
+            criteria,
             growth_per_s: history.in_cut.growth_per_s,
-            frequency_hz: growing
-                .map(|growth| growth.frequency_rad_per_s)
-                .or(dominant)
-                .map(hertz),
-            agree: transient_verdict
-                .zip(history.fitted)
-                .map(|(seen, fitted)| seen == verdict && close(verdict, fitted, history.in_cut)),
+            frequency_hz: growing_hz(history.in_cut).or(dominant.map(hertz)),
+            agree: history
+                .fitted
+                .map(|fitted| agree(scene, fitted, history.in_cut)),
             transient_verdict,
             transient_growth_per_s: history.fitted.map(|fitted| fitted.growth_per_s),
             transient_frequency_hz: history
@@ -219,10 +221,11 @@ impl CutRunEntry {
                 },
             ),
             tooth_passing: passing.into(),
-            largest_deflection_in_cut_m: largest(false),
-            largest_deflection_after_m: largest(true),
+            linear_until_s: history.linear_until_s,
+            largest_deflection_in_cut_m: in_cut_m,
+            largest_deflection_after_m: after_m,
             forces_from_s: history.forces_s.0,
-            forces_to_s: end_s,
+            forces_to_s: history.forces_s.1,
             time_s: history.time_s.clone(),
             deflection_m: history.deflection_m.clone(),
             map: VerdictMapEntry::new(scene, map),
@@ -231,24 +234,35 @@ impl CutRunEntry {
     }
 }
 
+/// Largest deflections at the probe until the forces end and after that, as far as the model
+/// is linear.
+fn largest_deflections(history: &CutHistory) -> [Option<f64>; 2] {
+    let (_, end_s) = history.forces_s;
+    let linear_until_s = history.linear_until_s.unwrap_or(f64::INFINITY);
+    let largest = |after: bool| {
+        let record = history.time_s.iter().zip(&history.deflection_m);
+        record
+            .filter(|(time, _)| (**time > end_s) == after)
+            .fold(0.0_f64, |max, (_, w)| max.max(w.abs()))
+    };
+    let in_cut = (linear_until_s > end_s).then(|| largest(false));
+    let after = history.linear_until_s.is_none().then(|| largest(true));
+    [in_cut, after]
+}
+
 impl VerdictMapEntry {
     fn new(scene: &Scene, map: &VerdictMap) -> Self {
-        let guide_deg = scene
-            .guides()
-            .first()
-            .map_or(0.0, |guide| guide.angle_rad.to_degrees());
-        let angle = |turn: &f64| guide_deg + turn.to_degrees();
+        let first_guide = scene.guides().first();
+        let angles = first_guide.map(|guide| {
+            let turns = map.turns_rad.iter();
+            turns.map(|turn| (guide.angle_rad + turn).to_degrees())
+        });
         VerdictMapEntry {
-            guide_angle_deg: map.turns_rad.iter().map(angle).collect(),
+            guide_angle_deg: angles.into_iter().flatten().collect(),
             load_level: map.load_levels.clone(),
             growth_per_s: map.growth_per_s.clone(),
         }
     }
-}
-
-fn close(verdict: Verdict, fitted: Growth, eigenvalue: Growth) -> bool {
-    verdict == Verdict::Stable
-        || (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs() <= AGREEMENT
 }
 
 pub(super) fn hertz(rad_per_s: f64) -> f64 {
@@ -265,62 +279,5 @@ impl From<&ToothPassing> for ToothPassingEntry {
             standing_deflection_m: passing.standing_deflection_m,
             passing_deflection_m: passing.passing_deflection_m,
         }
-    }
-}
-
-/// Beyond this many thicknesses a plate stretches as it bends, and a linear one is no guide.
-const LINEAR_THICKNESSES: f64 = 1.0;
-
-fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if let Some(by_power) = &run.by_power {
-        let ratio = run.tangential_n_per_tooth / by_power.tangential_n_per_tooth;
-        if (ratio - 1.0).abs() > 0.05 {
-            warnings.push(format!(
-                "at {:.0} rpm the tangential force given, {:.0} N a tooth, is {ratio:.1} times the {:.0} N that the power allows at the rim; with the latter the cut is {} ({:.2} 1/s)",
-                run.rpm,
-                run.tangential_n_per_tooth,
-                by_power.tangential_n_per_tooth,
-                by_power.verdict,
-                by_power.growth_per_s
-            ));
-        }
-    }
-    if run.transient_verdict.is_none() {
-        warnings.push(format!(
-            "at {:.0} rpm no lateral force moves the blade, so that the time history says nothing; give cut.lateral_n_per_tooth",
-            run.rpm
-        ));
-    }
-    let largest_m = run
-        .largest_deflection_in_cut_m
-        .max(run.largest_deflection_after_m);
-    if largest_m > LINEAR_THICKNESSES * thickness_m {
-        warnings.push(format!(
-            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: the model is linear, so that it tells whether and how fast a motion begins to grow, and not how large it becomes",
-            run.rpm,
-            1e3 * largest_m,
-            largest_m / thickness_m
-        ));
-    }
-    warnings
-}
-
-impl Verdict {
-    pub(super) fn of(scene: &Scene, growth_per_s: f64) -> Self {
-        if growth_per_s >= scene.flutter_threshold_per_s() && growth_per_s > 0.0 {
-            Verdict::Unstable
-        } else {
-            Verdict::Stable
-        }
-    }
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(match self {
-            Verdict::Stable => "stable",
-            Verdict::Unstable => "unstable",
-        })
     }
 }

@@ -21,7 +21,8 @@ use serde::{Deserialize, Serialize};
 
 pub use self::check::{CheckReport, CriterionEntry};
 pub use self::cut::{
-    ByPowerEntry, CutReport, CutRunEntry, ToothPassingEntry, Verdict, VerdictMapEntry,
+    ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
+    Verdict, VerdictMapEntry,
 };
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};

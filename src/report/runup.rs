@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, Report};
 use crate::scene::{RunUp, Scene, SceneFile, rpm};
 use crate::spectrum::SpectrumError;
-use crate::transient::RunningUp;
+use crate::transient::{LINEAR_THICKNESSES, RunningUp};
 
 /// `runup.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,10 +20,18 @@ pub struct RunUpReport {
     pub scene: SceneFile,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
+    /// First speed of the run-up.
+    pub from_rpm: f64,
+    /// Last speed of the run-up.
+    pub to_rpm: f64,
     /// Rate of the run-up.
     pub rate_rpm_per_s: f64,
     /// Step of the integration.
     pub step_s: f64,
+    /// Deflection beyond which none is given, for the linear model ends there.
+    pub linear_limit_m: f64,
+    /// Speed at which it is exceeded at the probe, where the record ends; null when it is not.
+    pub linear_until_rpm: Option<f64>,
     /// Speeds of the record.
     pub rpm: Vec<f64>,
     /// Deflection at the probe.
@@ -50,7 +58,8 @@ pub struct RunUpBand {
     pub time_s: f64,
     /// Re λ integrated over that time: the motion grows by no more than e to this power.
     pub growth_exponent: f64,
-    /// Largest deflection at the probe within the band over that in as many speeds before.
+    /// Largest deflection at the probe within the band over that in as many speeds before;
+    /// null where the linear model ends before the band does.
     pub seen_amplification: Option<f64>,
 }
 
@@ -76,6 +85,8 @@ impl RunUpReport {
         let history = &found.history;
         let speeds: Vec<f64> = history.speed_rad_per_s.iter().map(|s| rpm(*s)).collect();
         let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());
+        let linear_until_rpm = history.linear_until_rad_per_s.map(rpm);
+        let within = |band: &InstabilityEntry| linear_until_rpm.is_none_or(|end| band.to_rpm < end);
         let bands = chart
             .instabilities
             .into_iter()
@@ -83,7 +94,9 @@ impl RunUpReport {
             .map(|(band, growth)| RunUpBand {
                 time_s: (band.to_rpm - band.from_rpm) / rate_rpm_per_s,
                 growth_exponent: growth.exponent,
-                seen_amplification: seen_amplification(&speeds, &history.deflection_m, &band),
+                seen_amplification: within(&band)
+                    .then(|| seen_amplification(&speeds, &history.deflection_m, &band))
+                    .flatten(),
                 band,
             })
             .collect();
@@ -92,7 +105,11 @@ impl RunUpReport {
             sawflutter: chart.sawflutter,
             scene: chart.scene,
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+            from_rpm: rpm(runup.speeds.from_rad_per_s),
+            to_rpm: rpm(runup.speeds.to_rad_per_s),
             rate_rpm_per_s,
+            linear_limit_m: LINEAR_THICKNESSES * scene.blade().thickness_m,
+            linear_until_rpm,
             step_s: history.step_s,
             deflection_m: history.deflection_m.clone(),
             critical_speeds: chart.critical_speeds,

@@ -29,6 +29,13 @@ pub fn fastest_growing(
             order: state.nrows(),
             rpm: rpm(speed_rad_per_s),
         })?;
+    // A maximum would pass over what is not a number.
+    if !values.iter().all(|value| value.is_finite()) {
+        return Err(SpectrumError::NotFinite {
+            order: state.nrows(),
+            rpm: rpm(speed_rad_per_s),
+        });
+    }
     let counts = values
         .iter()
         .map(|value| *value * scale)

@@ -1,17 +1,17 @@
 //! The saw before, during and after a cut at one speed.
 
-use std::ops::RangeInclusive;
+use std::collections::VecDeque;
 
-use faer::c64;
+use faer::{Col, c64};
 
 use crate::plate::Plate;
-use crate::scene::{CutRun, Probe, rpm};
-use crate::spectrum::fastest_growing_of;
+use crate::scene::{CutRun, Probe};
+use crate::spectrum::{companion_eigenpairs, fastest_growing_of};
 use crate::system::GyroscopicSystem;
 
-use super::reduced::at_point;
-use super::saw_in_cut::{SawInCut, lateral_load, rim_forces};
-use super::sinusoids::{damped_sinusoids, fitted_growth};
+use super::linear::Gauge;
+use super::saw_in_cut::{MODES, SawInCut, lateral_load, rim_forces};
+use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
 use super::{Propagator, State, TransientError};
 
 /// How fast a saw's motion grows at most.
@@ -29,8 +29,14 @@ impl Growth {
     /// # Errors
     /// [`TransientError::Spectrum`].
     pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, TransientError> {
-        let fastest = fastest_growing_of(plate, speed_rad_per_s)?;
-        Ok(fastest.unwrap_or_default().into())
+        Ok(fastest_growing_of(plate, speed_rad_per_s)?.into())
+    }
+}
+
+impl From<Option<c64>> for Growth {
+    /// `None` is an undamped saw of which nothing grows.
+    fn from(lambda: Option<c64>) -> Self {
+        lambda.unwrap_or_default().into()
     }
 }
 
@@ -60,16 +66,20 @@ pub struct CutHistory {
     pub dominant_rad_per_s: Option<f64>,
     /// When the forces set in and when they end.
     pub forces_s: (f64, f64),
+    /// When the deflection leaves the linear model, where the record ends; `None` when it
+    /// does not.
+    pub linear_until_s: Option<f64>,
     /// Times of the record.
     pub time_s: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
 }
 
-/// Samples of a record: enough for a figure and for frequencies up to a few hundred hertz
-/// in a second, and bounded.
+/// Samples of a record: enough for a figure, and bounded.
 const SAMPLE_S: f64 = 1e-3;
 const MAX_SAMPLES: f64 = 20_000.0;
+/// A motion grows by no more than this exponent from one sample to the next.
+const GROWTH_A_SAMPLE: f64 = 0.1;
 
 /// Computes one speed of a cut.
 ///
@@ -84,16 +94,20 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         let plate = plate.with_edge_loads(&rim_forces(cut, tangential_n, run.radial_n));
         Growth::of_plate(&plate, speed)
     });
-    let record = record(saw, probe)?;
-    let sinusoids = damped_sinusoids(&record.deflection_m[record.in_cut], record.cutting_step_s);
+    let idle = Growth::of_plate(plate, speed)?;
+    let in_cut = Growth::of_plate(&saw.cutting, speed)?;
+    let gauge = Gauge::new(plate, &saw.blade, probe);
+    let record = record(saw, &gauge, [idle, in_cut])?;
+    let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
     Ok(CutHistory {
         run: **run,
-        idle: Growth::of_plate(plate, speed)?,
-        in_cut: Growth::of_plate(&saw.cutting, speed)?,
+        idle,
+        in_cut,
         in_cut_by_power: by_power.transpose()?,
         fitted: fitted_growth(&sinusoids).map(Growth::from),
         dominant_rad_per_s: sinusoids.iter().map(|s| s.lambda.im).find(|im| *im > 0.0),
         forces_s: (cut.idle_s, cut.idle_s + run.duration_s),
+        linear_until_s: record.linear_until_s,
         time_s: record.time_s,
         deflection_m: record.deflection_m,
     })
@@ -103,54 +117,140 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
 struct Record {
     time_s: Vec<f64>,
     deflection_m: Vec<f64>,
-    /// The samples from the first force to the last, and their step.
-    in_cut: RangeInclusive<usize>,
-    cutting_step_s: f64,
+    linear_until_s: Option<f64>,
 }
 
-/// Steps through the idle saw, the cut, and the idle saw again.
-fn record(saw: &SawInCut<'_>, probe: &Probe) -> Result<Record, TransientError> {
-    let (cut, run, blade) = (saw.cut, saw.run, &saw.blade);
+/// Steps through the idle saw, the cut, and the idle saw again, as far as the model is linear.
+fn record(
+    saw: &SawInCut<'_>,
+    gauge: &Gauge,
+    [idle, in_cut]: [Growth; 2],
+) -> Result<Record, TransientError> {
+    let (cut, run) = (saw.cut, saw.run);
     let total_s = 2.0 * cut.idle_s + run.duration_s;
     let sample_s = SAMPLE_S.max(total_s / MAX_SAMPLES);
-    let read = blade.vector(&at_point(saw.plate, probe.radius_m, probe.angle_rad));
-    let load = [blade.vector(&lateral_load(saw.plate, cut, 0.0))];
-    let mut state = State::rest(blade.order());
-    let (mut time_s, mut deflection_m) = (vec![0.0], vec![0.0]);
-    let mut phase = |system: &GyroscopicSystem, duration_s: f64, force_n: f64| {
-        let first = time_s.len() - 1;
-        if duration_s == 0.0 {
-            return Ok((first..=first, sample_s));
-        }
-        let count = (duration_s / sample_s).ceil();
-        let step_s = duration_s / count;
-        let speed = run.speed_rad_per_s;
-        let propagator = Propagator::new(&blade.system(system), speed, &load, step_s)?;
-        for step in 1..=count as usize {
-            state = propagator.step(&state, &[force_n], &[force_n]);
-            time_s.push(time_s[first] + step as f64 * step_s);
-            deflection_m.push(finite(state.read(&read), speed, time_s[first + step])?);
-        }
-        Ok::<_, TransientError>((first..=time_s.len() - 1, step_s))
+    let mut record = Record {
+        time_s: vec![0.0],
+        deflection_m: vec![0.0],
+        linear_until_s: None,
     };
-    phase(&saw.idle_system, cut.idle_s, 0.0)?;
-    let (in_cut, cutting_step_s) = phase(&saw.cutting_system, run.duration_s, run.lateral_n)?;
-    phase(&saw.idle_system, cut.idle_s, 0.0)?;
-    Ok(Record {
-        time_s,
-        deflection_m,
-        in_cut,
-        cutting_step_s,
-    })
+    let mut state = State::rest(saw.blade.order());
+    let phases = [
+        (&saw.idle_system, idle, cut.idle_s, 0.0),
+        (&saw.cutting_system, in_cut, run.duration_s, run.lateral_n),
+        (&saw.idle_system, idle, cut.idle_s, 0.0),
+    ];
+    for (system, growth, duration_s, force_n) in phases {
+        if duration_s == 0.0 {
+            continue;
+        }
+        // What is at rest without a force stays there, however fast it would grow.
+        let moves = force_n != 0.0 || state != State::rest(saw.blade.order());
+        let longest_s = match moves {
+            true => sample_s.min(longest_step_s(growth)),
+            false => sample_s,
+        };
+        let count = (duration_s / longest_s).ceil();
+        let step_s = duration_s / count;
+        let start_s = record.time_s.last().copied().unwrap_or(0.0);
+        let propagator = moves.then(|| propagator(saw, system, step_s)).transpose()?;
+        for step in 1..=count as u64 {
+            let time_s = start_s + step as f64 * step_s;
+            if let Some(propagator) = &propagator {
+                state = propagator.step(&state, &[force_n], &[force_n]);
+            }
+            let deflection = gauge.at_probe(|i| state.displacement[i]);
+            if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
+                record.linear_until_s = Some(time_s);
+                return Ok(record);
+            }
+            record.time_s.push(time_s);
+            record.deflection_m.push(deflection);
+        }
+    }
+    Ok(record)
+}
+
+fn longest_step_s(growth: Growth) -> f64 {
+    GROWTH_A_SAMPLE / growth.growth_per_s.max(f64::MIN_POSITIVE)
+}
+
+/// Steps under the lateral force of the teeth.
+fn propagator(
+    saw: &SawInCut<'_>,
+    system: &GyroscopicSystem,
+    step_s: f64,
+) -> Result<Propagator, TransientError> {
+    let load: Col<f64> = saw.blade.vector(&lateral_load(saw.plate, saw.cut, 0.0));
+    let system = saw.blade.system(system);
+    Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
+}
+
+/// Samples a period of the fastest mode that the fit is to tell from others.
+const SAMPLES_A_PERIOD: f64 = 5.0;
+/// Up to this many metres the record is followed for the fit: the growth of a linear model
+/// is that of any force, and thus of one so small that the blade stays within the model.
+const FITTED_UP_TO_M: f64 = 1e30;
+
+/// What the deflection in the cut is made of, sampled so finely that no mode is folded.
+fn sinusoids_in_cut(
+    saw: &SawInCut<'_>,
+    gauge: &Gauge,
+    in_cut: Growth,
+) -> Result<Vec<Sinusoid>, TransientError> {
+    let run = saw.run;
+    if run.lateral_n == 0.0 {
+        return Ok(Vec::new());
+    }
+    let fastest = fastest_mode_rad_per_s(saw)?.max(in_cut.frequency_rad_per_s);
+    let longest_s = (std::f64::consts::TAU / (SAMPLES_A_PERIOD * fastest))
+        .min(longest_step_s(in_cut))
+        .min(run.duration_s / (SAMPLES - 1) as f64);
+    let count = (run.duration_s / longest_s).ceil();
+    let step_s = run.duration_s / count;
+    let propagator = propagator(saw, &saw.cutting_system, step_s)?;
+    let mut state = State::rest(saw.blade.order());
+    let force = [run.lateral_n];
+    let mut first = vec![0.0];
+    let mut last = VecDeque::from([0.0]);
+    for _ in 0..count as u64 {
+        state = propagator.step(&state, &force, &force);
+        let deflection = gauge.at_probe(|i| state.displacement[i]);
+        if first.len() < SAMPLES {
+            first.push(deflection);
+        }
+        if last.len() == SAMPLES {
+            last.pop_front();
+        }
+        last.push_back(deflection);
+        if !(deflection.abs() < FITTED_UP_TO_M) {
+            break;
+        }
+    }
+    let loudness =
+        |samples: &mut dyn Iterator<Item = &f64>| samples.fold(0.0_f64, |max, x| max.max(x.abs()));
+    let louder = match loudness(&mut first.iter()) > loudness(&mut last.iter()) {
+        true => first,
+        false => last.into(),
+    };
+    Ok(damped_sinusoids(&louder, step_s)?)
+}
+
+/// The highest frequency among the modes in the cut that span the motion. Of the shapes that
+/// only carry the static answers to the loads nothing is heard.
+fn fastest_mode_rad_per_s(saw: &SawInCut<'_>) -> Result<f64, TransientError> {
+    let system = saw.blade.system(&saw.cutting_system);
+    let pairs = companion_eigenpairs(&system, saw.run.speed_rad_per_s)?;
+    let mut frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im.abs()).collect();
+    frequencies.sort_by(f64::total_cmp);
+    let highest = frequencies.get(MODES - 1).or(frequencies.last());
+    Ok(highest.copied().unwrap_or_default())
 }
 
 /// The value, or the error that says when it ceased to be one.
-pub(super) fn finite(value: f64, speed_rad_per_s: f64, time_s: f64) -> Result<f64, TransientError> {
-    if value.is_finite() {
-        return Ok(value);
+pub(super) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(TransientError::Overflow { rpm, time_s }),
     }
-    Err(TransientError::Overflow {
-        rpm: rpm(speed_rad_per_s),
-        time_s,
-    })
 }

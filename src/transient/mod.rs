@@ -7,6 +7,7 @@
 //! answers to the loads ([`ReducedBlade`]).
 
 mod cut;
+mod linear;
 mod newmark;
 mod on_spline;
 mod propagator;
@@ -20,6 +21,7 @@ mod teeth;
 mod verdict_map;
 
 pub use cut::{CutHistory, Growth, cut_history};
+pub use linear::LINEAR_THICKNESSES;
 pub use newmark::{Motion, Newmark};
 pub use on_spline::{OnSpline, on_spline};
 pub use propagator::{Propagator, State};
@@ -28,7 +30,7 @@ pub use response::{ResponseMap, response_map};
 pub use runup::{BandGrowth, RunUpHistory, band_growths, run_up};
 pub use saw_in_cut::{SawInCut, in_cut_plate};
 pub use scenario::{Cutting, CuttingRun, RunningUp};
-pub use sinusoids::{Sinusoid, damped_sinusoids, fitted_growth};
+pub use sinusoids::{FitError, Sinusoid, damped_sinusoids, fitted_growth};
 pub use teeth::{ToothPassing, tooth_passing};
 pub use verdict_map::{VerdictMap, verdict_map};
 
@@ -48,6 +50,9 @@ pub enum TransientError {
     /// The blade could not be followed on its arbor.
     #[error(transparent)]
     Spline(#[from] SplineError),
+    /// A record without sinusoids.
+    #[error("{0}; the scene's numbers are too far apart")]
+    Fit(#[from] FitError),
     /// Growth beyond what a double holds.
     #[error(
         "the deflection at {rpm:.0} rpm outgrows every number within {time_s:.3} s; shorten the time, or lower the speed"
@@ -58,9 +63,17 @@ pub enum TransientError {
         /// Time from the beginning.
         time_s: f64,
     },
+    /// A force too large for the linear model.
+    #[error(
+        "runup.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
+    )]
+    BentByForce {
+        /// The force.
+        force_n: f64,
+    },
     /// Matrices that no exponential can be taken of.
     #[error(
-        "a step of {step_s} s at {rpm:.0} rpm is not finite; the scene's numbers are too far apart"
+        "within {step_s:e} s at {rpm:.0} rpm the motion outgrows every number; the forces or other numbers of the scene are too large"
     )]
     NotFinite {
         /// Rotation speed.

@@ -51,6 +51,6 @@ pub fn on_spline(
     Ok(Some(OnSpline {
         motion,
         stiffness_change,
-        in_cut: fastest.unwrap_or_default().into(),
+        in_cut: fastest.into(),
     }))
 }

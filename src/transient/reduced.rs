@@ -4,10 +4,10 @@
 //! blade where no low mode bends is then carried by the right stiffness all the same.
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, MatRef, Scale};
+use faer::{Col, Mat, MatRef, Scale, Side};
 
 use crate::plate::Plate;
-use crate::spectrum::{frequency_scale, lowest_eigenpairs, orthonormal, split};
+use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 
 /// A system at a speed, whose lowest modes join the basis.
@@ -70,6 +70,44 @@ impl ReducedBlade {
         }
         ReducedBlade {
             basis: orthonormal(order, &vectors, INDEPENDENT),
+        }
+    }
+
+    /// The same motions and all shapes of a system that does not turn whose frequency is
+    /// below a limit: what answers a force of up to that frequency.
+    ///
+    /// # Errors
+    /// [`SpectrumError::NoConvergence`].
+    pub fn with_shapes_below(
+        &self,
+        system: &GyroscopicSystem,
+        highest_rad_per_s: f64,
+    ) -> Result<Self, SpectrumError> {
+        let order = system.order();
+        let shapes = system
+            .stiffness
+            .self_adjoint_eigen(Side::Lower)
+            .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
+        let below = |k: &usize| shapes.S()[*k] <= highest_rad_per_s * highest_rad_per_s;
+        let slow = (0..order)
+            .filter(below)
+            .map(|k| shapes.U().col(k).to_owned());
+        let own = (0..self.order()).map(|k| self.basis.col(k).to_owned());
+        let vectors: Vec<Col<f64>> = own.chain(slow).collect();
+        Ok(ReducedBlade {
+            basis: orthonormal(order, &vectors, INDEPENDENT),
+        })
+    }
+
+    /// The same motions and all shapes in which a system that does not turn buckles: a load
+    /// that presses the blade out of its plane moves it in shapes far from the lowest modes.
+    ///
+    /// # Errors
+    /// [`SpectrumError::NoConvergence`].
+    pub fn with_buckled_shapes(&self, system: &GyroscopicSystem) -> Result<Self, SpectrumError> {
+        match system.stiffness.llt(Side::Lower) {
+            Ok(_) => Ok(self.clone()),
+            Err(_) => self.with_shapes_below(system, 0.0),
         }
     }
 

@@ -5,14 +5,15 @@ use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUp};
+use crate::scene::{Probe, RunUp, rpm};
 use crate::spectrum::{Mode, SpectralModel, Stop};
 use crate::stability::Instability;
 use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
+use super::linear::Gauge;
 use super::reduced::{ReducedBlade, Snapshot, at_point};
-use super::{Newmark, TransientError};
+use super::{Motion, Newmark, TransientError};
 
 /// Deflection over the run-up.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +22,9 @@ pub struct RunUpHistory {
     pub speed_rad_per_s: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
+    /// Speed at which the deflection leaves the linear model, where the record ends; `None`
+    /// when it does not.
+    pub linear_until_rad_per_s: Option<f64>,
     /// Step of the integration.
     pub step_s: f64,
 }
@@ -62,7 +66,8 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
 /// Integrates the run-up, with steps that resolve `highest_rad_per_s`.
 ///
 /// # Errors
-/// [`TransientError::Overflow`] when a growing motion exceeds every number.
+/// [`TransientError::BentByForce`] when the force alone bends the blade out of the linear
+/// model, [`TransientError::Overflow`] when a growing motion exceeds every number.
 pub fn run_up(
     plate: &Plate,
     runup: &RunUp,
@@ -74,7 +79,7 @@ pub fn run_up(
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
     let load = faer::Scale(runup.force_n) * blade.vector(&force);
-    let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
+    let gauge = Gauge::new(plate, &blade, probe);
     let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
     let steps = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
     let step_s = runup.duration_s / steps as f64;
@@ -97,26 +102,50 @@ pub fn run_up(
     let stride = steps.div_ceil(MAX_SAMPLES);
     let stop = Stop::current();
     let mut history = RunUpHistory {
-        speed_rad_per_s: vec![speed_at(0)],
-        deflection_m: vec![read.transpose() * &motion.displacement],
+        speed_rad_per_s: Vec::new(),
+        deflection_m: Vec::new(),
+        linear_until_rad_per_s: None,
         step_s,
     };
-    for step in 1..=steps {
-        let speed = speed_at(step);
-        motion = newmark.step(&motion, &load);
-        if step % HELD_STEPS == 0 {
-            stop.check()?;
-            newmark = held(step);
-        }
+    for step in 0..=steps {
         if step % stride == 0 || step == steps {
-            let deflection = read.transpose() * &motion.displacement;
-            let deflection = finite(deflection, speed, step as f64 * step_s)?;
-            history.speed_rad_per_s.push(speed);
-            history.deflection_m.push(deflection);
+            if !history.take(&gauge, &motion, (speed_at(step), step as f64 * step_s))? {
+                break;
+            }
             progress(step, steps);
         }
+        motion = newmark.step(&motion, &load);
+        if (step + 1) % HELD_STEPS == 0 {
+            stop.check()?;
+            newmark = held(step + 1);
+        }
+    }
+    if history.deflection_m.is_empty() {
+        return Err(TransientError::BentByForce {
+            force_n: runup.force_n,
+        });
     }
     Ok(history)
+}
+
+impl RunUpHistory {
+    /// Adds a sample; false where it is beyond the linear model.
+    fn take(
+        &mut self,
+        gauge: &Gauge,
+        motion: &Motion,
+        (speed_rad_per_s, time_s): (f64, f64),
+    ) -> Result<bool, TransientError> {
+        let deflection = gauge.at_probe(|i| motion.displacement[i]);
+        let deflection = finite(deflection, rpm(speed_rad_per_s), time_s)?;
+        if gauge.beyond(deflection) {
+            self.linear_until_rad_per_s = Some(speed_rad_per_s);
+            return Ok(false);
+        }
+        self.speed_rad_per_s.push(speed_rad_per_s);
+        self.deflection_m.push(deflection);
+        Ok(true)
+    }
 }
 
 /// K⁻¹f where K is positive definite, else zero: nothing holds the blade then.

@@ -4,6 +4,7 @@ use faer::{Col, Mat};
 
 use crate::plate::{Plate, RimForce};
 use crate::scene::{Cut, CutRun};
+use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
 use super::reduced::{ReducedBlade, Snapshot, at_point};
@@ -59,7 +60,10 @@ pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
 
 impl<'a> SawInCut<'a> {
     /// Puts the forces on the saw and finds its lowest modes with and without them.
-    pub fn new(plate: &'a Plate, cut: &'a Cut, run: &'a CutRun) -> Self {
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(plate: &'a Plate, cut: &'a Cut, run: &'a CutRun) -> Result<Self, SpectrumError> {
         let cutting = in_cut_plate(plate, cut, run);
         let order = plate.degrees_of_freedom();
         let edge_stiffness = cutting.edge_stiffness.clone();
@@ -69,9 +73,11 @@ impl<'a> SawInCut<'a> {
             system,
             speed_rad_per_s: run.speed_rad_per_s,
         });
-        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[lateral_load(plate, cut, 0.0)]);
+        let load = lateral_load(plate, cut, 0.0);
+        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load]);
+        let blade = blade.with_buckled_shapes(&systems[1])?;
         let [idle_system, cutting_system] = systems;
-        SawInCut {
+        Ok(SawInCut {
             plate,
             cut,
             run,
@@ -80,7 +86,7 @@ impl<'a> SawInCut<'a> {
             idle_system,
             cutting_system,
             blade,
-        }
+        })
     }
 
     /// The saw without the forces, on few motions. What nothing holds in it is what nothing

@@ -55,8 +55,13 @@ impl Cutting {
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
         let plate = chosen_plate(scene, runs)?;
-        let turns = even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1).map(f64::to_radians);
-        let turns: Vec<f64> = turns.collect();
+        let turns: Vec<f64> = match scene.guides().is_empty() {
+            // Turned by any angle, a saw without guides is the same.
+            true => vec![0.0],
+            false => even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1)
+                .map(f64::to_radians)
+                .collect(),
+        };
         let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
         let points = turns.len() * levels.len();
         let runs = runs
@@ -64,7 +69,7 @@ impl Cutting {
             .enumerate()
             .map(|(index, run)| {
                 let of = |done: usize, _| progress(index * points + done, runs.len() * points);
-                let saw = SawInCut::new(&plate, cut, run);
+                let saw = SawInCut::new(&plate, cut, run)?;
                 Ok(CuttingRun {
                     history: cut_history(&saw, scene.probe())?,
                     passing: tooth_passing(&saw, scene.probe(), STAGES)?,

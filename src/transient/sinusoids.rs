@@ -16,48 +16,88 @@ pub struct Sinusoid {
     pub lambda: c64,
     /// Largest size within the record, in the unit of the record.
     pub largest: f64,
+    /// Whether it grows or turns within the record; if not, it is the static answer to a load.
+    pub moves: bool,
+}
+
+/// Why a record was not taken apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{samples} samples of a deflection could not be taken apart into sinusoids")]
+pub struct FitError {
+    /// Samples that were looked at.
+    pub samples: usize,
 }
 
 /// Singular values below this share of the largest are rounding.
 const RANK_TOLERANCE: f64 = 1e-10;
 /// Samples that the method looks at: its cost grows with their cube.
-const SAMPLES: usize = 401;
+pub(super) const SAMPLES: usize = 801;
 /// Sinusoids smaller than this share of the record are what is left of rounding.
 const AUDIBLE: f64 = 1e-3;
+/// What neither grows nor turns by more than this within the record is the static answer.
+const STATIC: f64 = 1e-2;
 
 /// The sinusoids of an evenly sampled record, the largest first. Empty when the record
-/// is silent, too short, or not finite.
-pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Vec<Sinusoid> {
-    let stride = (record.len() / SAMPLES).max(1);
-    let samples: Vec<f64> = record.iter().copied().step_by(stride).collect();
-    let loudest = samples.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-    if samples.len() < 8 || !(loudest > 0.0 && loudest.is_finite()) {
-        return Vec::new();
+/// is silent or too short.
+///
+/// A long record is not thinned out, which would fold its frequencies, but cut to the one of
+/// its ends that is louder: growth shows at the end and decay at the beginning.
+///
+/// # Errors
+/// [`FitError`] when the record is not finite or the decomposition fails.
+pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, FitError> {
+    let samples = louder_end(record);
+    let failed = FitError {
+        samples: samples.len(),
+    };
+    if !record.iter().all(|x| x.is_finite()) {
+        return Err(failed);
     }
-    let roots = pencil_roots(&samples).unwrap_or_default();
-    let step_s = step_s * stride as f64;
-    let mut found: Vec<Sinusoid> = amplitudes(&samples, &roots)
+    let loudest = loudness(samples);
+    if samples.len() < 8 || loudest == 0.0 {
+        return Ok(Vec::new());
+    }
+    let roots = pencil_roots(samples).ok_or(failed)?;
+    let mut found: Vec<Sinusoid> = amplitudes(samples, &roots)
         .into_iter()
         .zip(&roots)
         .filter(|(_, z)| z.im >= 0.0)
         .map(|(amplitude, z)| {
             let sides = if z.im > 0.0 { 2.0 } else { 1.0 };
-            let end = z.norm().powi(samples.len() as i32 - 1).max(1.0);
+            let lambda = z.ln() / step_s;
             Sinusoid {
-                lambda: z.ln() / step_s,
-                largest: sides * amplitude.norm() * end,
+                lambda,
+                largest: sides * amplitude.norm(),
+                moves: lambda.norm() * step_s * samples.len() as f64 > STATIC,
             }
         })
-        .filter(|s| s.lambda.is_finite() && s.largest.is_finite() && s.largest > AUDIBLE * loudest)
+        // The logarithm of a root at zero, which decays within one step, is no number.
+        .filter(|s| s.lambda.is_finite() && s.largest > AUDIBLE * loudest)
         .collect();
     found.sort_by(|x, y| y.largest.total_cmp(&x.largest));
-    found
+    Ok(found)
 }
 
-/// The fastest growth among the sinusoids of a record, and its frequency in rad/s.
+fn louder_end(record: &[f64]) -> &[f64] {
+    let count = record.len().min(SAMPLES);
+    let (first, last) = (&record[..count], &record[record.len() - count..]);
+    match loudness(first) > loudness(last) {
+        true => first,
+        false => last,
+    }
+}
+
+fn loudness(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0_f64, |max, x| max.max(x.abs()))
+}
+
+/// The fastest growth among the sinusoids of a record, and its frequency in rad/s; that of
+/// the static answer to a load, which is none, when nothing else is left.
 pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
-    let lambda = sinusoids.iter().map(|s| s.lambda);
-    lambda.max_by(|x, y| x.re.total_cmp(&y.re))
+    let fastest = |x: &&Sinusoid, y: &&Sinusoid| x.lambda.re.total_cmp(&y.lambda.re);
+    let moving = sinusoids.iter().filter(|s| s.moves).max_by(fastest);
+    let fastest = moving.or_else(|| sinusoids.iter().max_by(fastest));
+    fastest.map(|s| s.lambda)
 }
 
 /// z with samples Σ a zᵏ: eigenvalues of the pencil of two shifted Hankel matrices, on
@@ -82,8 +122,8 @@ fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     step.eigenvalues().ok()
 }
 
-/// Least squares for a in samples Σ a zᵏ; growing z are counted from the end of the
-/// record, so that no power overflows.
+/// Least squares for a in samples Σ a zᵏ: that at the beginning of the record of what decays,
+/// and at its end of what grows, so that no power overflows and each is the largest.
 fn amplitudes(samples: &[f64], roots: &[c64]) -> Vec<c64> {
     if roots.is_empty() || roots.len() > samples.len() {
         return Vec::new();
@@ -99,54 +139,74 @@ fn amplitudes(samples: &[f64], roots: &[c64]) -> Vec<c64> {
     });
     let right = Col::from_fn(samples.len(), |k| c64::new(samples[k], 0.0));
     let solution = matrix.col_piv_qr().solve_lstsq(&right);
-    (0..roots.len())
-        .map(|i| {
-            let z = roots[i];
-            if z.norm() > 1.0 {
-                solution[i] * z.powi(-last)
-            } else {
-                solution[i]
-            }
-        })
-        .collect()
+    solution.iter().copied().collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn record(count: u32, step_s: f64, tone: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..count).map(|k| tone(step_s * f64::from(k))).collect()
+    }
+
+    fn fitted(record: &[f64], step_s: f64) -> c64 {
+        fitted_growth(&damped_sinusoids(record, step_s).unwrap()).unwrap()
+    }
+
     /// A growing tone under a larger steady one, a static offset and a decaying one.
     #[test]
     fn a_growing_tone_is_found_among_others() {
-        let tone = |t: f64| {
+        let record = record(900, 1e-3, |t| {
             0.1 * (1.7 * t).exp() * (30.0 * t + 0.4).cos()
                 + 2.0 * (55.0 * t).cos()
                 + 0.7
                 + 0.5 * (-4.0 * t).exp() * (90.0 * t).sin()
-        };
-        let record: Vec<f64> = (0..900).map(|k| tone(1e-3 * f64::from(k))).collect();
-        let found = fitted_growth(&damped_sinusoids(&record, 1e-3)).unwrap();
+        });
+        let found = fitted(&record, 1e-3);
         assert!((found - c64::new(1.7, 30.0)).norm() < 1e-6, "{found}");
+    }
+
+    /// 50 Hz in records of 10 and 60 s: every 25th or 50th sample alone would show
+    /// another frequency.
+    #[test]
+    fn item_8_a_tone_of_50_hz_keeps_its_frequency_in_a_long_record() {
+        for (count, step_s) in [(10_000, 1e-3), (20_000, 3e-3), (60_000, 1e-3)] {
+            for growth in [0.0, 0.3, -0.3] {
+                let exact = c64::new(growth, std::f64::consts::TAU * 50.0);
+                let tone = |t: f64| 1e-3 * (growth * t).exp() * (exact.im * t + 0.3).cos();
+                for offset in [0.0, 1e-3] {
+                    let record = record(count, step_s, |t| tone(t) + offset);
+                    let found = fitted(&record, step_s);
+                    let error = (found - exact).norm();
+                    assert!(error < 1e-6, "{count} {step_s} {offset}: {found} {exact}");
+                }
+            }
+        }
     }
 
     #[test]
     fn steady_tones_do_not_grow() {
-        let record: Vec<f64> = (0..1200)
-            .map(|k| {
-                let t = 1e-3 * f64::from(k);
-                (1..30)
-                    .map(|m| (13.0 * f64::from(m * m) * t).cos() / f64::from(m))
-                    .sum()
-            })
-            .collect();
-        let found = fitted_growth(&damped_sinusoids(&record, 1e-3)).unwrap();
+        let record = record(1200, 1e-3, |t| {
+            (1..30)
+                .map(|m| (13.0 * f64::from(m * m) * t).cos() / f64::from(m))
+                .sum()
+        });
+        let found = fitted(&record, 1e-3);
         assert!(found.re.abs() < 1e-4, "{found}");
     }
 
     #[test]
-    fn silence_and_noise_of_rounding_are_nothing() {
-        assert!(damped_sinusoids(&[0.0; 100], 1e-3).is_empty());
-        assert!(damped_sinusoids(&[f64::NAN; 100], 1e-3).is_empty());
-        assert!(damped_sinusoids(&[1.0; 3], 1e-3).is_empty());
+    fn silence_and_too_few_samples_are_nothing() {
+        assert_eq!(damped_sinusoids(&[0.0; 100], 1e-3), Ok(Vec::new()));
+        assert_eq!(damped_sinusoids(&[1.0; 3], 1e-3), Ok(Vec::new()));
+    }
+
+    /// An overflow is not silence.
+    #[test]
+    fn what_is_not_a_number_is_refused() {
+        for x in [f64::NAN, f64::INFINITY] {
+            assert!(damped_sinusoids(&[x; 100], 1e-3).is_err());
+        }
     }
 }

@@ -6,11 +6,12 @@ use faer::{Mat, Scale};
 use rayon::prelude::*;
 
 use crate::campbell::Progress;
-use crate::spectrum::fastest_growing;
+use crate::spectrum::{SpectrumError, fastest_growing};
+use crate::system::GyroscopicSystem;
 
-use super::TransientError;
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::{SawInCut, lateral_load};
+use super::{Growth, TransientError};
 
 /// Growth rates of one speed on a grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +42,7 @@ pub fn verdict_map(
     progress: Progress<'_>,
 ) -> Result<VerdictMap, TransientError> {
     let speed = saw.run.speed_rad_per_s;
-    let blade = map_basis(saw, turns_rad);
+    let blade = map_basis(saw, turns_rad, load_levels)?;
     let reduced = saw.idle_on(&blade);
     let edges: Vec<Mat<f64>> = turns_rad
         .par_iter()
@@ -59,7 +60,7 @@ pub fn verdict_map(
                     system.stiffness += Scale(*level) * edge;
                     let fastest = fastest_growing(&system, speed)?;
                     progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
-                    Ok(fastest.map_or(0.0, |lambda| lambda.re))
+                    Ok(Growth::from(fastest).growth_per_s)
                 })
                 .collect::<Result<Vec<f64>, TransientError>>()
         })
@@ -72,7 +73,11 @@ pub fn verdict_map(
 }
 
 /// The motions of the idle saw and of the cutting one with its cut turned to a few angles.
-fn map_basis(saw: &SawInCut<'_>, turns_rad: &[f64]) -> ReducedBlade {
+fn map_basis(
+    saw: &SawInCut<'_>,
+    turns_rad: &[f64],
+    load_levels: &[f64],
+) -> Result<ReducedBlade, SpectrumError> {
     let whole = ReducedBlade::whole(saw.plate);
     let mut systems = vec![saw.idle_system.clone()];
     for k in 0..SNAPSHOTS {
@@ -91,5 +96,13 @@ fn map_basis(saw: &SawInCut<'_>, turns_rad: &[f64]) -> ReducedBlade {
         })
         .collect();
     let load = lateral_load(saw.plate, saw.cut, 0.0);
-    ReducedBlade::new(saw.plate, &snapshots, MODES, &[load])
+    let mut blade = ReducedBlade::new(saw.plate, &snapshots, MODES, &[load]);
+    let highest = load_levels.iter().copied().fold(1.0, f64::max);
+    let place = |system: &GyroscopicSystem| &system.stiffness - &saw.idle_system.stiffness;
+    for system in systems.iter().skip(1) {
+        let mut heaviest = system.clone();
+        heaviest.stiffness += Scale(highest - 1.0) * place(system);
+        blade = blade.with_buckled_shapes(&heaviest)?;
+    }
+    Ok(blade)
 }

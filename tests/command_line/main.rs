@@ -9,6 +9,7 @@ mod design;
 #[cfg(feature = "explore")]
 mod explore;
 mod faults;
+mod growth;
 mod input;
 mod membrane;
 mod program;

@@ -12,6 +12,7 @@ mod edge_load;
 mod floquet;
 mod heat_limits;
 mod membrane;
+mod moving_loads;
 mod paper;
 mod rigid_motions;
 mod saws;

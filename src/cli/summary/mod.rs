@@ -11,7 +11,7 @@ use crate::report::{Report, RestMode};
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 12;
-const WIDTH: usize = 80;
+pub const WIDTH: usize = 80;
 
 /// What a designer wants to know: the answer first, then what it rests on.
 pub fn summary(report: &Report) -> String {

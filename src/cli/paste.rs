@@ -1,0 +1,66 @@
+//! Blocks of JSON to paste into a scene that lacks them.
+
+use std::f64::consts::PI;
+
+use serde_json::{Value, json};
+
+use crate::scene::SceneFile;
+
+/// Rim speed of a saw that says no speed of its own: between those of the stone and the
+/// timber industry.
+const RIM_SPEED_M_PER_S: f64 = 60.0;
+/// Power of a cut in each metre of depth, of the order of the paper's saw.
+const POWER_W_PER_M: f64 = 200e3;
+
+/// The key `cut`, of a middling cut for this blade.
+pub fn cut_block(scene: &SceneFile) -> String {
+    let depth_m = rounded(0.25 * scene.blade.outer_diameter_m);
+    let mut cut = json!({
+        "depth_m": depth_m,
+        "power_w": rounded(POWER_W_PER_M * depth_m),
+        "radial_n_per_tooth": 20,
+        "lateral_n_per_tooth": 1,
+        "feed_m_per_s": 1,
+        "board_length_m": 2
+    });
+    if scene.operating_rpm.is_none() {
+        cut["speeds"] = json!([{ "rpm": usual_rpm(scene) }]);
+    }
+    let mut text = block("cut", &cut);
+    if scene.blade.teeth.is_none_or(|teeth| teeth == 0) {
+        text += "\n\nand the number of its teeth, \"teeth\": 40, into its block \"blade\"";
+    }
+    text
+}
+
+/// The key `runup`, to half as fast again as the saw runs.
+pub fn runup_block(scene: &SceneFile) -> String {
+    let usual_rpm = scene.operating_rpm.unwrap_or_else(|| usual_rpm(scene));
+    let runup = json!({
+        "from_rpm": 0,
+        "to_rpm": rounded(1.5 * usual_rpm),
+        "duration_s": 60,
+        "force_n": 1
+    });
+    block("runup", &runup)
+}
+
+fn usual_rpm(scene: &SceneFile) -> f64 {
+    rounded(60.0 * RIM_SPEED_M_PER_S / (PI * scene.blade.outer_diameter_m))
+}
+
+/// To two digits.
+fn rounded(value: f64) -> f64 {
+    let digit = 10f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 1.0);
+    // A decimal text and back, for a multiple of 0.01 is not one in binary.
+    let text = format!("{:.3e}", (value / digit).round() * digit);
+    text.parse().unwrap_or(value)
+}
+
+/// `"key": { … },` between empty lines, indented like a key of a scene.
+fn block(key: &str, value: &Value) -> String {
+    // A JSON value made here has no keys but texts, which is all that could fail.
+    let text = serde_json::to_string_pretty(value).unwrap_or_default();
+    let text = text.replace('\n', "\n  ");
+    format!(":\n\n  \"{key}\": {text},")
+}

@@ -1,0 +1,195 @@
+//! What says whether a cut is stable.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::hertz;
+use crate::scene::Scene;
+use crate::transient::{CuttingRun, Growth};
+
+/// Whether a motion grows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// No motion grows as fast as the threshold.
+    Stable,
+    /// Some motion does.
+    Unstable,
+}
+
+/// What a verdict rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CutCriterion {
+    /// The eigenvalues in the cut, with tooth loads that stand still.
+    Eigenvalues,
+    /// The growth fitted to the deflection in the cut.
+    TimeHistory,
+    /// Floquet multipliers with tooth loads that move with the teeth.
+    MovingToothLoads,
+    /// The eigenvalues in the cut, with the simulated reaction of the spline.
+    SplineReaction,
+    /// The eigenvalues before and after the cut.
+    OutOfCut,
+}
+
+/// A criterion and what it says.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutCriterionEntry {
+    /// Which one.
+    pub criterion: CutCriterion,
+    /// What it says.
+    pub verdict: Verdict,
+    /// Largest growth by it.
+    pub growth_per_s: f64,
+    /// Frequency of that motion where it is known and grows.
+    pub frequency_hz: Option<f64>,
+}
+
+/// What the two verdicts may differ by in growth.
+const AGREEMENT: f64 = 0.02;
+
+/// What each criterion says of one speed.
+pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterionEntry> {
+    let CuttingRun {
+        history,
+        passing,
+        spline,
+        ..
+    } = computed;
+    let entry = |criterion: CutCriterion, growth: Growth| CutCriterionEntry {
+        criterion,
+        verdict: Verdict::of(scene, growth.growth_per_s),
+        growth_per_s: growth.growth_per_s,
+        frequency_hz: growing_hz(growth),
+    };
+    let fitted = history.fitted.map(|fitted| CutCriterionEntry {
+        // Rounding of a motion that neither grows nor decays has no frequency.
+        frequency_hz: growing_hz(fitted)
+            .filter(|_| Verdict::of(scene, fitted.growth_per_s) == Verdict::Unstable),
+        ..entry(CutCriterion::TimeHistory, fitted)
+    });
+    let moving = CutCriterionEntry {
+        criterion: CutCriterion::MovingToothLoads,
+        verdict: Verdict::of(scene, passing.passing_growth_per_s),
+        growth_per_s: passing.passing_growth_per_s,
+        frequency_hz: None,
+    };
+    let spline = spline.as_ref();
+    [
+        Some(entry(CutCriterion::Eigenvalues, history.in_cut)),
+        fitted,
+        Some(moving),
+        spline.map(|found| entry(CutCriterion::SplineReaction, found.in_cut)),
+        Some(entry(CutCriterion::OutOfCut, history.idle)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The worst of the verdicts, and the first of the fastest criteria that give it.
+pub(super) fn worst(criteria: &[CutCriterionEntry]) -> (Verdict, CutCriterion) {
+    let unstable = |entry: &CutCriterionEntry| entry.verdict == Verdict::Unstable;
+    let verdict = match criteria.iter().any(unstable) {
+        true => Verdict::Unstable,
+        false => Verdict::Stable,
+    };
+    let mut fastest: Option<&CutCriterionEntry> = None;
+    for entry in criteria.iter().filter(|entry| entry.verdict == verdict) {
+        let faster = |than: &CutCriterionEntry| {
+            let apart = AGREEMENT * than.growth_per_s.abs();
+            entry.growth_per_s > than.growth_per_s + apart
+        };
+        if fastest.is_none_or(faster) {
+            fastest = Some(entry);
+        }
+    }
+    let criterion = fastest.map_or(CutCriterion::Eigenvalues, |entry| entry.criterion);
+    (verdict, criterion)
+}
+
+/// Whether a time history says what the eigenvalues say.
+pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
+    let of = |growth: Growth| Verdict::of(scene, growth.growth_per_s);
+    let apart = (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs();
+    of(fitted) == of(eigenvalue) && (of(fitted) == Verdict::Stable || apart <= AGREEMENT)
+}
+
+pub(super) fn growing_hz(growth: Growth) -> Option<f64> {
+    (growth.growth_per_s > 0.0).then(|| hertz(growth.frequency_rad_per_s))
+}
+
+impl Verdict {
+    pub(in crate::report) fn of(scene: &Scene, growth_per_s: f64) -> Self {
+        match growth_per_s < scene.flutter_threshold_per_s() || growth_per_s <= 0.0 {
+            true => Verdict::Stable,
+            false => Verdict::Unstable,
+        }
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Verdict::Stable => "stable",
+            Verdict::Unstable => "unstable",
+        })
+    }
+}
+
+impl std::fmt::Display for CutCriterion {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            CutCriterion::Eigenvalues => "eigenvalues",
+            CutCriterion::TimeHistory => "time history",
+            CutCriterion::MovingToothLoads => "moving tooth loads",
+            CutCriterion::SplineReaction => "simulated spline reaction",
+            CutCriterion::OutOfCut => "out of the cut",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(growths: &[(CutCriterion, f64)]) -> Vec<CutCriterionEntry> {
+        let scene = Scene::paper();
+        let entry = |(criterion, growth_per_s): &(CutCriterion, f64)| CutCriterionEntry {
+            criterion: *criterion,
+            verdict: Verdict::of(&scene, *growth_per_s),
+            growth_per_s: *growth_per_s,
+            frequency_hz: None,
+        };
+        growths.iter().map(entry).collect()
+    }
+
+    /// The threshold is 0.25 1/s: one criterion above it is enough, and names itself.
+    #[test]
+    fn item_3_the_worst_criterion_decides() {
+        use CutCriterion::{Eigenvalues, MovingToothLoads, OutOfCut, TimeHistory};
+        let cases = [
+            ([0.0, 1e-9, 0.379, 0.0], Verdict::Unstable, MovingToothLoads),
+            ([0.0, 0.0, 0.0, 0.3], Verdict::Unstable, OutOfCut),
+            ([6.0, 6.0001, 5.9, 0.0], Verdict::Unstable, Eigenvalues),
+            ([0.249, 0.2501, 0.2, 0.0], Verdict::Unstable, TimeHistory),
+            ([0.0, 0.0, 0.1, 0.0], Verdict::Stable, MovingToothLoads),
+            ([-3.0, -3.0001, -2.0, -1.0], Verdict::Stable, OutOfCut),
+        ];
+        for (growths, verdict, decides) in cases {
+            let criteria = [Eigenvalues, TimeHistory, MovingToothLoads, OutOfCut];
+            let pairs: Vec<_> = criteria.into_iter().zip(growths).collect();
+            assert_eq!(worst(&entries(&pairs)), (verdict, decides), "{growths:?}");
+        }
+    }
+
+    /// What is not known to be stable is not called so.
+    #[test]
+    fn item_3_what_is_not_a_number_is_not_stable() {
+        let scene = Scene::paper();
+        assert_eq!(Verdict::of(&scene, f64::NAN), Verdict::Unstable);
+        assert_eq!(Verdict::of(&scene, f64::INFINITY), Verdict::Unstable);
+    }
+}

@@ -1,0 +1,106 @@
+//! Remarks on the forces and on the validity of a cut.
+
+use std::f64::consts::TAU;
+
+use super::{CutCriterion, CutRunEntry, Verdict};
+use crate::transient::LINEAR_THICKNESSES;
+
+/// Beyond this many thicknesses a plate stretches as it bends, and is stiffer than a linear
+/// one.
+const SMALL_THICKNESSES: f64 = 1.0;
+
+pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
+    let all = [
+        against_power(run),
+        without_lateral_force(run),
+        moving_loads_alone(run),
+        large_deflection(run, thickness_m),
+    ];
+    all.into_iter().flatten().collect()
+}
+
+fn against_power(run: &CutRunEntry) -> Option<String> {
+    let by_power = run.by_power.as_ref()?;
+    let ratio = run.tangential_n_per_tooth / by_power.tangential_n_per_tooth;
+    ((ratio - 1.0).abs() > 0.05).then(|| {
+        format!(
+            "at {:.0} rpm the tangential force given, {:.0} N a tooth, is {ratio:.1} times the {:.0} N that the power allows at the rim; with the latter the cut is {} ({:.2} 1/s)",
+            run.rpm,
+            run.tangential_n_per_tooth,
+            by_power.tangential_n_per_tooth,
+            by_power.verdict,
+            by_power.growth_per_s
+        )
+    })
+}
+
+fn without_lateral_force(run: &CutRunEntry) -> Option<String> {
+    (run.lateral_n_per_tooth == 0.0).then(|| {
+        format!(
+            "at {:.0} rpm no lateral force moves the blade, so that the time history says nothing; give cut.lateral_n_per_tooth",
+            run.rpm
+        )
+    })
+}
+
+/// Where the teeth excite a resonance that neither standing nor mean loads have.
+fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
+    let passing = &run.tooth_passing;
+    let others = passing
+        .standing_growth_per_s
+        .max(passing.mean_growth_per_s)
+        .max(run.growth_per_s);
+    let alone = run.decided_by == CutCriterion::MovingToothLoads
+        && run.verdict == Verdict::Unstable
+        && others < 0.5 * passing.passing_growth_per_s;
+    // A shift of the tooth frequency by the growth rate leaves the resonance.
+    let width_rpm = run.rpm * passing.passing_growth_per_s / (TAU * passing.tooth_frequency_hz);
+    alone.then(|| {
+        format!(
+            "at {:.0} rpm only the moving tooth loads are unstable: two modes are in resonance with the teeth, {:.0} of which pass in a second; such a resonance is narrow, here of the order of {} rpm, and where exactly it lies depends on modes as high",
+            run.rpm,
+            passing.tooth_frequency_hz,
+            one_digit(width_rpm)
+        )
+    })
+}
+
+fn seconds(seconds: f64) -> String {
+    match seconds >= 1e-3 {
+        true => format!("{seconds:.3} s"),
+        false => "less than a millisecond".into(),
+    }
+}
+
+fn one_digit(value: f64) -> String {
+    let decimals = (-value.max(1e-6).log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+    if let Some(until_s) = run.linear_until_s {
+        let (since, moment) = match until_s > run.forces_to_s {
+            true => (run.forces_to_s, "after the cut"),
+            false => (run.forces_from_s, "into the cut"),
+        };
+        return Some(format!(
+            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {} {moment}: the linear model ends there, and the record with it; whether and how fast a small motion grows stays right",
+            run.rpm,
+            1e3 * LINEAR_THICKNESSES * thickness_m,
+            seconds(until_s - since),
+        ));
+    }
+    let largest = [
+        run.largest_deflection_in_cut_m,
+        run.largest_deflection_after_m,
+    ];
+    let largest_m = largest.into_iter().flatten().fold(0.0_f64, f64::max);
+    (largest_m > SMALL_THICKNESSES * thickness_m).then(|| {
+        format!(
+            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: beyond one thickness a blade stretches as it bends, and is deflected less than the linear model says",
+            run.rpm,
+            1e3 * largest_m,
+            largest_m / thickness_m
+        )
+    })
+}

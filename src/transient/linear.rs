@@ -1,0 +1,41 @@
+//! Where the linear model ends.
+//!
+//! A plate that bends by more than its thickness stretches as well, which stiffens it and
+//! which a linear model leaves out. That a small motion grows, and how fast, stays right;
+//! how large it becomes does not.
+
+use crate::plate::Plate;
+use crate::scene::Probe;
+
+use super::reduced::{ReducedBlade, at_point};
+
+/// Deflections beyond this many thicknesses of the blade are not given.
+pub const LINEAR_THICKNESSES: f64 = 5.0;
+
+/// Reads the deflection at the probe.
+#[derive(Debug)]
+pub(super) struct Gauge {
+    probe: Vec<f64>,
+    limit_m: f64,
+}
+
+impl Gauge {
+    pub(super) fn new(plate: &Plate, blade: &ReducedBlade, probe: &Probe) -> Self {
+        let reading = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
+        Gauge {
+            probe: reading.iter().copied().collect(),
+            limit_m: LINEAR_THICKNESSES * plate.blade.thickness_m,
+        }
+    }
+
+    /// Deflection of a motion, given by its coordinates.
+    pub(super) fn at_probe(&self, motion: impl Fn(usize) -> f64) -> f64 {
+        let coordinates = self.probe.iter().enumerate();
+        coordinates.map(|(i, c)| c * motion(i)).sum()
+    }
+
+    /// Whether a deflection is more than the linear model is asked for.
+    pub(super) fn beyond(&self, deflection_m: f64) -> bool {
+        deflection_m.abs() > self.limit_m
+    }
+}

@@ -1,0 +1,207 @@
+//! Goal: what `cut` and `runup` say of growing motions is one answer, and within the model.
+//!
+//! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
+
+use sawflutter::report::{CutCriterion, CutReport, RunUpReport, Verdict};
+use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::program::{run, text, write_scene};
+
+/// What a run printed and what it wrote.
+fn done(command: &str, file: &SceneFile) -> (String, Vec<u8>) {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, file);
+    let arguments = [command, scene.to_str().unwrap(), "--accuracy", "draft"];
+    let output = run(&arguments, &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let json = std::fs::read(folder.path().join(format!("out/{command}.json"))).unwrap();
+    (text(&output.stdout).to_owned(), json)
+}
+
+fn assert_in_80_columns(summary: &str) {
+    for line in summary.lines().filter(|line| !line.starts_with("Written")) {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+}
+
+/// The saw with two pads in the paper's cut, whose moving tooth loads alone may grow.
+fn two_pads() -> SceneFile {
+    let mut file = crate::common::scene("two-pads").file().clone();
+    let mut cut = Scene::paper().file().cut.clone().unwrap();
+    cut.speeds.clear();
+    file.cut = Some(cut);
+    file
+}
+
+/// The paper's saw under a force at 2800 rpm.
+fn pressed(tangential_n: f64) -> SceneFile {
+    let mut file = Scene::paper().file().clone();
+    let cut = file.cut.as_mut().unwrap();
+    cut.tangential_n_per_tooth = Some(tangential_n);
+    cut.speeds = vec![CutSpeedFile {
+        rpm: 2800.0,
+        ..CutSpeedFile::default()
+    }];
+    file
+}
+
+#[test]
+fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
+    for file in [two_pads(), Scene::paper().file().clone()] {
+        let (summary, json) = done("cut", &file);
+        assert_in_80_columns(&summary);
+        let report: CutReport = serde_json::from_slice(&json).unwrap();
+        for run in &report.runs {
+            let threshold = report.flutter_threshold_per_s;
+            let growths = [
+                run.growth_per_s,
+                run.transient_growth_per_s.unwrap(),
+                run.tooth_passing.passing_growth_per_s,
+                run.idle_growth_per_s,
+            ];
+            let grows = growths.iter().any(|growth| *growth >= threshold);
+            assert_eq!(run.verdict == Verdict::Unstable, grows, "{growths:?}");
+            let word = if grows { "UNSTABLE" } else { "stable" };
+            let line = format!("{} rpm: {word}", run.rpm);
+            assert!(summary.contains(&line), "{line} is not in {summary}");
+            let rows: Vec<f64> = run.criteria.iter().map(|row| row.growth_per_s).collect();
+            assert_eq!(rows, growths);
+        }
+    }
+}
+
+/// Forces that no saw bears: the eigenvalues, the fitted history and the Floquet multipliers
+/// of the loads, three computations, tell one growth.
+#[test]
+fn item_3_the_most_violent_saws_are_unstable() {
+    for tangential_n in [1e4, 1e5, 1e7, 8e8] {
+        let (summary, json) = done("cut", &pressed(tangential_n));
+        assert_in_80_columns(&summary);
+        let report: CutReport = serde_json::from_slice(&json).unwrap();
+        let run = &report.runs[0];
+        assert_eq!(run.verdict, Verdict::Unstable, "{tangential_n}");
+        let violent = |c: CutCriterion| c != CutCriterion::OutOfCut;
+        for row in run.criteria.iter().filter(|row| violent(row.criterion)) {
+            let apart = (row.growth_per_s / run.growth_per_s - 1.0).abs();
+            assert!(apart < 0.05, "{tangential_n}: {row:?} {}", run.growth_per_s);
+        }
+        assert_eq!(run.agree, Some(true), "{tangential_n}");
+    }
+}
+
+/// Numbers of a text.
+fn numbers(text: &str) -> impl Iterator<Item = f64> + '_ {
+    let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+    words.filter_map(|word| word.trim_matches('.').parse().ok())
+}
+
+#[test]
+fn item_12_no_deflection_of_a_cut_is_beyond_the_linear_model() {
+    for file in [Scene::paper().file().clone(), pressed(1e5)] {
+        let (summary, json) = done("cut", &file);
+        let report: CutReport = serde_json::from_slice(&json).unwrap();
+        assert_eq!(report.linear_limit_m, 5.0 * 0.0028);
+        for run in &report.runs {
+            let largest = [
+                run.largest_deflection_in_cut_m,
+                run.largest_deflection_after_m,
+                run.tooth_passing.standing_deflection_m,
+                run.tooth_passing.passing_deflection_m,
+            ];
+            let all = run.deflection_m.iter().chain(largest.iter().flatten());
+            for w in all {
+                assert!(w.abs() <= report.linear_limit_m, "{w} at {}", run.rpm);
+            }
+            if let Some(until_s) = run.linear_until_s {
+                assert!(run.time_s.last().is_some_and(|last| *last < until_s));
+                assert!(summary.contains("the linear model ends there"), "{summary}");
+            }
+        }
+        assert!(report.runs.iter().any(|run| run.linear_until_s.is_some()));
+        for line in summary
+            .lines()
+            .filter(|line| line.contains("largest deflection"))
+        {
+            assert!(numbers(line).all(|mm| mm <= 14.0), "{line}");
+        }
+    }
+}
+
+#[test]
+fn item_12_a_run_up_says_where_its_linear_model_ends() {
+    let (summary, json) = done("runup", Scene::paper().file());
+    assert_in_80_columns(&summary);
+    assert!(numbers(&summary).all(|number| number < 1e4), "{summary}");
+    let report: RunUpReport = serde_json::from_slice(&json).unwrap();
+    let until_rpm = report.linear_until_rpm.unwrap();
+    let about = format!(
+        "valid up to about {:.0} rpm",
+        10.0 * (until_rpm / 10.0).round()
+    );
+    assert!(summary.contains(&about), "{summary}");
+    assert!(report.rpm.iter().all(|rpm| *rpm <= until_rpm));
+    assert!(
+        report
+            .deflection_m
+            .iter()
+            .all(|w| w.abs() <= report.linear_limit_m)
+    );
+    for band in report.bands.iter().filter(|b| b.band.to_rpm > until_rpm) {
+        assert_eq!(band.seen_amplification, None, "{band:?}");
+    }
+}
+
+/// A force that alone bends the blade too far leaves nothing to run up.
+#[test]
+fn item_12_a_run_up_under_too_large_a_force_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let mut file = Scene::paper().file().clone();
+    file.runup.as_mut().unwrap().force_n = 1e6;
+    let scene = write_scene(&folder, &file);
+    let output = run(
+        &["runup", scene.to_str().unwrap(), "--accuracy", "draft"],
+        &folder,
+    );
+    assert_eq!(output.status.code(), Some(2));
+    let error = text(&output.stderr);
+    assert!(error.contains("runup.force_n is 1000000"), "{error}");
+}
+
+/// The block that a refusal prints, between its first and its last brace.
+fn block(error: &str, key: &str) -> Value {
+    let from = error.find(&format!("\"{key}\"")).expect(error);
+    let to = error[from..]
+        .find("\n\n")
+        .map_or(error.len(), |at| from + at);
+    let pair = error[from..to].trim().trim_end_matches(',');
+    let parsed: Value = serde_json::from_str(&format!("{{{pair}}}")).expect(pair);
+    parsed[key].clone()
+}
+
+#[test]
+fn the_block_that_a_refusal_prints_makes_the_scene_run() {
+    for name in ["free-blade", "two-pads", "collar-400mm"] {
+        for command in ["cut", "runup"] {
+            let mut file = crate::common::scene(name).file().clone();
+            file.operating_rpm = file.operating_rpm.filter(|_| name == "two-pads");
+            file.blade.teeth = None;
+            let folder = TempDir::new().unwrap();
+            let path = write_scene(&folder, &file);
+            let arguments = [command, path.to_str().unwrap(), "--accuracy", "draft"];
+            let refused = run(&arguments, &folder);
+            assert_eq!(refused.status.code(), Some(2));
+            let error = text(&refused.stderr);
+            let mut scene = serde_json::to_value(&file).unwrap();
+            scene[command] = block(error, command);
+            if command == "cut" {
+                assert!(error.contains("\"teeth\": 40"), "{error}");
+                scene["blade"]["teeth"] = 40.into();
+            }
+            std::fs::write(&path, scene.to_string()).unwrap();
+            let output = run(&arguments, &folder);
+            assert!(output.status.success(), "{}", text(&output.stderr));
+        }
+    }
+}
