@@ -125,14 +125,14 @@ fn in_one_line(run: &CutRunEntry) -> String {
 }
 
 fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
-    writeln!(
-        text,
-        "\n{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across",
+    let forces = format!(
+        "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across",
         run.rpm,
         run.tangential_n_per_tooth.round(),
         run.radial_n_per_tooth.round(),
         run.lateral_n_per_tooth
-    )?;
+    );
+    writeln!(text, "\n{}", wrapped(&forces))?;
     writeln!(text, "                              growth  frequency")?;
     writeln!(text, "                               [1/s]       [Hz]")?;
     for entry in &run.criteria {

@@ -36,8 +36,15 @@ pub struct CuttingRun {
     pub spline: Option<OnSpline>,
 }
 
-/// Positions of the teeth within a pitch: from 8 to 16 the growth rate changes by 0.03 %.
+/// Positions of the teeth within a pitch, at least, and the angle from one to the next, at
+/// most. With 42 teeth the growth rate changes by 0.03 % from 8 to 16 positions, with 4 teeth
+/// by up to 0.5 % from 32 on.
 const STAGES: usize = 8;
+const STAGE_DEG: f64 = 1.1;
+
+fn stages(cut: &Cut) -> usize {
+    STAGES.max((cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize)
+}
 /// The map reaches so far on both sides of the guides, in steps of so much.
 const MAP_TURN_DEG: (f64, f64) = (30.0, 2.5);
 /// Highest load level of the map, and its steps.
@@ -72,7 +79,7 @@ impl Cutting {
                 let saw = SawInCut::new(&plate, cut, run)?;
                 Ok(CuttingRun {
                     history: cut_history(&saw, scene.probe())?,
-                    passing: tooth_passing(&saw, scene.probe(), STAGES)?,
+                    passing: tooth_passing(&saw, scene.probe(), stages(cut))?,
                     spline: on_spline(scene, &plate, cut, run)?,
                     map: verdict_map(&saw, (&turns, &levels), &of)?,
                 })
