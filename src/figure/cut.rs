@@ -55,7 +55,8 @@ fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
     let largest_m = sizes.fold(0.0_f64, f64::max);
     let (unit, per_metre) = unit_of(largest_m);
     let reach = match largest_m > 0.0 {
-        true => 1.12 * per_metre * largest_m,
+        // Below a nanometre the curve is flat: smaller ticks have no room, nor a meaning.
+        true => 1.12 * per_metre * largest_m.max(1e-9),
         false => 1.0,
     };
     let end_s = run.forces_to_s + run.forces_from_s;

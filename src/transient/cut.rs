@@ -223,7 +223,7 @@ fn sinusoids_in_cut(
             last.pop_front();
         }
         last.push_back(deflection);
-        if !(deflection.abs() < FITTED_UP_TO_M) {
+        if !deflection.is_finite() || deflection.abs() > FITTED_UP_TO_M {
             break;
         }
     }
