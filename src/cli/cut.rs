@@ -35,9 +35,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let Some(cut) = &scene.cut() else {
+        // By itself, for the words of an error are one line.
+        eprintln!("{}\n", cut_block(scene.file()));
         bail!(
-            "cut is missing, but must say which forces act on the teeth; paste this behind the first brace of the scene and put in the numbers of your wood{}",
-            cut_block(scene.file())
+            "cut is missing, but must say which forces act on the teeth; paste the block above behind the first brace of the scene and put in the numbers of your wood"
         );
     };
     let asked = arguments.rpm.iter().map(|rpm| cut.at_rpm(*rpm));

@@ -57,10 +57,10 @@ fn rounded(value: f64) -> f64 {
     text.parse().unwrap_or(value)
 }
 
-/// `"key": { … },` between empty lines, indented like a key of a scene.
+/// `"key": { … },` indented like a key of a scene.
 fn block(key: &str, value: &Value) -> String {
     // A JSON value made here has no keys but texts, which is all that could fail.
     let text = serde_json::to_string_pretty(value).unwrap_or_default();
     let text = text.replace('\n', "\n  ");
-    format!(":\n\n  \"{key}\": {text},")
+    format!("  \"{key}\": {text},")
 }

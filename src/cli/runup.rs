@@ -31,9 +31,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let Some(runup) = &scene.runup() else {
+        // By itself, for the words of an error are one line.
+        eprintln!("{}\n", runup_block(scene.file()));
         bail!(
-            "runup is missing, but must say from and to which speed, in which time and under which force; paste this behind the first brace of the scene and put in your own numbers{}",
-            runup_block(scene.file())
+            "runup is missing, but must say from and to which speed, in which time and under which force; paste the block above behind the first brace of the scene and put in your own numbers"
         );
     };
     let folder = arguments.common.folder()?;
