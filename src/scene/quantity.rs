@@ -152,18 +152,18 @@ impl Quantity {
     fn remark(&self, path: &str, value: f64) -> String {
         let (unit, (from, to)) = (self.unit, self.usual);
         let space = if unit.is_empty() { "" } else { " " };
-        format!(
-            "{path} is {}{space}{unit}, but those of saws lie between {} and {}{space}{unit}; ",
-            short(value),
-            short(from),
-            short(to)
-        ) + &match self.mistaken(value) {
-            Some((other, meant)) => format!(
-                "are these {other}? That would be {}{space}{unit}",
-                short(meant)
-            ),
+        let remedy = match self.mistaken(value) {
+            Some((other, meant)) => {
+                let meant = short(meant);
+                format!("are these {other}? That would be {meant}{space}{unit}")
+            }
             None => "is it in the unit that ends the key's name?".into(),
-        }
+        };
+        let [value, from, to] = [value, from, to].map(short);
+        format!(
+            "{path} is {value}{space}{unit}, but those of saws lie between {from} and \
+             {to}{space}{unit}; {remedy}"
+        )
     }
 }
 

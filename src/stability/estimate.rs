@@ -3,7 +3,8 @@
 use faer::{Col, c64};
 use rayon::prelude::*;
 
-use super::bands::{Instability, InstabilityKind, StabilityChart};
+use super::band::{Instability, InstabilityKind};
+use super::bands::StabilityChart;
 use super::basis::REMAINDER;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
