@@ -219,8 +219,9 @@ fn unresolved(
     to_rad_per_s: f64,
 ) -> Result<(), SpectrumError> {
     let last = plate.max_diameters();
-    // Stiff guides mix the waves beyond recognition; but there are two of each n ≥ 2.
-    let all_pairs = critical.get(2 * (last - 1));
+    // Stiff guides mix the waves beyond recognition; but there are two of each n ≥ 2, and the
+    // second of the most diameters is the last of them.
+    let all_pairs = critical.get((2 * last).saturating_sub(3));
     let most_diameters = critical.iter().find(|c| c.diameters == last);
     let highest = [all_pairs, most_diameters].into_iter().flatten();
     let highest = highest.min_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
