@@ -47,7 +47,7 @@ impl Draw {
     }
 }
 
-pub fn drawn_saw(index: u64) -> SceneFile {
+fn drawn_saw(index: u64) -> SceneFile {
     let mut draw = Draw(index.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let mut file = Scene::paper().file().clone();
     (file.sweep, file.measured, file.operating_rpm) = (None, None, None);
@@ -162,14 +162,12 @@ fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<St
 }
 
 /// All that is wrong with the bands of a saw.
-pub fn wrong_bands(file: &SceneFile) -> Vec<String> {
+fn wrong_bands(file: &SceneFile) -> Vec<String> {
     let scene = Scene::try_from(file.clone()).unwrap();
-    let start = std::time::Instant::now();
     let analysis = match Analysis::new(&scene, &|_, _| ()) {
         Ok(analysis) => analysis,
         Err(error) => return vec![format!("refused: {error}")],
     };
-    let seconds = start.elapsed().as_secs_f64();
     let bands = &analysis.chart.instabilities;
     let model = &analysis.model;
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
@@ -183,13 +181,6 @@ pub fn wrong_bands(file: &SceneFile) -> Vec<String> {
     let certificate = &analysis.chart.certificate;
     if !certificate.is_clean() {
         wrong.push(format!("certificate {certificate:?}"));
-    }
-    if std::env::var("TIMES").is_ok() {
-        println!(
-            "analysis {seconds:.2} s, {} speeds, {} bands",
-            certificate.speeds_checked,
-            bands.len()
-        );
     }
     wrong
 }
@@ -279,46 +270,27 @@ fn weak_pads_on_a_loose_blade_leave_no_contradiction() {
     assert_right(&file);
 }
 
-#[test]
-#[ignore = "prints"]
-fn trial() {
-    let from: u64 = std::env::var("FROM").map_or(0, |v| v.parse().unwrap());
-    let to: u64 = std::env::var("TO").map_or(20, |v| v.parse().unwrap());
-    let verbose = std::env::var("LIST").is_ok();
-    let mut bad = 0;
-    for index in from..to {
-        let file = drawn_saw(index);
-        let start = std::time::Instant::now();
-        let wrong = wrong_bands(&file);
-        let seconds = start.elapsed().as_secs_f64();
-        if !wrong.is_empty() {
-            bad += 1;
-            println!(
-                "saw {index} ({seconds:.1} s): {} contradictions",
-                wrong.len()
-            );
-            for line in wrong.iter().take(12) {
-                println!("  {line}");
-            }
-            if verbose {
-                println!("{}", list(&file));
-            }
-        }
-    }
-    println!("{bad} of {} saws are wrong", to - from);
+/// The saws of a range whose lists are wrong, with what is wrong.
+fn wrong_saws(saws: std::ops::Range<u64>) -> Vec<(u64, Vec<String>)> {
+    let wrong = saws.map(|saw| (saw, wrong_bands(&drawn_saw(saw))));
+    wrong.filter(|(_, wrong)| !wrong.is_empty()).collect()
 }
 
 #[test]
-#[ignore = "prints"]
-fn show_critical() {
-    let file = drawn_saw(std::env::var("SAW").unwrap().parse().unwrap());
-    let scene = Scene::try_from(file.clone()).unwrap();
-    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
-    for c in &analysis.model.critical {
-        if c.speed_rad_per_s < analysis.range.1 {
-            println!("{:.9} {} {}", c.speed_rad_per_s, c.diameters, c.circles);
-        }
+#[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+fn lists_of_bands_of_thirty_drawn_saws_are_those_of_all_eigenvalues() {
+    let wrong = wrong_saws(0..30);
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Takes half an hour on two cores.
+#[test]
+#[ignore = "takes half an hour"]
+fn lists_of_bands_of_three_hundred_drawn_saws_are_those_of_all_eigenvalues() {
+    let mut wrong = Vec::new();
+    for first in (0..300).step_by(10) {
+        wrong.extend(wrong_saws(first..first + 10));
+        println!("{} of {} saws are wrong: {wrong:#?}", wrong.len(), first + 10);
     }
-    println!("{}", serde_json::to_string(&file).unwrap());
-    println!("{}", list(&file));
+    assert!(wrong.is_empty());
 }
