@@ -1,8 +1,8 @@
 //! From a scene to its stability chart: the library's main call.
 
 use super::band::{Instability, InstabilityKind};
-use super::bands::{StabilityChart, chart, drawn};
 use super::basis::ChosenBasis;
+use super::chart::{CHART_SPEEDS, Detail, StabilityChart, chart, drawn};
 use super::estimate::Estimates;
 use super::loci::RootLoci;
 use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
@@ -13,23 +13,11 @@ use crate::spectrum::{SpectralModel, SpectrumError, Stop, Strategy};
 /// A saw is run at no more than this share of its lowest critical speed: the
 /// usual rule of thumb of saw makers.
 pub const OPERATING_LIMIT: f64 = 0.85;
-/// Speeds of a chart, before those that its events add.
-pub(super) const CHART_SPEEDS: usize = 51;
-/// The same for a free blade, of which a speed costs next to nothing.
+/// Speeds of the chart of a free blade, of which one costs next to nothing.
 const FREE_CHART_SPEEDS: usize = 101;
 
 /// The same of a sketch.
 const SKETCH_SPEEDS: usize = 25;
-
-/// How closely a chart is drawn. Critical speeds and bands do not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Detail {
-    /// As the figures show it.
-    #[default]
-    Full,
-    /// At fewer speeds, without root loci: for a chart that is looked at for a moment.
-    Sketch,
-}
 
 /// Everything about the stability of one saw.
 #[derive(Debug)]

@@ -4,8 +4,8 @@ use faer::{Col, c64};
 use rayon::prelude::*;
 
 use super::band::{Instability, InstabilityKind};
-use super::bands::StabilityChart;
 use super::basis::REMAINDER;
+use super::chart::StabilityChart;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
     DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State, StateModel,

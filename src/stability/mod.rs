@@ -2,9 +2,9 @@
 
 mod analysis;
 mod band;
-mod bands;
 mod basis;
 mod certificate;
+mod chart;
 mod damped;
 mod divergence;
 mod estimate;
@@ -21,18 +21,20 @@ mod search;
 mod sensitivity;
 mod signature;
 mod tradeoff;
+mod undamped;
 mod verdict;
 
-pub use analysis::{Analysis, Detail, OPERATING_LIMIT};
+pub use analysis::{Analysis, OPERATING_LIMIT};
 pub use band::{CurvePoint, Instability, InstabilityKind};
-pub use bands::{StabilityChart, chart, undamped_bands};
 pub use basis::ChosenBasis;
 pub(crate) use basis::resolved_plate;
 pub use certificate::{Certificate, Mismatch};
+pub use chart::{Detail, StabilityChart, chart};
 pub use estimate::{BandError, Estimates};
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use loci::RootLoci;
 pub use onsets::{Onsets, search_bands};
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
 pub use tradeoff::{Method, Setting, recommended, tradeoff};
+pub use undamped::undamped_bands;
 pub use verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};

@@ -1,10 +1,10 @@
 //! Where a saw becomes unstable, without a chart: what a study of many saws asks.
 
-use super::analysis::CHART_SPEEDS;
 use super::band::Instability;
-use super::bands::{SEARCH_SPEEDS, chart, undamped_bands};
 use super::basis::ChosenBasis;
 use super::certificate::Certificate;
+use super::chart::{CHART_SPEEDS, chart};
+use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::plate::Plate;
 use crate::scene::Scene;

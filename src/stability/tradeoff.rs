@@ -7,8 +7,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::InstabilityKind;
-use super::bands::{StabilityChart, chart};
 use super::basis::{ChosenBasis, LADDER};
+use super::chart::{StabilityChart, chart};
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;

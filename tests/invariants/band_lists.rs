@@ -290,7 +290,11 @@ fn lists_of_bands_of_three_hundred_drawn_saws_are_those_of_all_eigenvalues() {
     let mut wrong = Vec::new();
     for first in (0..300).step_by(10) {
         wrong.extend(wrong_saws(first..first + 10));
-        println!("{} of {} saws are wrong: {wrong:#?}", wrong.len(), first + 10);
+        println!(
+            "{} of {} saws are wrong: {wrong:#?}",
+            wrong.len(),
+            first + 10
+        );
     }
     assert!(wrong.is_empty());
 }

@@ -16,9 +16,9 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::band::{CurvePoint, Instability, InstabilityKind};
-use super::bands::{self, StabilityChart, with_critical_speeds};
 use super::certificate::Certificate;
-use crate::campbell::{self, Campbell, Progress};
+use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
+use crate::campbell::{self, Progress, SpeedSample};
 use crate::spectrum::{
     Direction, Mode, ModeName, SpectralModel, SpectrumError, Strategy, in_words,
 };
@@ -31,13 +31,13 @@ const DRAWN: f64 = 0.02;
 /// their frequencies differ by less than this share.
 const SAME_FREQUENCY: f64 = 0.05;
 
-/// Charts a damped blade.
-pub(super) fn chart(
+/// Modes at `count` even speeds and where bands need more, the bands, and what was checked of them.
+pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
     progress: Progress<'_>,
-) -> Result<StabilityChart, SpectrumError> {
+) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), SpectrumError> {
     let twin = twin_bands(model, range)?;
     let mut speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
@@ -51,11 +51,7 @@ pub(super) fn chart(
     drawn.dedup();
     drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
     samples.extend(campbell::sample(model, &drawn, &|_, _| ())?);
-    Ok(StabilityChart {
-        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
-        instabilities,
-        certificate,
-    })
+    Ok((samples, instabilities, certificate))
 }
 
 /// The bands of the blade without damping.
@@ -67,7 +63,7 @@ fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instabilit
     let critical = SpectralModel::critical_speeds(&plate)?;
     let stop = &model.counters.stop;
     let twin = SpectralModel::stoppable(plate, critical, range, Strategy::Bands, stop)?;
-    let (bands, _) = bands::undamped_bands(&twin, range, bands::SEARCH_SPEEDS)?;
+    let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS)?;
     Ok(bands)
 }
 

@@ -1,58 +1,30 @@
-//! The stability chart of a saw: samples, branches and bands of a range of speeds.
+//! Every band of an undamped blade over a range of speeds, and the speeds that show them.
 
-use super::analysis::Detail;
 use super::band::Instability;
 use super::certificate::{Certificate, Mismatch, mismatches};
-use super::damped;
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::flutter::flutter;
 use super::search::Path;
 use super::signature::Signature;
-use crate::campbell::{self, Campbell, Closeness, Progress, SpeedSample};
+use crate::campbell::{self, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
-
-/// Everything about the stability of a saw over a range of speeds.
-#[derive(Debug, Clone)]
-pub struct StabilityChart {
-    /// Modes and branches.
-    pub campbell: Campbell,
-    /// Bands by onset.
-    pub instabilities: Vec<Instability>,
-    /// Krein index against spectrum.
-    pub certificate: Certificate,
-}
 
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
 pub(super) const SEARCH_SPEEDS: usize = 25;
 /// Speeds drawn within and beside a band, as shares of its width, besides that of its peak.
-const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
+pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
-/// Charts a range of speeds, sampled at `count` even speeds and where it matters.
-///
-/// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
-pub fn chart(
+/// Modes at `count` even speeds and where bands and curves need more, the bands, and what was
+/// checked of them. `within_bands` are shares of each band's width at which it is drawn.
+pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
+    (within_bands, closeness): (&[f64], Closeness),
     progress: Progress<'_>,
-) -> Result<StabilityChart, SpectrumError> {
-    drawn(model, range, count, Detail::Full, progress)
-}
-
-/// The same, drawn more or less closely.
-pub(super) fn drawn(
-    model: &SpectralModel,
-    range: (f64, f64),
-    count: usize,
-    detail: Detail,
-    progress: Progress<'_>,
-) -> Result<StabilityChart, SpectrumError> {
-    if !model.is_conservative() {
-        return damped::chart(model, range, count, progress);
-    }
+) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), SpectrumError> {
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
     // A free blade has no bands to search for, and is only held against the Krein index.
@@ -64,11 +36,7 @@ pub(super) fn drawn(
         }
     };
     let (instabilities, mut certificate) = bands(model, &search)?;
-    let (shares, closeness) = match detail {
-        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
-        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
-    };
-    let between = inside(&instabilities, &samples, shares, range);
+    let between = inside(&instabilities, &samples, within_bands, range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = campbell::refined(model, samples, closeness)?;
@@ -76,11 +44,7 @@ pub(super) fn drawn(
     certificate
         .mismatches
         .extend(contradictions(&instabilities, &drawn));
-    Ok(StabilityChart {
-        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
-        instabilities,
-        certificate,
-    })
+    Ok((samples, instabilities, certificate))
 }
 
 fn signature_of(sample: &SpeedSample) -> Signature {
@@ -105,7 +69,7 @@ pub fn undamped_bands(
 }
 
 /// Every band between the first and the last of the speeds.
-pub(super) fn bands(
+fn bands(
     model: &SpectralModel,
     speeds: &[f64],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {

@@ -1,0 +1,68 @@
+//! The stability chart of a saw: samples, branches and bands of a range of speeds.
+
+use super::band::Instability;
+use super::certificate::Certificate;
+use super::damped;
+use super::undamped::{self, WITHIN_BANDS};
+use crate::campbell::{Campbell, Closeness, Progress};
+use crate::spectrum::{SpectralModel, SpectrumError};
+
+/// Speeds of a chart, before those that its events add.
+pub(super) const CHART_SPEEDS: usize = 51;
+
+/// How closely a chart is drawn. Critical speeds and bands do not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Detail {
+    /// As the figures show it.
+    #[default]
+    Full,
+    /// At fewer speeds, without root loci: for a chart that is looked at for a moment.
+    Sketch,
+}
+
+/// Everything about the stability of a saw over a range of speeds.
+#[derive(Debug, Clone)]
+pub struct StabilityChart {
+    /// Modes and branches.
+    pub campbell: Campbell,
+    /// Bands by onset.
+    pub instabilities: Vec<Instability>,
+    /// Krein index against spectrum.
+    pub certificate: Certificate,
+}
+
+/// Charts a range of speeds, sampled at `count` even speeds and where it matters.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn chart(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+    progress: Progress<'_>,
+) -> Result<StabilityChart, SpectrumError> {
+    drawn(model, range, count, Detail::Full, progress)
+}
+
+/// The same, drawn more or less closely.
+pub(super) fn drawn(
+    model: &SpectralModel,
+    range: (f64, f64),
+    count: usize,
+    detail: Detail,
+    progress: Progress<'_>,
+) -> Result<StabilityChart, SpectrumError> {
+    let closeness = match detail {
+        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
+        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
+    };
+    let (samples, instabilities, certificate) = match model.is_conservative() {
+        true => undamped::charted(model, range, count, closeness, progress)?,
+        false => damped::charted(model, range, count, progress)?,
+    };
+    Ok(StabilityChart {
+        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
+        instabilities,
+        certificate,
+    })
+}
