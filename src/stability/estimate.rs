@@ -38,13 +38,18 @@ pub struct BandError {
 
 impl BandError {
     /// From what the larger basis changes. A band is the meeting of two waves, whose errors may
-    /// cancel by chance: that of the critical speeds is added.
-    fn beside(self, critical: f64) -> Self {
+    /// cancel by chance: that of the critical speeds is added; and its edges are known no better
+    /// than its growth, in units of its width.
+    fn of(self, band: &Instability, critical: f64) -> Self {
+        let growth = self
+            .growth
+            .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical);
+        // A band may begin at rest, never end there.
+        let width = (band.to - band.from) / band.to;
+        let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
         BandError {
-            speed: Some(REMAINDER * self.speed.unwrap_or(0.0) + critical),
-            growth: self
-                .growth
-                .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical),
+            speed: Some(REMAINDER * self.speed.unwrap_or(0.0) + critical + by_growth),
+            growth,
         }
     }
 }
@@ -96,7 +101,7 @@ impl Estimates {
                     Some(sample) => estimates.band(model, band, sample)?,
                     None => BandError::default(),
                 };
-                Ok(told.beside(least))
+                Ok(told.of(band, least))
             })
             .collect();
         estimates.bands = bands?;

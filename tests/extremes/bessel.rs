@@ -68,10 +68,9 @@ pub fn needle_bore() -> Row {
 }
 
 pub fn narrow_ring() -> Row {
-    // The fourth radial mode of such a ring is a million times faster than the first: an
-    // unsymmetric eigen-solver leaves ε(ω₄/ω₁)² = 2e-4, and the report warns of it.
-    let range = "0.995, n = 0 to 4 (the report warns of rounding)";
-    let row = Row::new("bore ratio, free", range, BESSEL, 2e-4);
+    // The fourth radial mode of such a ring is a million times faster than the first. What is
+    // left is the slow rotation that tells forward and backward waves apart at rest.
+    let row = Row::new("bore ratio, free", "0.995, n = 0 to 4", BESSEL, 1e-8);
     bessel(row, 12, |r| r.ratio == 0.995 && r.bc == "FF")
 }
 

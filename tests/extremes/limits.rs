@@ -60,7 +60,8 @@ fn rounding_that_eats_digits_is_warned_about() {
         file.blade.inner_diameter_m = 0.995 * file.blade.outer_diameter_m;
         file.blade.thickness_m = 1e-4;
     });
-    assert!(ring.is_some());
+    // Nor does a narrow ring that nothing touches: its waves are a symmetric problem.
+    assert_eq!(ring, None);
     // Heave at 0.0005 Hz beside bending at a thousand.
     let softly_held = warned(&|file| file.guides = vec![bed(1e-3)]);
     assert!(softly_held.is_some());
