@@ -9,7 +9,7 @@ use sawflutter::plate::Plate;
 use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, InPlane, Mount, Scene, SweepFile};
 use sawflutter::spectrum::{LowestModes, Mode, SpectralModel};
-use sawflutter::stability::{Analysis, ChosenBasis, Instability, search_bands};
+use sawflutter::stability::{Analysis, ChosenBasis, Instability, InstabilityKind, search_bands};
 
 /// A blade that no guide touches, at an accuracy.
 fn annulus(bc: &str, nu: f64, ratio: f64, accuracy: Accuracy) -> Scene {
@@ -114,14 +114,20 @@ impl Truth {
         }
     }
 
-    /// The band next to one that was found, by onset and frequency.
-    fn band(&self, found: &Instability, height: f64) -> Option<&Instability> {
-        let off = |b: &Instability| {
-            (b.from / found.from - 1.0).abs() + (b.frequency - found.frequency).abs() / height
-        };
-        let same = |b: &&Instability| b.kind == found.kind && b.closed == found.closed;
-        let near = self.bands.iter().filter(same).filter(|b| off(b) < 0.02);
-        near.min_by(|x, y| off(x).total_cmp(&off(y)))
+    /// Bands that were found, each with the same one of the truth: of one kind they follow each
+    /// other in the same order, where neither list has one that the other lacks.
+    fn pairs<'a>(&'a self, found: &'a [Instability]) -> Vec<(usize, &'a Instability)> {
+        let mut pairs = Vec::new();
+        for kind in [InstabilityKind::Divergence, InstabilityKind::Flutter] {
+            let truth: Vec<&Instability> = self.bands.iter().filter(|b| b.kind == kind).collect();
+            let places: Vec<usize> = (0..found.len())
+                .filter(|&k| found[k].kind == kind)
+                .collect();
+            if truth.len() == places.len() {
+                pairs.extend(places.into_iter().zip(truth));
+            }
+        }
+        pairs
     }
 }
 
@@ -149,10 +155,9 @@ fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
         ratios.critical.add(error / (estimate + ROUNDING), place);
     }
     drawn_at_the_top(&analysis, &truth.lowest, &what, ratios);
-    for (found, error) in analysis.chart.instabilities.iter().zip(&estimates.bands) {
-        let Some(truth) = truth.band(found, analysis.model.complete_to_rad_per_s) else {
-            continue;
-        };
+    let bands = &analysis.chart.instabilities;
+    for (k, truth) in truth.pairs(bands) {
+        let (found, error) = (&bands[k], &estimates.bands[k]);
         let Some((growth, speed)) = error.growth.zip(error.speed) else {
             continue;
         };
@@ -164,6 +169,12 @@ fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
             ))
         };
         println!("{}", place());
+        // What the search for the peak misses no larger basis tells: other tests hold it.
+        let share = |b: &Instability| (b.peak - b.from) / (b.to - b.from);
+        if (share(found) - share(truth)).abs() > 0.1 {
+            println!("another peak: {}", place());
+            continue;
+        }
         ratios.growth.add(off / (growth + ROUNDING), place);
         let error = (found.from / truth.from - 1.0).abs();
         ratios.onsets.add(error / (speed + ROUNDING), place);
@@ -217,6 +228,7 @@ fn true_errors_are_below_their_estimates() {
         ("growth", &ratios.growth),
         ("onsets", &ratios.onsets),
     ] {
+        assert!(worst.count > 50, "{what}: {} values", worst.count);
         worst.assert_at_most(&format!("{what}: true error over its estimate"), 1.0);
     }
     ratios
