@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy.typing as npt
 from ._entry import ComplexArray, Entry, FloatArray
 
 if TYPE_CHECKING:
-    from ._report_types import Shape, Wave
+    from ._report_types import Mismatch, Shape, Wave
 
 
 class RestModeMethods(Entry):
@@ -107,6 +108,7 @@ class CertificateMethods(Entry):
         speeds_checked: int
         krein_violations: int
         violating_rpm: FloatArray
+        mismatches: tuple[Mismatch, ...]
 
     # What a damped saw is certified by is another thing than the Krein index; the report that the
     # certificate belongs to says which.
@@ -124,16 +126,25 @@ class CertificateMethods(Entry):
         'Krein index matches'
         """
         checked, violations = self.speeds_checked, self.krein_violations
-        if checked == 0:
-            return "nothing was compared"
-        if violations == 0:
-            found = "growing modes match the bands" if self._damped else "Krein index matches"
-            return f"{found} at {checked} of {checked} speeds"
-        found = (
-            "growing modes and bands do not match" if self._damped else "Krein index does not match"
-        )
-        at = ", ".join(f"{rpm:.0f}" for rpm in self.violating_rpm)
-        return f"{found} at {violations} of {checked} speeds: {at} rpm"
+        same, other = "Krein index matches", "Krein index does not match"
+        if self._damped:
+            same, other = "growing modes match the bands", "growing modes and bands do not match"
+        if violations:
+            found = (
+                f"{other} at {violations} of {checked} speeds: {_listed(self.violating_rpm)} rpm"
+            )
+        else:
+            found = (
+                f"{same} at {checked} of {checked} speeds" if checked else "nothing was compared"
+            )
+        if self.mismatches:
+            at = _listed(mismatch.rpm for mismatch in self.mismatches)
+            found += f"; the list of bands contradicts eigenvalues at {at} rpm"
+        return found
+
+
+def _listed(speeds: Iterable[float]) -> str:
+    return ", ".join(f"{rpm:.0f}" for rpm in speeds)
 
 
 class BranchMethods(Entry):

@@ -272,6 +272,29 @@ class Work(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Mismatch(Entry):
+    """A speed at which the list of bands contradicts the eigenvalues found there."""
+
+    rpm: float
+    """The speed."""
+
+    kind: InstabilityKind
+    """Kind of the modes and bands compared."""
+
+    unstable_modes: int
+    """Unstable modes of that kind found there; for divergence 1 or 0."""
+
+    bands: int
+    """Bands of that kind that cover the speed."""
+
+    growth_per_s: float
+    """Growth of the fastest of these modes."""
+
+    peak_per_s: float
+    """Largest growth that the bands list."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Certificate(CertificateMethods):
     """The Krein index held against the spectrum, see [crate::stability]."""
 
@@ -284,6 +307,10 @@ class Certificate(CertificateMethods):
 
     violating_rpm: FloatArray
     """These speeds."""
+
+    mismatches: tuple[Mismatch, ...]
+    """Where the list of bands contradicts the eigenvalues that the search or the chart found;
+    expected none."""
 
     max_backward_error: float
     """Largest backward error of any mode shown."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 from pathlib import Path
 
@@ -123,8 +124,6 @@ def test_every_key_of_the_report_is_an_attribute(report: sf.CampbellResults) -> 
 
 
 def test_a_report_with_keys_that_are_not_known_yet_is_read(report: sf.CampbellResults) -> None:
-    import json
-
     data = report.raw
     data["of_tomorrow"] = {"x": 1}
     data["bands_of_tomorrow"] = []
@@ -177,7 +176,16 @@ def test_sensitivities_are_asked_for(draft: sf.Scene) -> None:
 def test_the_certificate_says_what_it_compared(draft: sf.Scene) -> None:
     damped = draft.replace({"guides[0].damping_n_s_per_m": 20.0}).run_campbell()
     assert "growing modes" in damped.certificate.statement
-    assert "Krein index matches" in draft.run_campbell().certificate.statement
+    report = draft.run_campbell()
+    assert "Krein index matches" in report.certificate.statement
+    # What contradicts it is never left out.
+    data = report.raw
+    data["certificate"].update(krein_violations=1, violating_rpm=[1700.0])
+    mismatch = {"rpm": 1800.0, "kind": "flutter", "unstable_modes": 1, "bands": 0}
+    data["certificate"]["mismatches"] = [{**mismatch, "growth_per_s": 1.0, "peak_per_s": 0.0}]
+    doubtful = sf.CampbellResults.from_json(json.dumps(data)).certificate.statement
+    assert "does not match at 1 of" in doubtful and "1700 rpm" in doubtful
+    assert "contradicts eigenvalues at 1800 rpm" in doubtful
 
 
 def test_accuracy_and_tolerance_are_chosen(draft: sf.Scene) -> None:
