@@ -57,8 +57,9 @@ impl BandError {
 /// What the larger basis in its turn leaves out of a growth rate, which converges less evenly than
 /// speeds do: on twelve drawn saws the true error was up to 2.9 times what it tells.
 const GROWTH_REMAINDER: f64 = 3.0;
-/// Speeds at which the drawn frequencies are looked at.
-const LOOKS: usize = 4;
+/// Where the drawn frequencies are looked at, as shares of the range: speeds that a chart has
+/// however closely it is drawn.
+const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];
 
 impl Estimates {
     /// Measures the errors of a chart.
@@ -78,8 +79,11 @@ impl Estimates {
             .map(|critical| REMAINDER * larger.critical_error(&model.parts, critical))
             .collect();
         let samples = &chart.campbell.samples;
-        let looks = (0..LOOKS)
-            .filter_map(|k| samples.get(k * samples.len().saturating_sub(1) / (LOOKS - 1)));
+        let looks = LOOKS.map(|share| range.0 + share * (range.1 - range.0));
+        let looks = looks.into_iter().filter_map(|speed| {
+            let away = |sample: &&SpeedSample| (sample.speed_rad_per_s - speed).abs();
+            samples.iter().min_by(|x, y| away(x).total_cmp(&away(y)))
+        });
         let drawn = looks.flat_map(|sample| {
             larger.frequency_errors(&model.parts, sample.speed_rad_per_s, &sample.modes)
         });

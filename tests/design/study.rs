@@ -255,7 +255,7 @@ fn what_is_no_study_is_refused_by_key() {
         (
             one.clone(),
             r#""saws": 4, "limit": {}"#,
-            "limit: unknown field",
+            "limit: there is no such key; did you mean limits?",
         ),
     ];
     for (parameters, rest, expected) in cases {

@@ -133,16 +133,19 @@ fn open_end(report: &Report, rpm: f64) -> &'static str {
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;
-    let found = match certificate.disagreeing_rpm().len() {
-        0 => "modes and bands agree".to_owned(),
-        1 => "modes and bands disagree at 1 speed".to_owned(),
-        count => format!("modes and bands disagree at {count} speeds"),
-    };
-    writeln!(
-        text,
-        "Certificate: {}, {} speeds compared; largest backward error {:.0e}",
-        found, certificate.speeds_checked, certificate.max_backward_error
-    )?;
+    let checked = certificate.speeds_checked;
+    match certificate.disagreeing_rpm().len() {
+        0 => writeln!(
+            text,
+            "Certificate: modes and bands agree at {checked} speeds"
+        )?,
+        wrong => writeln!(
+            text,
+            "Certificate: modes and bands disagree at {wrong} of {checked} speeds"
+        )?,
+    }
+    let error = certificate.max_backward_error;
+    writeln!(text, "Largest backward error of a mode: {error:.0e}")?;
     if let Some(error) = report.accuracy.estimated_relative_error {
         writeln!(
             text,
