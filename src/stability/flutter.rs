@@ -41,12 +41,10 @@ impl End {
 
     /// σ² there, where no signature says so.
     fn sample(&self) -> Option<Sample> {
-        let End::Edge(edge) = self else { return None };
-        Some(Sample {
-            at: edge.speed_rad_per_s,
-            value: edge.growth_square,
-            slope: edge.growth_square_slope,
-        })
+        match self {
+            End::Edge(edge) => Some(edge.sample()),
+            End::Range(_) | End::Unknown(_) => None,
+        }
     }
 }
 
@@ -188,6 +186,14 @@ impl Quadruple {
             Ok(Some(sample(&known[place])))
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
+        // Where two real λ coalesce growth does not end, and is often largest.
+        for end in [&self.begin, &self.end] {
+            if let End::Edge(edge) = end
+                && edge.speed_rad_per_s == at
+            {
+                return Ok((at, (edge.growth_square.sqrt(), edge.frequency_rad_per_s)));
+            }
+        }
         let nearest = |x: &&(f64, SignedMode)| (x.0 - at).abs();
         let nearest = known
             .iter()

@@ -8,6 +8,7 @@
 use faer::c64;
 
 use super::evaluator::SignatureEvaluator;
+use super::maximum::{Sample, maximise};
 use super::signature::SignedMode;
 use crate::spectrum::{ModePair, SpectrumError};
 
@@ -31,6 +32,10 @@ const SHORT_OF_REAL: f64 = 0.999;
 const LIKENESS: f64 = 0.05;
 pub const VICINITY: f64 = 3e-5;
 
+/// Bands wider than this share of their speed are sampled in so many parts for a second hump.
+const NARROW: f64 = 1e-4;
+const PARTS: usize = 6;
+
 /// How a quadruple begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coalescence {
@@ -53,6 +58,17 @@ pub struct Edge {
     pub growth_square: f64,
     /// dσ²/dΩ there, in 1/s.
     pub growth_square_slope: f64,
+}
+
+impl Edge {
+    /// σ² there with its slope.
+    pub fn sample(&self) -> Sample {
+        Sample {
+            at: self.speed_rad_per_s,
+            value: self.growth_square,
+            slope: self.growth_square_slope,
+        }
+    }
 }
 
 /// What a pair of waves that has exchanged its order did in between.
@@ -218,6 +234,34 @@ impl<'a> PairContinuation<'a> {
         None
     }
 
+    /// σ² with its slope, for the search of its maximum.
+    fn sample(&self) -> Sample {
+        let ([slope, _], _) = self.derivatives(NEWTON_DIFFERENCE);
+        Sample {
+            at: self.speed,
+            value: self.squares()[0],
+            slope,
+        }
+    }
+
+    /// Speed, σ² and ω² of the fastest growth between two edges. The vertex of a parabola is
+    /// only one of the humps that a wider band may have.
+    fn fastest(&self, edges: [Edge; 2]) -> Result<(f64, [f64; 2]), SpectrumError> {
+        let [from, to] = edges.map(|edge| edge.speed_rad_per_s);
+        let at = |speed: f64| Ok(self.to(speed).map(|pair| pair.sample()));
+        let mut samples: Vec<Sample> = edges.iter().map(Edge::sample).collect();
+        samples.push(self.sample());
+        if to - from > NARROW * self.speed {
+            for part in 1..PARTS {
+                samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
+            }
+        }
+        samples.sort_by(|x, y| x.at.total_cmp(&y.at));
+        let peak = maximise(samples, at)?.map_or(self.speed, |sample| sample.at);
+        let there = self.to(peak).map_or(self.squares(), |pair| pair.squares());
+        Ok((peak, there))
+    }
+
     /// The speed of largest σ² between the ends, and its curvature there: the zero of its
     /// slope by the secant method, for a pair's own curvature lacks what it becomes elsewhere.
     fn vertex(mut self, ends: (f64, f64)) -> Option<(Self, f64)> {
@@ -256,7 +300,7 @@ pub fn passage(
     let Some((vertex, bend)) = pair.vertex(ends) else {
         return Ok(None);
     };
-    let [largest, frequency] = vertex.squares();
+    let [largest, _] = vertex.squares();
     if largest <= floor_per_s.powi(2) {
         // Two waves of one sign avoid each other: σ² stays below zero.
         return Ok((largest >= -floor_per_s.powi(2)).then_some(Passage::Crossing));
@@ -269,24 +313,23 @@ pub fn passage(
     let edge = |outer: f64, end: f64| {
         // A little outside the parabola's root: the pair is followed from inside.
         let reach = vertex.speed + 2.0 * (outer - vertex.speed);
-        let end = if (end - vertex.speed).abs() < (reach - vertex.speed).abs() {
-            end
-        } else {
-            reach
-        };
+        let is_nearer = (end - vertex.speed).abs() < (reach - vertex.speed).abs();
+        let end = if is_nearer { end } else { reach };
         vertex
             .to(vertex.speed + 0.5 * (outer - vertex.speed))?
             .edge(end)
     };
     let from = edge(vertex.speed - half, ends.0);
     let to = edge(vertex.speed + half, ends.1);
-    Ok(from.zip(to).map(|(from, to)| {
-        Passage::Band(NarrowBand {
-            from_rad_per_s: from.speed_rad_per_s,
-            to_rad_per_s: to.speed_rad_per_s,
-            peak_rad_per_s: vertex.speed,
-            growth_per_s: largest.sqrt(),
-            frequency_rad_per_s: frequency.max(0.0).sqrt(),
-        })
-    }))
+    let Some(edges) = from.zip(to) else {
+        return Ok(None);
+    };
+    let (peak, fastest) = vertex.fastest([edges.0, edges.1])?;
+    Ok(Some(Passage::Band(NarrowBand {
+        from_rad_per_s: edges.0.speed_rad_per_s,
+        to_rad_per_s: edges.1.speed_rad_per_s,
+        peak_rad_per_s: peak,
+        growth_per_s: fastest[0].max(0.0).sqrt(),
+        frequency_rad_per_s: fastest[1].max(0.0).sqrt(),
+    })))
 }
