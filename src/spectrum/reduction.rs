@@ -371,9 +371,11 @@ impl<'a> Builder<'a> {
 /// Change of a frequency ω at which qᴴL(ω)q changes by `shift`, in 1/s², and has the slope
 /// |qᴴ(2ω − 2iΩG)q|; at rest that is 2ω. Where two modes are about to merge the slope vanishes,
 /// and where a wave stands still ω does too: there not the frequency but its square is what
-/// depends on the shift smoothly, and a slope of at least a share of the height stands for it.
+/// depends on the shift smoothly, and a slope of at least a share of the height stands for it. A
+/// slope above the height counts as the height: onsets of weak bands ask for more than their
+/// frequencies do.
 fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
-    shift / slope_per_s.max(LEAST_SLOPE * height_rad_per_s)
+    shift / slope_per_s.clamp(LEAST_SLOPE * height_rad_per_s, height_rad_per_s)
 }
 
 /// Speeds of the first snapshots.

@@ -11,6 +11,9 @@ use super::search::{Event, Path};
 use super::signature::SignedMode;
 use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
 
+/// Share of a band's width from its end at which its growth next to the end is read.
+const BESIDE_END: f64 = 1e-3;
+
 /// A quadruple followed over speed.
 #[derive(Debug, Clone)]
 pub(super) struct Quadruple {
@@ -186,12 +189,18 @@ impl Quadruple {
             Ok(Some(sample(&known[place])))
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
-        // Where two real λ coalesce growth does not end, and is often largest.
-        for end in [&self.begin, &self.end] {
-            if let End::Edge(edge) = end
-                && edge.speed_rad_per_s == at
-            {
-                return Ok((at, (edge.growth_square.sqrt(), edge.frequency_rad_per_s)));
+        // Where two real λ coalesce growth does not end, and is often largest: just inside.
+        let mut at = at;
+        for end in [&self.begin, &self.end]
+            .map(End::speed)
+            .into_iter()
+            .filter(|end| *end == at)
+        {
+            let inside = end + BESIDE_END * (self.begin.speed() + self.end.speed() - 2.0 * end);
+            if let Some(mode) = continued(evaluator, &known, inside)? {
+                let place = known.partition_point(|(at, _)| *at < inside);
+                known.insert(place, (inside, mode));
+                at = inside;
             }
         }
         let nearest = |x: &&(f64, SignedMode)| (x.0 - at).abs();

@@ -43,7 +43,7 @@ pub(super) fn charted(
     let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
     certificate
         .mismatches
-        .extend(contradictions(&instabilities, &drawn));
+        .extend(contradictions(&instabilities, &drawn, DRAWN_FLOOR));
     Ok((samples, instabilities, certificate))
 }
 
@@ -88,19 +88,22 @@ fn bands(
         checked = path.signatures;
     }
     let mut certificate = evaluator.certificate();
-    certificate.mismatches = contradictions(&instabilities, &checked);
+    certificate.mismatches = contradictions(&instabilities, &checked, GROWTH_FLOOR);
     Ok((instabilities, certificate))
 }
 
 /// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
 /// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
 const GROWTH_FLOOR: f64 = 1e-5;
+/// The same for modes that are only drawn: their frequencies are right to 1e-5 of the chart's
+/// height, and growth next to a coalescence to the root of that.
+const DRAWN_FLOOR: f64 = 1e-3;
 
 /// Where a list of bands contradicts the modes found at some speeds.
-fn contradictions(bands: &[Instability], signatures: &[Signature]) -> Vec<Mismatch> {
+fn contradictions(bands: &[Instability], signatures: &[Signature], floor: f64) -> Vec<Mismatch> {
     let of = |signature: &Signature| {
         let highest = signature.highest_rad_per_s();
-        let floor = GROWTH_FLOOR * (signature.speed_rad_per_s + highest);
+        let floor = floor * (signature.speed_rad_per_s + highest);
         mismatches(bands, signature, floor)
     };
     signatures.iter().flat_map(of).collect()
