@@ -5,28 +5,28 @@ from collections.abc import Callable, Sequence
 from typing import TypeAlias, final
 
 __all__ = [
+    "Study",
+    "StudyLog",
     "analyze",
+    "campbell_csv",
     "check",
     "cut",
     "fit",
-    "modes",
-    "place",
-    "runup",
-    "tradeoff",
-    "campbell_csv",
-    "palette",
-    "picture",
-    "summary",
     "matrices",
-    "Study",
-    "StudyLog",
+    "modes",
+    "palette",
     "panic",
     "paper",
+    "picture",
+    "place",
     "program",
     "read_scene",
     "read_text",
+    "runup",
     "scene",
     "schema",
+    "summary",
+    "tradeoff",
 ]
 
 # Called with what is done, of how many, and a word for it.

@@ -22,6 +22,8 @@ Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
 Verdict: TypeAlias = Literal["stable", "unstable"]
 
+CutCriterion: TypeAlias = Literal["eigenvalues", "time_history", "moving_tooth_loads", "spline_reaction", "out_of_cut"]
+
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds", "critical_speeds_single"]
@@ -82,6 +84,9 @@ class RestMode(RestModeMethods):
     logarithmic_decrement: float | None
     """−2π Re λ/|Im λ| of a damped scene."""
 
+    estimated_relative_error: float | None
+    """Estimated relative error of the frequency."""
+
     backward_error: float
     """‖L(λ)q‖ relative to the size of its terms."""
 
@@ -110,6 +115,9 @@ class CriticalSpeed(Entry):
 
     nodal_circles: int
     """Nodal circles of that harmonic."""
+
+    estimated_relative_error: float | None
+    """Estimated relative error of the speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,6 +155,13 @@ class Instability(Entry):
     """Stretches [from, to] in which it counts as an instability of the saw: divergence as a
     whole; flutter of an undamped blade as a whole when its largest growth reaches the
     threshold, of a damped one where its growth does."""
+
+    estimated_relative_error: float | None
+    """Estimated relative error of the onset."""
+
+    estimated_relative_growth_error: float | None
+    """Estimated relative error of the largest growth rate, a small difference of large numbers:
+    it may exceed the tolerance."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -245,13 +260,21 @@ class AccuracyEntry(Entry):
     """Size of the basis."""
 
     tolerance: float
-    """Relative error allowed of critical speeds and onsets."""
+    """Relative error allowed of critical speeds, onsets and the lowest frequencies at rest."""
 
     reached: bool
     """Whether the estimate is within the tolerance: the largest basis may fall short of it."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds, extrapolated from coarser bases."""
+
+    estimated_resting_error: float | None
+    """Estimated relative error of the lowest frequencies at rest, measured on a larger
+    basis."""
+
+    estimated_drawn_error: float | None
+    """The same of the frequencies that are drawn, each relative to what it is seen from the
+    blade."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -649,6 +672,23 @@ class CheckReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class CutCriterionEntry(Entry):
+    """A criterion and what it says."""
+
+    criterion: CutCriterion
+    """Which one."""
+
+    verdict: Verdict
+    """What it says."""
+
+    growth_per_s: float
+    """Largest growth by it."""
+
+    frequency_hz: float | None
+    """Frequency of that motion where it is known and grows."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class ByPower(Entry):
     """A cut with the force that its power allows."""
 
@@ -678,10 +718,11 @@ class ToothPassing(Entry):
     passing_growth_per_s: float
     """Growth under the passing loads, from Floquet multipliers."""
 
-    standing_deflection_m: float
-    """Largest deflection at the probe in the cut under loads that stand still."""
+    standing_deflection_m: float | None
+    """Largest deflection at the probe in the cut under loads that stand still; null where the
+    linear model ends before the cut."""
 
-    passing_deflection_m: float
+    passing_deflection_m: float | None
     """The same under passing loads."""
 
 
@@ -690,13 +731,13 @@ class VerdictMap(Entry):
     """Growth rates over guide angle and load."""
 
     guide_angle_deg: FloatArray
-    """Angles of the first guide, all guides moving with it."""
+    """Angles of the first guide, all guides moving with it; empty without guides."""
 
     load_level: FloatArray
     """Multiples of the radial and tangential forces."""
 
     growth_per_s: FloatArray
-    """One row a load level, one column an angle."""
+    """One row a load level, one column an angle; one column without guides."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -770,7 +811,13 @@ class CutRun(Entry):
     """Force across the blade on each tooth."""
 
     verdict: Verdict
-    """In the cut, by the eigenvalues."""
+    """The worst of the criteria."""
+
+    decided_by: CutCriterion
+    """The criterion of fastest growth."""
+
+    criteria: tuple[CutCriterionEntry, ...]
+    """What each criterion says."""
 
     growth_per_s: float
     """Largest Re λ in the cut."""
@@ -805,11 +852,17 @@ class CutRun(Entry):
     tooth_passing: ToothPassing
     """Loads that pass with the teeth against loads that stand still."""
 
-    largest_deflection_in_cut_m: float
-    """Largest deflection at the probe before the forces end."""
+    linear_until_s: float | None
+    """When the deflection at the probe leaves the linear model, where the record ends; null
+    when it does not."""
 
-    largest_deflection_after_m: float
-    """Largest deflection at the probe after the forces ended."""
+    largest_deflection_in_cut_m: float | None
+    """Largest deflection at the probe before the forces end; null where the linear model ends
+    before them."""
+
+    largest_deflection_after_m: float | None
+    """Largest deflection at the probe after the forces ended; null where the linear model ends
+    before the record should."""
 
     forces_from_s: float
     """When the forces set in."""
@@ -845,6 +898,9 @@ class CutReport(Entry):
 
     flutter_threshold_per_s: float
     """Growth rate from which a cut is called unstable."""
+
+    linear_limit_m: float
+    """Deflection beyond which none is given, for the linear model ends there."""
 
     tooth_angles_deg: FloatArray
     """Angles of the teeth in the cut."""
@@ -1233,7 +1289,8 @@ class RunUpBand(Entry):
     """Re λ integrated over that time: the motion grows by no more than e to this power."""
 
     seen_amplification: float | None
-    """Largest deflection at the probe within the band over that in as many speeds before."""
+    """Largest deflection at the probe within the band over that in as many speeds before; null
+    where the linear model ends before the band does."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1263,11 +1320,24 @@ class RunUpReport(Entry):
     degrees_of_freedom: int
     """Size of the basis."""
 
+    from_rpm: float
+    """First speed of the run-up."""
+
+    to_rpm: float
+    """Last speed of the run-up."""
+
     rate_rpm_per_s: float
     """Rate of the run-up."""
 
     step_s: float
     """Step of the integration."""
+
+    linear_limit_m: float
+    """Deflection beyond which none is given, for the linear model ends there."""
+
+    linear_until_rpm: float | None
+    """Speed at which it is exceeded at the probe, where the record ends; null when it is
+    not."""
 
     rpm: FloatArray
     """Speeds of the record."""

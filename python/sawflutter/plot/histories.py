@@ -50,10 +50,9 @@ def run_up(r: RunUpResults) -> Chart:
     millimetres = 1e3 * r.deflection_m
     hover = [f"{rpm:.1f} rpm<br>{w:.4g} mm" for rpm, w in zip(r.rpm, millimetres)]
     line = Line(r.rpm, millimetres, colours()["forward"], "deflection at the probe", hover=hover)
-    thickness = 1e3 * r.scene["blade"]["thickness_m"]
     largest = float(np.nanmax(np.abs(millimetres), initial=0.0))
-    # Past five thicknesses a linear plate is no guide: the axis ends a little beyond.
-    top = max(min(largest, 6.0 * thickness), 1e-9)
+    # Past this a linear plate is no guide: the axis ends a little beyond.
+    top = max(min(largest, 1.2e3 * r.linear_limit_m), 1e-9)
     panel = Panel(
         "rotation speed Ω [rpm]",
         "deflection [mm], square root scale",
