@@ -13,7 +13,7 @@ import pytest
 import sawflutter as sf
 from sawflutter import _native
 from sawflutter.plot import Heat, Line, Points, Shade, Upright, colours
-from sawflutter.plot.chart import root_ticks
+from sawflutter.plot.chart import end_labels, root_ticks
 from sawflutter.plot.motion import deflections, grid
 
 
@@ -181,6 +181,16 @@ def test_a_mode_is_animated_by_both(draft: sf.Scene, tmp_path: Path) -> None:
         draft.animate(mode, backend="paper")  # type: ignore[call-overload]
     with pytest.raises(ValueError, match="frames"):
         draft.animate(mode, frames=1)
+
+
+def test_labels_at_the_ends_of_lines_do_not_meet(report: sf.CampbellResults) -> None:
+    upper = report.chart().panels[0]
+    placed = end_labels(upper, apart=0.05)
+    assert len(placed) >= 5 and upper.y_range is not None
+    least = 0.05 * (upper.y_range[1] - upper.y_range[0])
+    heights = [height for _, height in placed]
+    assert np.all(np.diff(heights) >= least * (1.0 - 1e-9))
+    assert len(placed) <= len(report.plot().layout.annotations)
 
 
 def test_ticks_of_a_root_scale_are_round() -> None:

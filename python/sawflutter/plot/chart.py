@@ -134,6 +134,22 @@ class Chart:
     panels: Sequence[Panel] = field(default_factory=tuple)
 
 
+def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:
+    """Lines with a label at their end, and the height of the label: so far apart, as a share of the
+    axis, that none is printed over another."""
+    low, high = panel.y_range or (0.0, 1.0)
+    lines = [item for item in panel.items if isinstance(item, Line) and item.end]
+    ends = sorted(((float(line.y[-1]), line) for line in lines), key=lambda pair: pair[0])
+    placed: list[tuple[Line, float]] = []
+    lowest = low
+    for y, line in ends:
+        if low <= y <= high:
+            place = max(y, lowest)
+            placed.append((line, place))
+            lowest = place + apart * (high - low)
+    return placed
+
+
 def root_ticks(low: float, high: float) -> list[float]:
     """Round values for an axis of signed square roots."""
     top = max(abs(low), abs(high))

@@ -7,7 +7,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours, root_ticks
+from .chart import (
+    Bars,
+    Chart,
+    Heat,
+    Item,
+    Panel,
+    Points,
+    Shade,
+    Upright,
+    colours,
+    end_labels,
+    root_ticks,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,11 +50,12 @@ def draw(chart: Chart, ax: Axes | None = None) -> Axes:
     )
     for number, panel in enumerate(panels, start=1):
         _panel(axes[number - 1, 0], panel, last=number == len(panels) or not together)
-    title = f"{chart.title}\n"
-    figure.suptitle(
-        title, x=0.02, ha="left", fontsize=15, fontweight="semibold", color=colours()["ink"]
-    )
-    figure.text(0.02, 1.0, f"\n\n\n{chart.facts}", va="top", fontsize=10, color=colours()["quiet"])
+    ink, quiet = colours()["ink"], colours()["quiet"]
+    figure.suptitle(chart.title, x=0.02, ha="left", fontsize=15, fontweight="bold", color=ink)
+    # Above the title of the panel, where it has one.
+    pad = 24.0 if panels[0].title else 8.0
+    facts = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points"}
+    axes[0, 0].annotate(chart.facts, xytext=(0, pad), fontsize=10, color=quiet, **facts)
     first: Axes = axes[0, 0]
     return first
 
@@ -50,6 +63,7 @@ def draw(chart: Chart, ax: Axes | None = None) -> Axes:
 def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     for item in panel.items:
         _add(ax, item)
+    _end_labels(ax, panel)
     if panel.x_log:
         ax.set_xscale("log")
     if panel.y_log:
@@ -105,17 +119,14 @@ def _add(ax: Axes, item: Item) -> None:
         ax.plot(
             item.x, item.y, color=item.colour, linewidth=width, linestyle=style, label=item.name
         )
-        if item.end:
-            _end(ax, item)
 
 
-def _end(ax: Axes, item: Line) -> None:
-    """The label at the last point, where that is within the axes."""
-    text = ax.annotate(
-        item.end, (float(item.x[-1]), float(item.y[-1])), (6, 0), textcoords="offset points",
-        va="center", fontsize=9, color=item.colour, annotation_clip=True,
-    )  # fmt: skip
-    text.set_in_layout(True)
+def _end_labels(ax: Axes, panel: Panel) -> None:
+    for line, place in end_labels(panel, apart=0.07 / panel.share):
+        ax.annotate(
+            line.end, (float(line.x[-1]), place), (6, 0), textcoords="offset points",
+            va="center", fontsize=9, color=line.colour,
+        )  # fmt: skip
 
 
 def _heat(ax: Axes, item: Heat) -> None:

@@ -6,7 +6,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours, root_ticks
+from .chart import (
+    Bars,
+    Chart,
+    Heat,
+    Item,
+    Line,
+    Panel,
+    Points,
+    Shade,
+    Upright,
+    colours,
+    end_labels,
+    root_ticks,
+)
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
@@ -29,6 +42,11 @@ def draw(chart: Chart) -> Figure:
     for row, panel in enumerate(panels, start=1):
         for item in panel.items:
             _add(go, figure, item, panel, row)
+        for line, place in end_labels(panel, apart=0.08 / panel.share):
+            figure.add_annotation(
+                x=float(line.x[-1]), y=place, text=line.end, font={"color": line.colour, "size": 12},
+                showarrow=False, xanchor="left", xshift=6, row=row, col=1,
+            )  # fmt: skip
         _axes(figure, panel, row, last=row == len(panels))
     facts = f"<br><span style='font-size:13px;color:{colours()['quiet']}'>{chart.facts}</span>"
     figure.update_layout(
@@ -42,6 +60,7 @@ def draw(chart: Chart) -> Figure:
         hovermode="closest",
         showlegend=False,
         height=320 + 240 * len(panels),
+        margin={"r": 190 if any(end_labels(panel, 0.0) for panel in panels) else 40},
     )
     return figure
 
@@ -93,19 +112,7 @@ def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
         marker = {"color": item.colour, "size": item.size, "symbol": symbol}
         return go.Scatter(mode="markers", marker=marker, **shared)
     line = {"color": item.colour, "width": item.width, "dash": "dash" if item.dashed else "solid"}
-    if not item.end:
-        return go.Scatter(mode="lines", line=line, **shared)
-    ends = [""] * (len(item.x) - 1) + [f" {item.end}"]
-    shared = {
-        **shared,
-        "hovertext": list(item.hover),
-        "hovertemplate": "%{hovertext}<extra></extra>",
-    }
-    shared["text"] = ends
-    return go.Scatter(
-        mode="lines+text", line=line, textposition="middle right",
-        textfont={"color": item.colour, "size": 12}, cliponaxis=False, **shared,
-    )  # fmt: skip
+    return go.Scatter(mode="lines", line=line, **shared)
 
 
 def _axes(figure: Figure, panel: Panel, row: int, last: bool) -> None:
