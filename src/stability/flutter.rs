@@ -190,19 +190,18 @@ impl Quadruple {
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
         // Where two real λ coalesce growth does not end, and is often largest: just inside.
-        let mut at = at;
-        for end in [&self.begin, &self.end]
-            .map(End::speed)
-            .into_iter()
-            .filter(|end| *end == at)
+        let ends = [self.begin.speed(), self.end.speed()];
+        let inside = match ends.iter().position(|end| *end == at) {
+            Some(k) => at + BESIDE_END * (ends[1 - k] - at),
+            None => at,
+        };
+        if inside != at
+            && let Some(mode) = continued(evaluator, &known, inside)?
         {
-            let inside = end + BESIDE_END * (self.begin.speed() + self.end.speed() - 2.0 * end);
-            if let Some(mode) = continued(evaluator, &known, inside)? {
-                let place = known.partition_point(|(at, _)| *at < inside);
-                known.insert(place, (inside, mode));
-                at = inside;
-            }
+            let place = known.partition_point(|(at, _)| *at < inside);
+            known.insert(place, (inside, mode));
         }
+        let at = inside;
         let nearest = |x: &&(f64, SignedMode)| (x.0 - at).abs();
         let nearest = known
             .iter()
