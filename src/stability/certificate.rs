@@ -40,8 +40,9 @@ pub struct Mismatch {
     pub peak_per_s: f64,
 }
 
-/// A speed this close to an edge of a band, relatively, may be on either side of it.
-const EDGE_TOLERANCE: f64 = 1e-7;
+/// A speed this close to an edge of a band, relatively, may be on either side of it: the coarser
+/// models of the search and the chart shift edges by 1e-5.
+const EDGE_TOLERANCE: f64 = 5e-5;
 /// A mode may grow this much faster than the peak of its band: coarse models of the search are
 /// off by as much, see `LIKENESS` of the continuation.
 const PEAK_TOLERANCE: f64 = 0.03;

@@ -11,7 +11,7 @@ use super::search::{Event, Path};
 use super::signature::SignedMode;
 use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
 
-/// Share of a band's width from its end at which its growth next to the end is read.
+/// Share of a band's width from its end at which a peak at the end is said to be.
 const BESIDE_END: f64 = 1e-3;
 
 /// A quadruple followed over speed.
@@ -190,18 +190,17 @@ impl Quadruple {
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
         // Where two real λ coalesce growth does not end, and is often largest: just inside.
-        let ends = [self.begin.speed(), self.end.speed()];
-        let inside = match ends.iter().position(|end| *end == at) {
-            Some(k) => at + BESIDE_END * (ends[1 - k] - at),
-            None => at,
-        };
-        if inside != at
-            && let Some(mode) = continued(evaluator, &known, inside)?
-        {
-            let place = known.partition_point(|(at, _)| *at < inside);
-            known.insert(place, (inside, mode));
+        for (end, other) in [(&self.begin, &self.end), (&self.end, &self.begin)] {
+            if let End::Edge(edge) = end
+                && edge.speed_rad_per_s == at
+            {
+                let inside = at + BESIDE_END * (other.speed() - at);
+                return Ok((
+                    inside,
+                    (edge.growth_square.sqrt(), edge.frequency_rad_per_s),
+                ));
+            }
         }
-        let at = inside;
         let nearest = |x: &&(f64, SignedMode)| (x.0 - at).abs();
         let nearest = known
             .iter()
