@@ -14,7 +14,7 @@
 //! let analysis = Analysis::new(&scene, &|_, _| ())?;
 //! let lowest = rpm(analysis.model.critical[0].speed_rad_per_s);
 //! assert!(1500.0 < lowest && lowest < 1600.0);
-//! # Ok::<(), sawflutter::spectrum::SpectrumError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 #![forbid(unsafe_code)]
