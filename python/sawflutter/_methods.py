@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +10,7 @@ import numpy.typing as npt
 from ._entry import ComplexArray, Entry, FloatArray
 
 if TYPE_CHECKING:
-    from ._report_types import Mismatch, Shape, Wave
+    from ._report_types import Shape, Wave
 
 
 class RestModeMethods(Entry):
@@ -99,52 +98,6 @@ class ModeMethods(Entry):
         """Real deflection at a time, without growth: Re(shape · e^(iωt))."""
         turned = self.shape(radius_m, theta_rad) * np.exp(2j * np.pi * self.frequency_hz * time_s)
         return np.asarray(turned.real)
-
-
-class CertificateMethods(Entry):
-    """Of the certificate."""
-
-    if TYPE_CHECKING:
-        speeds_checked: int
-        krein_violations: int
-        violating_rpm: FloatArray
-        mismatches: tuple[Mismatch, ...]
-
-    # What a damped saw is certified by is another thing than the Krein index; the report that the
-    # certificate belongs to says which.
-    _damped: ClassVar[bool] = False
-
-    @property
-    def statement(self) -> str:
-        """What was found, in a sentence.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"guides": [], "accuracy": "draft"})
-        >>> free.run_campbell().certificate.statement.split(" at ")[0]
-        'Krein index matches'
-        """
-        checked, violations = self.speeds_checked, self.krein_violations
-        same, other = "Krein index matches", "Krein index does not match"
-        if self._damped:
-            same, other = "growing modes match the bands", "growing modes and bands do not match"
-        if violations:
-            found = (
-                f"{other} at {violations} of {checked} speeds: {_listed(self.violating_rpm)} rpm"
-            )
-        else:
-            found = (
-                f"{same} at {checked} of {checked} speeds" if checked else "nothing was compared"
-            )
-        if self.mismatches:
-            at = _listed(mismatch.rpm for mismatch in self.mismatches)
-            found += f"; the list of bands contradicts eigenvalues at {at} rpm"
-        return found
-
-
-def _listed(speeds: Iterable[float]) -> str:
-    return ", ".join(f"{rpm:.0f}" for rpm in speeds)
 
 
 class BranchMethods(Entry):

@@ -147,14 +147,6 @@ class CampbellResults(Result, CampbellReport):
         "membrane.png",
     )
 
-    @classmethod
-    def from_json(cls, text: str) -> CampbellResults:
-        """The result of a JSON text."""
-        result = super().from_json(text)
-        damped = any("damping" in term for term in result.terms)
-        object.__setattr__(result.certificate, "_damped", damped)
-        return result
-
     @property
     def critical_rpm(self) -> FloatArray:
         """Critical speeds up to the end of the sweep, ascending."""

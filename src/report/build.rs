@@ -9,15 +9,13 @@ use super::branches::{Numbered, standing};
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, MembraneEntry, MismatchEntry, OperatingEntry, Report, RestMode,
-    RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
+    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry,
+    RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
-use crate::stability::{
-    Analysis, Instability, Mismatch, OPERATING_LIMIT, Sensitivity, StabilityState,
-};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, StabilityState};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -39,7 +37,11 @@ impl Report {
         let errors = samples
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
-        let certificate = &analysis.chart.certificate;
+        let certificate = CertificateEntry::new(
+            &analysis.chart.certificate,
+            model.is_conservative(),
+            errors.fold(0.0, f64::max),
+        );
         let branches = Numbered::new(analysis);
         let resolution = model.plate.resolution;
         Ok(Report {
@@ -69,13 +71,8 @@ impl Report {
                 estimated_drawn_error: analysis.estimates.as_ref().map(|e| e.drawn),
             },
             work: work(&model.counters),
-            certificate: CertificateEntry {
-                speeds_checked: certificate.speeds_checked,
-                krein_violations: certificate.violations.len(),
-                violating_rpm: certificate.violations.iter().map(|s| rpm(*s)).collect(),
-                mismatches: certificate.mismatches.iter().map(mismatch).collect(),
-                max_backward_error: errors.fold(0.0, f64::max),
-            },
+            warnings: warnings(scene, analysis, &certificate, &at_rest),
+            certificate,
             campbell: CampbellEntry {
                 from_rpm: rpm(analysis.range.0),
                 to_rpm: rpm(analysis.range.1),
@@ -85,7 +82,6 @@ impl Report {
             root_loci: root_loci(analysis, &branches),
             membrane: MembraneEntry::new(scene, analysis)?,
             sensitivities: Vec::new(),
-            warnings: warnings(scene, analysis, &at_rest),
         })
     }
 }
@@ -357,16 +353,5 @@ fn work(counters: &WorkCounters) -> WorkEntry {
         reduced_solves: count(&counters.reduced_solves),
         local_solves: count(&counters.local_solves),
         refined_pairs: count(&counters.refined_pairs),
-    }
-}
-
-fn mismatch(mismatch: &Mismatch) -> MismatchEntry {
-    MismatchEntry {
-        rpm: rpm(mismatch.speed_rad_per_s),
-        kind: mismatch.kind,
-        unstable_modes: mismatch.unstable_modes,
-        bands: mismatch.bands,
-        growth_per_s: mismatch.growth_per_s,
-        peak_per_s: mismatch.peak_per_s,
     }
 }

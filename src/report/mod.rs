@@ -3,6 +3,7 @@
 
 mod branches;
 mod build;
+mod certificate;
 mod check;
 mod csv;
 mod cut;
@@ -19,6 +20,7 @@ mod whirl;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::certificate::{CertificateEntry, MismatchEntry};
 pub use self::check::{CheckReport, CriterionEntry};
 pub use self::cut::{
     ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
@@ -290,58 +292,6 @@ pub struct WorkEntry {
     pub local_solves: usize,
     /// Pairs of modes refined by inverse iteration, with a factorization each.
     pub refined_pairs: usize,
-}
-
-/// The Krein index held against the spectrum, see [`crate::stability`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CertificateEntry {
-    /// Speeds at which the index was compared; for damped scenes, which have none, speeds at
-    /// which the number of growing modes was held against that of the bands.
-    pub speeds_checked: usize,
-    /// Speeds at which it did not match, not even on the whole basis; expected 0.
-    pub krein_violations: usize,
-    /// These speeds.
-    pub violating_rpm: Vec<f64>,
-    /// Where the list of bands contradicts the eigenvalues that the search or the chart found;
-    /// expected none.
-    pub mismatches: Vec<MismatchEntry>,
-    /// Largest backward error of any mode shown.
-    pub max_backward_error: f64,
-}
-
-impl CertificateEntry {
-    /// The speeds of everything that does not agree, ascending.
-    pub fn disagreeing_rpm(&self) -> Vec<f64> {
-        let mismatches = self.mismatches.iter().map(|mismatch| mismatch.rpm);
-        let mut speeds: Vec<f64> = self
-            .violating_rpm
-            .iter()
-            .copied()
-            .chain(mismatches)
-            .collect();
-        speeds.sort_by(f64::total_cmp);
-        speeds.dedup();
-        speeds
-    }
-}
-
-/// A speed at which the list of bands contradicts the eigenvalues found there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MismatchEntry {
-    /// The speed.
-    pub rpm: f64,
-    /// Kind of the modes and bands compared.
-    pub kind: InstabilityKind,
-    /// Unstable modes of that kind found there; for divergence 1 or 0.
-    pub unstable_modes: usize,
-    /// Bands of that kind that cover the speed.
-    pub bands: usize,
-    /// Growth of the fastest of these modes.
-    pub growth_per_s: f64,
-    /// Largest growth that the bands list.
-    pub peak_per_s: f64,
 }
 
 /// The Campbell diagram.

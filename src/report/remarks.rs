@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{MembraneSource, Plate};
-use crate::scene::{Blade, Bore, Scene, rpm, unusual};
+use crate::scene::{Blade, Bore, Scene, unusual};
 use crate::spectrum::DescribedMode;
-use crate::stability::{Analysis, Certificate};
+use crate::stability::Analysis;
+
+use super::CertificateEntry;
 
 /// Relative rounding from which a frequency is not to be trusted to six digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -59,17 +61,20 @@ pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
 }
 
 /// Limits of the model that this scene comes near to.
-pub fn warnings(scene: &Scene, analysis: &Analysis, at_rest: &[DescribedMode]) -> Vec<String> {
-    let certificate = &analysis.chart.certificate;
+pub fn warnings(
+    scene: &Scene,
+    analysis: &Analysis,
+    certificate: &CertificateEntry,
+    at_rest: &[DescribedMode],
+) -> Vec<String> {
     let found = [
         out_of_reach(scene, analysis),
         uncalibrated(scene),
         thick(&analysis.model.plate.blade),
         out_of_balance(scene),
         rounded(analysis, at_rest),
-        mismatched(certificate, analysis.model.is_conservative()),
+        unsettled(analysis),
         contradicted(certificate),
-        cut_short(certificate),
         left_free(analysis),
     ];
     let of_scene = unusual(scene.file());
@@ -129,38 +134,20 @@ fn rounded(analysis: &Analysis, at_rest: &[DescribedMode]) -> Option<String> {
     ))
 }
 
-fn mismatched(certificate: &Certificate, is_undamped: bool) -> Option<String> {
-    let first = certificate.violations.first()?;
-    let what = match is_undamped {
-        true => "the Krein index does not match",
-        false => "the growing modes do not match the bands",
-    };
-    Some(format!(
-        "{what} at {} of {} speeds, first at {:.3} rpm: a mode may be \
-         missing",
-        certificate.violations.len(),
-        certificate.speeds_checked,
-        rpm(*first)
-    ))
-}
-
-fn contradicted(certificate: &Certificate) -> Option<String> {
-    let first = certificate.mismatches.first()?;
-    Some(format!(
-        "the list of bands contradicts the eigenvalues found at {} speeds, first at {:.3} rpm: a \
-         band may be missing or wrong there",
-        certificate.mismatches.len(),
-        rpm(first.speed_rad_per_s)
-    ))
-}
-
-fn cut_short(certificate: &Certificate) -> Option<String> {
-    certificate.gave_up.then(|| {
+fn unsettled(analysis: &Analysis) -> Option<String> {
+    let error_hz = analysis.model.unsettled_rad_per_s / TAU;
+    (error_hz > 0.0).then(|| {
         format!(
-            "the search for bands stopped after {} speeds: bands may be missing; narrow the sweep",
-            certificate.speeds_checked
+            "the reduced model would need modes of more speeds than it may take: its frequencies \
+             may be off by {error_hz:.1e} Hz; a sweep over fewer speeds cures that"
         )
     })
+}
+
+fn contradicted(certificate: &CertificateEntry) -> Option<String> {
+    let statement = &certificate.statement;
+    (!certificate.is_clean())
+        .then(|| format!("{statement}: a mode or a band may be missing or wrong there"))
 }
 
 fn left_free(analysis: &Analysis) -> Option<String> {

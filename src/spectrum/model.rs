@@ -71,6 +71,9 @@ pub struct SpectralModel {
     pub critical: Vec<NamedCriticalSpeed>,
     /// Frequency up to which the modes are complete and accurate.
     pub complete_to_rad_per_s: f64,
+    /// Largest estimated error of a frequency of the reduced models above their tolerance, in
+    /// rad/s: 0 unless they would have needed more speeds than a reduction may take modes from.
+    pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
     /// Whether each part is a harmonic of an undamped free blade, a symmetric problem.
@@ -121,7 +124,7 @@ impl SpectralModel {
             ..WorkCounters::default()
         };
         let mut parts = Part::of(&plate);
-        let mut complete_to_rad_per_s = f64::INFINITY;
+        let (mut complete_to_rad_per_s, mut unsettled_rad_per_s) = (f64::INFINITY, 0.0);
         if strategy != Strategy::Dense {
             let scale = frequency_scale(&plate);
             // Harmonics that nothing couples are small enough to be solved whole.
@@ -131,16 +134,18 @@ impl SpectralModel {
                     true => reduction::for_bands(&part.full, range, scale, &critical, &counters)?,
                     false => None,
                 };
-                if let Some((low, height)) = bands_alone {
-                    part.chart = vec![low.clone()];
-                    part.low = Some((low, height));
-                    complete_to_rad_per_s = height;
+                if let Some(found) = bands_alone {
+                    part.chart = vec![found.low.clone()];
+                    part.low = Some((found.low, found.low_rad_per_s));
+                    complete_to_rad_per_s = found.low_rad_per_s;
+                    unsettled_rad_per_s = found.unsettled_rad_per_s;
                 } else {
                     let found =
                         reduction::of_guided(&part.full, range, scale, &critical, &counters)?;
                     part.chart = found.chart;
                     part.low = found.low.map(|low| (low, found.low_rad_per_s));
                     complete_to_rad_per_s = found.chart_rad_per_s;
+                    unsettled_rad_per_s = found.unsettled_rad_per_s;
                 }
             }
         }
@@ -151,6 +156,7 @@ impl SpectralModel {
             parts,
             critical,
             complete_to_rad_per_s,
+            unsettled_rad_per_s,
             counters,
         };
         if model.complete_to_rad_per_s.is_infinite() {

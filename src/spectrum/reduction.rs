@@ -48,6 +48,9 @@ pub struct GuidedReductions {
     pub chart_rad_per_s: f64,
     /// Height of `low`.
     pub low_rad_per_s: f64,
+    /// Largest estimated error of a frequency above its tolerance, in rad/s: 0 unless the
+    /// snapshots ran out.
+    pub unsettled_rad_per_s: f64,
 }
 
 /// Modes of the guided blade at a few speeds, more of them until every mode up to
@@ -80,18 +83,29 @@ pub fn of_guided(
         low,
         chart_rad_per_s: builder.window,
         low_rad_per_s,
+        unsettled_rad_per_s: builder.unsettled_rad_per_s,
     })
 }
 
-/// The projection on the modes that bands are made of alone, and their height; nothing where no
-/// wave is reflected. Without the modes above, that only a chart shows, it costs a third.
+/// The projection on the modes that bands are made of alone.
+pub struct BandReduction {
+    /// The projection.
+    pub low: Projection,
+    /// Its height.
+    pub low_rad_per_s: f64,
+    /// As in [`GuidedReductions`].
+    pub unsettled_rad_per_s: f64,
+}
+
+/// The projection on the modes that bands are made of alone; nothing where no wave is reflected.
+/// Without the modes above, that only a chart shows, it costs a third.
 pub fn for_bands(
     system: &GyroscopicSystem,
     range: (f64, f64),
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
-) -> Result<Option<(Projection, f64)>, SpectrumError> {
+) -> Result<Option<BandReduction>, SpectrumError> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
     let (height, last) = builder.reflected_height(range.1)?;
     if height == 0.0 {
@@ -99,13 +113,25 @@ pub fn for_bands(
     }
     builder.window = height;
     builder.add_first_snapshots([None, last])?;
-    Ok(Some((builder.whole_range(height)?, height)))
+    Ok(Some(BandReduction {
+        low: builder.whole_range(height)?,
+        low_rad_per_s: height,
+        unsettled_rad_per_s: builder.unsettled_rad_per_s,
+    }))
 }
 
 /// Low modes of the whole system at one speed.
 struct Snapshot {
     speed: f64,
     pairs: Vec<Eigenpair>,
+}
+
+/// A projection between two snapshots, and what its middle says of it.
+struct Tried {
+    piece: Projection,
+    middle: f64,
+    is_kept: bool,
+    unsettled_rad_per_s: f64,
 }
 
 struct Builder<'a> {
@@ -116,6 +142,7 @@ struct Builder<'a> {
     counters: &'a WorkCounters,
     window: f64,
     snapshots: Vec<Snapshot>,
+    unsettled_rad_per_s: f64,
 }
 
 impl<'a> Builder<'a> {
@@ -134,6 +161,7 @@ impl<'a> Builder<'a> {
             counters,
             window: 0.0,
             snapshots: Vec::new(),
+            unsettled_rad_per_s: 0.0,
         }
     }
 
@@ -263,20 +291,24 @@ impl<'a> Builder<'a> {
             let projection = Projection::new(self.system, basis, self.range.1);
             let mut halfway = self.halfway();
             halfway.retain(|speed| !settled.contains(speed));
-            let wrong: Vec<bool> = halfway
+            let errors: Vec<f64> = halfway
                 .par_iter()
                 .map(|&speed| {
                     let pairs = self.pairs(&projection, speed)?;
-                    let error = self.frequency_error(&projection, speed, height, &pairs);
-                    Ok(error > FREQUENCY_TOLERANCE * self.window)
+                    Ok(self.frequency_error(&projection, speed, height, &pairs))
                 })
                 .collect::<Result<_, SpectrumError>>()?;
+            let largest = errors.iter().copied().fold(0.0, f64::max);
             let (coarse, fine): (Vec<_>, Vec<_>) = halfway
                 .into_iter()
-                .zip(wrong)
-                .partition(|(_, wrong)| *wrong);
+                .zip(errors)
+                .partition(|(_, error)| *error > FREQUENCY_TOLERANCE * self.window);
             settled.extend(fine.into_iter().map(|(speed, _)| speed));
-            if coarse.is_empty() || self.snapshots.len() >= MAX_SNAPSHOTS {
+            if coarse.is_empty() {
+                return Ok(projection);
+            }
+            if self.snapshots.len() >= MAX_SNAPSHOTS {
+                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(largest);
                 return Ok(projection);
             }
             let speeds: Vec<f64> = coarse.into_iter().map(|(speed, _)| speed).collect();
@@ -295,29 +327,36 @@ impl<'a> Builder<'a> {
             };
             let open: Vec<&[Snapshot]> = self.snapshots.windows(2).filter(is_open).collect();
             let last_round = self.snapshots.len() >= MAX_SNAPSHOTS;
-            let tried: Result<Vec<(Projection, Option<f64>)>, SpectrumError> = open
+            let tried: Result<Vec<Tried>, SpectrumError> = open
                 .into_par_iter()
                 .map(|pair| {
                     let basis = self.basis(pair, self.window);
                     let mut piece = Projection::new(self.system, basis, pair[1].speed);
                     let middle = 0.5 * (pair[0].speed + pair[1].speed);
                     let pairs = self.pairs(&piece, middle)?;
-                    let wrong = !last_round
-                        && self.frequency_error(&piece, middle, self.window, &pairs)
-                            > DRAWN_TOLERANCE * self.window;
-                    if !wrong && self.system.is_conservative() && self.system.free_rigid.is_empty()
+                    let error = self.frequency_error(&piece, middle, self.window, &pairs);
+                    let is_wrong = error > DRAWN_TOLERANCE * self.window;
+                    let is_kept = last_round || !is_wrong;
+                    if is_kept && self.system.is_conservative() && self.system.free_rigid.is_empty()
                     {
                         piece.drawn = self.drawn(&piece, pair, (middle, pairs));
                     }
-                    Ok((piece, wrong.then_some(middle)))
+                    Ok(Tried {
+                        piece,
+                        middle,
+                        is_kept,
+                        unsettled_rad_per_s: if is_wrong { error } else { 0.0 },
+                    })
                 })
                 .collect();
             let mut coarse = Vec::new();
-            for (piece, wrong_at) in tried? {
-                match wrong_at {
-                    Some(middle) => coarse.push(middle),
-                    None => finished.push(piece),
+            for tried in tried? {
+                if !tried.is_kept {
+                    coarse.push(tried.middle);
+                    continue;
                 }
+                finished.push(tried.piece);
+                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(tried.unsettled_rad_per_s);
             }
             if coarse.is_empty() {
                 finished.sort_by(|x, y| x.to_rad_per_s.total_cmp(&y.to_rad_per_s));

@@ -234,7 +234,11 @@ fn passing_teeth_act_like_their_mean() {
         8,
     )
     .unwrap();
-    assert!(quiet.passing_growth_per_s < 0.25, "{quiet:?}");
+    // Moving loads on a saw without damping couple two high modes wherever their frequencies add
+    // up to a multiple of the teeth's. One such resonance, 0.07 rpm wide, lies near 1800 rpm, and
+    // the basis decides how near. Its growth stays below that which counts as flutter.
+    let threshold = Scene::paper().flutter_threshold_per_s();
+    assert!(quiet.passing_growth_per_s < threshold, "{quiet:?}");
 }
 
 /// A point of the map between those whose modes it is made of, against a saw with its

@@ -133,17 +133,8 @@ fn open_end(report: &Report, rpm: f64) -> &'static str {
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;
-    let checked = certificate.speeds_checked;
-    match certificate.disagreeing_rpm().len() {
-        0 => writeln!(
-            text,
-            "Certificate: modes and bands agree at {checked} speeds"
-        )?,
-        wrong => writeln!(
-            text,
-            "Certificate: modes and bands disagree at {wrong} of {checked} speeds"
-        )?,
-    }
+    let statement = format!("Certificate: {}", certificate.statement);
+    writeln!(text, "{}", wrapped(&statement))?;
     let error = certificate.max_backward_error;
     writeln!(text, "Largest backward error of a mode: {error:.0e}")?;
     if let Some(error) = report.accuracy.estimated_relative_error {

@@ -2,7 +2,6 @@
 
 use super::super::axis::two_digits;
 use super::super::canvas::{Anchor, Lettering, Sheet};
-use super::super::is_damped;
 use super::super::style::{
     ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten, text_width,
 };
@@ -20,47 +19,21 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
         sheet.text([x, baseline], letters, &text);
         x += text_width(&text, LABEL_SIZE, Weight::Regular);
     };
-    let facts = facts(report).join(BETWEEN_FACTS);
-    match violation(report) {
-        Some(alarm) => {
-            write(&alarm, ALARM);
-            write(&format!("{BETWEEN_FACTS}{facts}"), QUIET);
-        }
-        None => write(&facts, QUIET),
-    }
-}
-
-fn violation(report: &Report) -> Option<String> {
     let certificate = &report.certificate;
-    let disagreeing = certificate.disagreeing_rpm();
-    let speeds = match disagreeing.len() {
-        0 => return None,
-        1 => "1 speed".to_owned(),
-        many => format!("{many} speeds"),
+    let colour = match certificate.is_clean() {
+        true => QUIET,
+        false => ALARM,
     };
-    let at = match disagreeing[..] {
-        [] => String::new(),
-        [only] => format!(", {only:.0} rpm"),
-        [first, .., last] => format!(", {first:.0} to {last:.0} rpm"),
-    };
-    Some(
-        match is_damped(report) || !certificate.mismatches.is_empty() {
-            true => format!("growing modes and bands do not match at {speeds}{at}"),
-            false => format!("Krein index does not match at {speeds}{at}"),
-        },
-    )
+    if certificate.speeds_checked > 0 {
+        write(&certificate.statement, colour);
+        write(BETWEEN_FACTS, QUIET);
+    }
+    write(&facts(report).join(BETWEEN_FACTS), QUIET);
 }
 
 fn facts(report: &Report) -> Vec<String> {
     let (certificate, accuracy) = (&report.certificate, &report.accuracy);
     let mut facts = Vec::new();
-    let checked = certificate.speeds_checked;
-    if checked > 0 && certificate.disagreeing_rpm().is_empty() {
-        facts.push(match is_damped(report) {
-            true => format!("growing modes match the bands at {checked} of {checked} speeds"),
-            false => format!("Krein index matches at {checked} of {checked} speeds"),
-        });
-    }
     if let Some(bound) = power_of_ten_above(certificate.max_backward_error) {
         facts.push(format!("backward error below {bound}"));
     }
