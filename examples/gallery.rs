@@ -29,7 +29,8 @@ fn main() -> anyhow::Result<()> {
         }
         println!("{}", name.display());
     }
-    // A thousand saws take minutes: README.md says how its report was made.
+    // A thousand saws take minutes: docs/tutorials/thousand-saws.md says how its report
+    // was made.
     let figures = root.join("figures");
     let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
     let report = serde_json::from_str(&report)?;

@@ -2,8 +2,8 @@
 //! finds for the same scene, and it answers while a hand moves.
 //!
 //! Needs Debian's `chromium` and `chromium-driver`; `.ci/run` installs them and runs these tests
-//! with `--ignored`. Screenshots go to `target/explore-screenshots/`; the
-//! README's picture is `1280-after.png`.
+//! with `--ignored`. Screenshots go to `target/explore-screenshots/`;
+//! `figures/explore.png` is `1280-after.png`.
 
 mod browser;
 

@@ -43,7 +43,7 @@ def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:
 
 
 def test_cut_is_stable_at_1800_and_flutters_at_2800() -> None:
-    # README, table of the cut: 6.04 1/s at 4.53 Hz.
+    # docs/tutorials/stable-in-the-cut.md: 6.04 1/s at 4.53 Hz.
     cut = sf.Scene.paper().run_cut()
     slow, fast = cut.runs
     assert [slow.verdict, fast.verdict] == ["stable", "unstable"]
@@ -80,7 +80,7 @@ def test_run_up_crosses_bands(draft: sf.Scene) -> None:
 
 
 def test_fit_finds_the_guide_of_the_paper(tmp_path: Path) -> None:
-    # README: 0.194 m and 2.08e7 N/m at 0.983 Hz rms.
+    # docs/tutorials/measured-to-guide.md: 0.194 m and 2.08e7 N/m at 0.983 Hz rms.
     saw = sf.Scene.paper()
     found = saw.fit(to_rpm=1250, starts=3)
     values = {parameter.path: parameter.value for parameter in found.parameters}

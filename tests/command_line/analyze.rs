@@ -1,7 +1,7 @@
 //! Goal: the program keeps its word to the person or script that runs it: whole files or
 //! none, one clear message for a bad scene, exit code 0 or 2, lines that fit a terminal.
 //!
-//! Source: the scene and report keys and exit codes of the README and `--help`.
+//! Source: the scene and report keys and exit codes of docs/reference and `--help`.
 
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};

@@ -1,6 +1,6 @@
 //! Goal: `cut` and `runup` keep their word to the person or script that runs them.
 //!
-//! Source: `--help`, the README, and the paper's verdicts (section 3.2).
+//! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
 use sawflutter::report::{CutReport, RunUpReport, Verdict};
 use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};

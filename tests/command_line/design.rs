@@ -1,6 +1,6 @@
 //! Goal: `fit` and `place` keep their word to the person or script that runs them.
 //!
-//! Source: `--help` and the README.
+//! Source: `--help` and docs/how-to.
 
 use std::path::PathBuf;
 

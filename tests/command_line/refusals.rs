@@ -1,7 +1,7 @@
 //! Goal: what cannot be analysed is refused with one clear message that names the key and the
 //! remedy, exit code 2, and nothing written.
 //!
-//! Source: the scene keys and exit codes of the README and `--help`.
+//! Source: the scene keys and exit codes of docs/reference and `--help`.
 
 use std::fs::File;
 use std::path::Path;

@@ -133,7 +133,7 @@ fn the_stored_report_is_of_the_sample_study_and_the_papers_saw() {
     let report: StudyReport = serde_json::from_str(&read("figures/paper-study.json")).unwrap();
     let study = StudyFile::from_json(&read("scenes/studies/paper-tolerances.json")).unwrap();
     assert_eq!(report.study, study);
-    // By --tolerance, as the README says.
+    // By --tolerance, as docs/tutorials/thousand-saws.md says.
     let mut paper = Scene::paper().file().clone();
     paper.tolerance = Some(6e-3);
     assert_eq!(report.scene, paper);

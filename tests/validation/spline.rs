@@ -112,7 +112,7 @@ fn the_papers_stiffness_in_metres_is_too_soft_to_be_a_contact() {
     assert!(apart < 1e-2, "{apart}");
 }
 
-/// The figures of the README.
+/// The numbers behind what docs/explanation/paper.md says of the flanks.
 #[test]
 #[ignore = "prints figures; run it in release"]
 fn print_what_the_spline_changes() {
