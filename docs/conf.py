@@ -61,5 +61,6 @@ html_theme_options = {
     "footer_end": [],
 }
 # One file, in the repository: the pages load nothing from the net.
+math_eqref_format = "Eq. {number}"
 mathjax_path = "mathjax/tex-svg-full.js"
 mathjax4_config = mathjax3_config = {"options": {"enableMenu": False}}

@@ -1,4 +1,4 @@
-"""Writes `_generated/`: the reference pages that the program itself tells.
+"""Writes `_generated/`: the reference pages that are made of what the program says.
 
 Commands and options come from `--help`, keys from the JSON schemas, ranges from what the library
 answers to a value that it refuses. `SAWFLUTTER_PROGRAM` names the program.
