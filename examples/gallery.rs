@@ -7,7 +7,7 @@ use sawflutter::check::{Check, Limits};
 use sawflutter::figure;
 use sawflutter::fit::{Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
-use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, RunUpReport};
 use sawflutter::scene::{Freed, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::transient::{Cutting, RunningUp};
@@ -48,7 +48,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         // Another scene's saw on its spline: only that is new.
         return Ok(vec![("orbit.png", orbit(scene)?)]);
     }
-    let report = Report::new(scene, &Analysis::new(scene, &|_, _| ())?)?;
+    let report = Analysis::new(scene)?.report()?;
     let mut figures = vec![
         ("campbell.png", figure::campbell_png(&report)?),
         ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
@@ -62,7 +62,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     }
     if let Some(runup) = &scene.runup() {
         let found = RunningUp::new(scene, runup, &|_, _| ())?;
-        let report = RunUpReport::new(scene, runup, &found)?;
+        let report = RunUpReport::new(&found)?;
         figures.push(("runup.png", figure::runup_png(&report)?));
         figures.push(("response-map.png", figure::response_map_png(&report)?));
     }
@@ -83,7 +83,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     let cut = scene.cut().context("it has a cut")?;
     let cutting = Cutting::new(scene, cut, &cut.runs, &|_, _| ())?;
-    Ok(CutReport::new(scene, &cutting))
+    Ok(CutReport::new(&cutting))
 }
 
 fn orbit(scene: &Scene) -> anyhow::Result<Vec<u8>> {

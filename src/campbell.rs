@@ -20,6 +20,29 @@ pub(crate) use refine::{Closeness, refined};
 /// Told how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
+/// Why a chart could not be sampled.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CampbellError {
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The modes of all speeds of a chart would not fit into the memory allowed.
+    #[error(
+        "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; end the sweep earlier or ask for a coarser accuracy"
+    )]
+    TooLarge {
+        /// Memory needed.
+        needed_mb: usize,
+        /// Memory allowed.
+        allowed_mb: usize,
+        /// Modes at the last speed.
+        modes: usize,
+        /// Speeds.
+        speeds: usize,
+    },
+}
+
 /// All modes of one speed.
 #[derive(Debug, Clone)]
 pub struct SpeedSample {
@@ -58,14 +81,14 @@ const MEMORY_BUDGET_MB: usize = 1024;
 
 /// What the modes of a chart will take, judged by the number of modes at the last speed, where
 /// there are most.
-fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<(), SpectrumError> {
+fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<(), CampbellError> {
     // A shape and, at most as long, its projected coordinates; a share of each harmonic.
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
     let one = size_of::<DescribedMode>() + shape + shares;
     let needed_mb = (speeds * modes * one) >> 20;
     if needed_mb > MEMORY_BUDGET_MB {
-        return Err(SpectrumError::TooLarge {
+        return Err(CampbellError::TooLarge {
             needed_mb,
             allowed_mb: MEMORY_BUDGET_MB,
             modes,
@@ -79,12 +102,12 @@ fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<()
 /// every bit in it, is that of the speeds.
 ///
 /// # Errors
-/// [`SpectrumError`] of the last speed or of the lowest that fails; [`SpectrumError::TooLarge`].
+/// [`CampbellError`] of the last speed or of the lowest that fails; [`CampbellError::TooLarge`].
 pub fn sample(
     model: &SpectralModel,
     speeds: &[f64],
     progress: Progress<'_>,
-) -> Result<Vec<SpeedSample>, SpectrumError> {
+) -> Result<Vec<SpeedSample>, CampbellError> {
     let Some((last, others)) = speeds.split_last() else {
         return Ok(Vec::new());
     };
@@ -101,7 +124,7 @@ pub fn sample(
     };
     let last = sampled(last)?;
     check_memory(model, last.modes.len(), speeds.len())?;
-    let samples: Vec<Result<SpeedSample, SpectrumError>> = others.par_iter().map(sampled).collect();
+    let samples: Vec<Result<SpeedSample, CampbellError>> = others.par_iter().map(sampled).collect();
     samples.into_iter().chain([Ok(last)]).collect()
 }
 

@@ -20,6 +20,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
+use crate::stability::AnalysisError;
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, verdict};
 use crate::system::GyroscopicSystem;
 
@@ -32,6 +33,9 @@ pub enum CheckError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
 }
 
 /// What a saw has to keep.
@@ -118,7 +122,7 @@ impl Check {
             from_rad_per_s: 0.0,
             to_rad_per_s: limits.reach_rad_per_s(),
         })?;
-        let analysis = Analysis::new(&swept, &|_, _| ())?;
+        let analysis = Analysis::new(&swept)?;
         let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
         let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);

@@ -11,7 +11,7 @@
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
 //!
 //! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
-//! let analysis = Analysis::new(&scene, &|_, _| ())?;
+//! let analysis = Analysis::new(&scene)?;
 //! let lowest = rpm(analysis.model.critical[0].speed_rad_per_s);
 //! assert!(1500.0 < lowest && lowest < 1600.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

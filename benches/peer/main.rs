@@ -7,8 +7,8 @@ use std::time::Instant;
 use sawflutter::campbell::even_speeds;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
-use sawflutter::stability::{Analysis, chart};
+use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::stability::{Analysis, AnalysisError, chart};
 use serde_json::json;
 
 const SWEEP: usize = 201;
@@ -27,9 +27,9 @@ fn main() {
     }
 }
 
-fn measured(repeats: usize) -> Result<serde_json::Value, SpectrumError> {
+fn measured(repeats: usize) -> Result<serde_json::Value, AnalysisError> {
     let scene = Scene::paper();
-    let full_chart = || Analysis::new(&scene, &|_, _| ()).map(|_| ());
+    let full_chart = || Analysis::new(&scene).map(|_| ());
     let (swept, frequencies) = (|| sweep().map(|_| ()), sweep()?);
     let mut by_size = Vec::new();
     for (max_diameters, radial_functions) in SIZES {
@@ -59,14 +59,14 @@ fn range() -> (f64, f64) {
     (0.0, rad_per_s(3000.0))
 }
 
-fn charted(resolution: Resolution) -> Result<(), SpectrumError> {
+fn charted(resolution: Resolution) -> Result<(), AnalysisError> {
     let plate = Plate::new(&Scene::paper(), resolution);
     let model = SpectralModel::new(plate, range(), Strategy::Reduced)?;
     chart(&model, range(), 51, &|_, _| ()).map(|_| ())
 }
 
 /// The lowest |Im λ| at 201 speeds, from scene to numbers.
-fn sweep() -> Result<Vec<Vec<f64>>, SpectrumError> {
+fn sweep() -> Result<Vec<Vec<f64>>, AnalysisError> {
     use rayon::prelude::*;
     let resolution = Resolution {
         max_diameters: 16,
@@ -84,8 +84,8 @@ fn sweep() -> Result<Vec<Vec<f64>>, SpectrumError> {
 
 fn fastest(
     repeats: usize,
-    work: impl Fn() -> Result<(), SpectrumError>,
-) -> Result<f64, SpectrumError> {
+    work: impl Fn() -> Result<(), AnalysisError>,
+) -> Result<f64, AnalysisError> {
     let mut least = f64::INFINITY;
     for _ in 0..repeats {
         let start = Instant::now();

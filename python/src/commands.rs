@@ -6,12 +6,11 @@ use sawflutter::check::Check;
 use sawflutter::fit::{Fit, Measurement};
 use sawflutter::place::Placement;
 use sawflutter::report::{
-    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport,
-    SensitivityEntry,
+    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
 };
 use sawflutter::scene::{CutRun, Freed, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, ChosenBasis, sensitivities};
+use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, sensitivities};
 use sawflutter::transient::{Cutting, RunningUp};
 use serde::Serialize;
 
@@ -35,11 +34,15 @@ pub fn analyze(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let analysis = Analysis::new(&scene, &|done, of| meter.show(done, of))?;
-        let mut report = Report::new(&scene, &analysis)?;
+        let options = AnalysisOptions {
+            progress: &|done, of| meter.show(done, of),
+            ..AnalysisOptions::default()
+        };
+        let analysis = Analysis::with_options(&scene, options)?;
+        let mut report = analysis.report()?;
         if sensitivity {
             let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
-            let found = sensitivities(&scene, &analysis, at)?;
+            let found = sensitivities(&analysis, at)?;
             report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
         }
         json(&report)
@@ -123,7 +126,7 @@ pub fn cut(
             return Err(missing("rpm", "a speed to cut at".to_owned()));
         }
         let cutting = Cutting::new(&scene, cut, runs, &|done, of| meter.show(done, of))?;
-        json(&CutReport::new(&scene, &cutting))
+        json(&CutReport::new(&cutting))
     })
 }
 
@@ -142,7 +145,7 @@ pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) ->
             missing("runup", allowed)
         })?;
         let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
-        json(&RunUpReport::new(&scene, runup, &found)?)
+        json(&RunUpReport::new(&found)?)
     })
 }
 

@@ -9,7 +9,7 @@ use sawflutter::fit::FitError;
 use sawflutter::place::PlaceError;
 use sawflutter::scene::SceneError;
 use sawflutter::spectrum::SpectrumError;
-use sawflutter::stability::SensitivityError;
+use sawflutter::stability::{AnalysisError, SensitivityError};
 use sawflutter::study::{LogError, StudyError};
 use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
@@ -141,6 +141,7 @@ impl From<FitError> for Failure {
     fn from(error: FitError) -> Self {
         match error {
             FitError::Scene(source) => source.into(),
+            FitError::Analysis(source) => source.into(),
             FitError::Spectrum(source) => source.into(),
             other => Refusal::saying("ArgumentError", other, None),
         }
@@ -151,6 +152,7 @@ impl From<PlaceError> for Failure {
     fn from(error: PlaceError) -> Self {
         match error {
             PlaceError::Scene(source) => source.into(),
+            PlaceError::Analysis(source) => source.into(),
             PlaceError::Spectrum(source) => source.into(),
             other => Refusal::saying("ArgumentError", other, None),
         }
@@ -170,6 +172,7 @@ impl From<CheckError> for Failure {
     fn from(error: CheckError) -> Self {
         match error {
             CheckError::Scene(source) => source.into(),
+            CheckError::Analysis(source) => source.into(),
             CheckError::Spectrum(source) => source.into(),
         }
     }
@@ -196,6 +199,7 @@ macro_rules! failed {
     };
 }
 failed!(
+    AnalysisError,
     SensitivityError,
     SpectrumError,
     FigureError,

@@ -183,5 +183,5 @@ impl StudyLog {
 
 /// An error once the computation of this thread was stopped.
 fn stopped() -> Result<(), Failure> {
-    Ok(sawflutter::spectrum::Stop::current().check()?)
+    Ok(sawflutter::spectrum::Cancellation::current().check()?)
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use sawflutter::spectrum::Stop;
+use sawflutter::spectrum::Cancellation;
 
 use crate::failure::Failure;
 
@@ -57,7 +57,7 @@ pub fn compute<T: Send + 'static>(
     progress: Option<Bound<'_, PyAny>>,
     work: impl FnOnce(&Meter) -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<T> {
-    let (stop, meter) = (Stop::default(), Arc::new(Meter::default()));
+    let (stop, meter) = (Cancellation::default(), Arc::new(Meter::default()));
     let (sender, receiver) = channel();
     // A receiver is for one thread; the compiler wants to see that only one has it here.
     let receiver = Mutex::new(receiver);
@@ -83,7 +83,7 @@ pub fn compute<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => {
                 let raised = py.check_signals().and_then(|()| tell(meter.state()));
                 if let Err(raised) = raised {
-                    stop.ask();
+                    stop.cancel();
                     return Err(raised);
                 }
             }
@@ -96,7 +96,7 @@ pub fn compute<T: Send + 'static>(
 
 /// The work's result, a panic being a fault.
 fn guarded<T: Send>(
-    stop: &Stop,
+    stop: &Cancellation,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
     let watched = catch_unwind(AssertUnwindSafe(|| stop.watched(work)));

@@ -115,7 +115,7 @@ pub fn match_modes(
 struct Carrier<'a> {
     frequency: f64,
     slope: f64,
-    part: usize,
+    component: usize,
     shape: &'a Col<c64>,
     conjugated: bool,
     damped: bool,
@@ -129,7 +129,7 @@ impl<'a> Carrier<'a> {
         Carrier {
             frequency: sign * mode.lambda.im,
             slope: sign * mode.frequency_slope,
-            part: mode.part,
+            component: mode.component,
             shape,
             conjugated,
             damped: mode.kind == ModeKind::Damped,
@@ -149,7 +149,7 @@ impl<'a> Carrier<'a> {
 
     /// Cost of taking both for one mode, and how alike their shapes are.
     fn cost(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
-        if self.part != other.part {
+        if self.component != other.component {
             return (NEVER, 0.0);
         }
         let direct = self.cost_as_is(other, step, height);
@@ -204,7 +204,7 @@ mod tests {
             frequency_slope: 0.0,
             growth_slope: c64::new(0.0, 0.0),
             action: 1,
-            part: 0,
+            component: 0,
             coordinates: Col::from_fn(4, |i| c64::new(f64::from(u8::from(i == place)), 0.0)),
         }
     }

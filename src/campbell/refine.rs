@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::matching::{Match, Sighted, match_modes};
-use super::{SpeedSample, sample};
-use crate::spectrum::{DescribedMode, ModeKind, SpectralModel, SpectrumError};
+use super::{CampbellError, SpeedSample, sample};
+use crate::spectrum::{DescribedMode, ModeKind, SpectralModel};
 
 /// How closely the lines of a chart follow its branches.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,12 +42,12 @@ const GROWTH_CHORD: f64 = 0.13;
 /// Adds speeds to samples at ascending speeds until the lines between them are close.
 ///
 /// # Errors
-/// [`SpectrumError`] of a speed that fails.
+/// [`CampbellError`] of a speed that fails.
 pub fn refined(
     model: &SpectralModel,
     mut samples: Vec<SpeedSample>,
     closeness: Closeness,
-) -> Result<Vec<SpeedSample>, SpectrumError> {
+) -> Result<Vec<SpeedSample>, CampbellError> {
     let mut open: Vec<f64> = samples.iter().map(|s| s.speed_rad_per_s).collect();
     for _ in 0..closeness.halvings {
         let doubtful: Vec<(f64, f64)> = samples

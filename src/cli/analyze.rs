@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::figure;
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, rad_per_s};
-use crate::stability::{Analysis, sensitivities};
+use crate::stability::{Analysis, AnalysisOptions, sensitivities};
 use anyhow::bail;
 use clap::Args;
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ pub struct Arguments {
     #[command(flatten)]
     finely: Finely,
     #[command(flatten)]
-    pub output: Output,
+    output: Output,
     /// Also say how critical speeds and onsets move with thickness, density, modulus and
     /// the guides
     #[arg(long)]
@@ -50,8 +50,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         [] => one(arguments, &arguments.finely.applied(Scene::paper())?),
         [path] => one(arguments, &read(path)?),
         paths => {
-            let scenes = paths.iter().map(read).collect::<anyhow::Result<_>>()?;
-            several::run(arguments, paths, scenes)
+            let scenes = paths
+                .iter()
+                .map(read)
+                .collect::<anyhow::Result<Vec<Scene>>>()?;
+            several::run(&arguments.output, paths, &scenes, |scene, folder| {
+                into_folder(arguments, scene, folder)
+            })
         }
     }
 }
@@ -69,7 +74,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
 }
 
 /// Charts a saw into a folder of its own.
-pub fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
+fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
     let folder = OutputFolder::open(path)?;
     let report = report(arguments, scene)?;
     folder.write_together(&files(&report)?.0, &OPTIONAL)?;
@@ -78,16 +83,20 @@ pub fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow:
 
 fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
     let bar = progress_bar("speeds");
-    let analysis = Analysis::new(scene, &|done, of| show(&bar, done, of))?;
+    let options = AnalysisOptions {
+        progress: &|done, of| show(&bar, done, of),
+        ..AnalysisOptions::default()
+    };
+    let analysis = Analysis::with_options(scene, options)?;
     bar.finish_and_clear();
-    let mut report = Report::new(scene, &analysis)?;
+    let mut report = analysis.report()?;
     if let Some(speed) = arguments.at_rpm {
         let speed = within_sweep(speed, &report)?;
         report.whirl = Some(WhirlEntry::new(&analysis, rad_per_s(speed))?);
     }
     if arguments.sensitivity {
         let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
-        let found = sensitivities(scene, &analysis, at)?;
+        let found = sensitivities(&analysis, at)?;
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }
     Ok(report)

@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let bar = progress_bar("points of the map");
     let cutting = Cutting::new(&scene, cut, runs, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
-    let report = CutReport::new(&scene, &cutting);
+    let report = CutReport::new(&cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
     if let Some(png) = figure::spline_orbit_png(&report)? {

@@ -41,7 +41,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let bar = progress_bar("steps");
     let found = RunningUp::new(&scene, runup, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
-    let report = RunUpReport::new(&scene, runup, &found)?;
+    let report = RunUpReport::new(&found)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = figures(&report)?;
     files.push(("runup.json", json.clone().into_bytes()));

@@ -1,16 +1,16 @@
 //! Several scenes at a time: a folder each, and a table.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::report::Report;
 use crate::scene::Scene;
 use anyhow::bail;
 use serde::Serialize;
 
-use super::analyze::{Arguments, into_folder};
-use super::common::is_standard_input;
+use super::common::{Output, is_standard_input};
 use super::in_words;
+
 use super::summary::shortened;
 
 /// What is written beside the folders of the scenes.
@@ -30,12 +30,17 @@ struct Row {
     error: Option<String>,
 }
 
-/// Charts every scene that can be, and prints and writes the table.
-pub fn run(arguments: &Arguments, paths: &[PathBuf], scenes: Vec<Scene>) -> anyhow::Result<()> {
-    let all = arguments.output.folder()?;
+/// Charts every scene that can be into a folder of its own, and prints and writes the table.
+pub fn run(
+    output: &Output,
+    paths: &[PathBuf],
+    scenes: &[Scene],
+    chart_into: impl Fn(&Scene, &Path) -> anyhow::Result<Report>,
+) -> anyhow::Result<()> {
+    let all = output.folder()?;
     let mut rows = Vec::new();
-    for (folder, scene) in folders(paths).into_iter().zip(&scenes) {
-        let found = into_folder(arguments, scene, &all.path().join(&folder));
+    for (folder, scene) in folders(paths).into_iter().zip(scenes) {
+        let found = chart_into(scene, &all.path().join(&folder));
         rows.push(Row::new(folder, scene, found));
     }
     let json = serde_json::to_string_pretty(&rows)?;
@@ -44,7 +49,7 @@ pub fn run(arguments: &Arguments, paths: &[PathBuf], scenes: Vec<Scene>) -> anyh
         (FILES[1], json.clone().into_bytes()),
     ];
     let words = || table(&rows);
-    arguments.output.print(&all, &files, &[], &json, words)?;
+    output.print(&all, &files, &[], &json, words)?;
     let failed = rows.iter().filter(|row| row.error.is_some()).count();
     match failed {
         0 => Ok(()),

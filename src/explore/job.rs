@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use tokio::sync::Semaphore;
 
-use crate::spectrum::Stop;
+use crate::spectrum::Cancellation;
 
 /// Where computations wait for their turn. Each of them uses every core, so that two at a
 /// time would both be late.
@@ -32,11 +32,11 @@ struct Count {
 }
 
 /// Asks a computation to end as soon as whoever waits for it goes away.
-struct StopOnDrop(Stop);
+struct CancelOnDrop(Cancellation);
 
-impl Drop for StopOnDrop {
+impl Drop for CancelOnDrop {
     fn drop(&mut self) {
-        self.0.ask();
+        self.0.cancel();
     }
 }
 
@@ -48,24 +48,24 @@ impl Jobs {
     /// `None` where the program is ending.
     pub async fn run<T: Send + 'static>(
         &self,
-        work: impl FnOnce(&Stop) -> T + Send + 'static,
+        work: impl FnOnce() -> T + Send + 'static,
     ) -> Option<T> {
-        let guard = StopOnDrop(Stop::default());
+        let guard = CancelOnDrop(Cancellation::default());
         let stop = guard.0.clone();
         let turn = self.turn.0.clone().acquire_owned().await.ok()?;
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {
             // The turn ends with the work, not with the wish for it.
             let _turn = turn;
-            let done = work(&stop);
-            let tally = match stop.is_asked() {
+            let done = stop.watched(work).ok();
+            let tally = match stop.is_cancelled() {
                 true => &count.stopped,
                 false => &count.finished,
             };
             tally.fetch_add(1, Ordering::Relaxed);
             done
         });
-        let done = done.await.ok();
+        let done = done.await.ok().flatten();
         drop(guard);
         done
     }
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
     use crate::scene::{Accuracy, Scene};
     use crate::spectrum::SpectrumError;
-    use crate::stability::{Analysis, Detail};
+    use crate::stability::{Analysis, AnalysisError};
 
     fn runtime() -> tokio::runtime::Runtime {
         let mut builder = tokio::runtime::Builder::new_current_thread();
@@ -96,14 +96,14 @@ mod tests {
     fn what_nobody_waits_for_is_stopped_and_makes_room() {
         let jobs = Jobs::default();
         let next = runtime().block_on(async {
-            let endless = jobs.run(|stop| {
-                while !stop.is_asked() {
+            let endless = jobs.run(|| {
+                while !Cancellation::current().is_cancelled() {
                     std::thread::sleep(Duration::from_millis(1));
                 }
             });
             let gave_up = tokio::time::timeout(Duration::from_millis(20), endless).await;
             assert!(gave_up.is_err(), "the computation ended by itself");
-            jobs.run(|stop| stop.is_asked()).await
+            jobs.run(|| Cancellation::current().is_cancelled()).await
         });
         assert_eq!(next, Some(false));
         assert_eq!(jobs.counts(), [1, 1]);
@@ -115,11 +115,11 @@ mod tests {
         let ahead = jobs.clone();
         runtime().block_on(async {
             let first = tokio::spawn(async move {
-                let work = |_: &Stop| std::thread::sleep(Duration::from_millis(50));
+                let work = || std::thread::sleep(Duration::from_millis(50));
                 ahead.run(work).await
             });
             tokio::task::yield_now().await;
-            let second = jobs.run(|_| panic!("computed, though nobody waits"));
+            let second = jobs.run(|| panic!("computed, though nobody waits"));
             let gave_up = tokio::time::timeout(Duration::from_millis(5), second).await;
             assert!(gave_up.is_err());
             first.await.unwrap();
@@ -130,30 +130,35 @@ mod tests {
     /// An analysis looks at the flag in every stage: wherever it is asked, it ends with the
     /// error of its own and not with a chart.
     #[test]
-    fn an_analysis_that_is_asked_to_stop_does_not_finish() {
+    fn an_analysis_that_is_cancelled_to_stop_does_not_finish() {
         let paper = Scene::paper();
         let scene = paper
             .edited(|file| file.accuracy = Accuracy::Draft)
             .unwrap();
         let started = Instant::now();
-        Analysis::new(&scene, &|_, _| ()).unwrap();
+        Analysis::new(&scene).unwrap();
         let whole = started.elapsed();
         for share in [0.0, 0.1, 0.4, 0.7] {
-            let stop = Stop::default();
+            let stop = Cancellation::default();
             let asked = stop.clone();
             let pause = whole.mul_f64(share);
             let asker = std::thread::spawn(move || {
                 std::thread::sleep(pause);
-                asked.ask();
+                asked.cancel();
             });
             if share == 0.0 {
-                stop.ask();
+                stop.cancel();
             }
-            let result = Analysis::stoppable(&scene, Detail::Full, &|_, _| (), &stop);
+            let result = stop.watched(|| Analysis::new(&scene)).unwrap();
             asker.join().unwrap();
             // On a machine that has got faster meanwhile a late wish may come too late.
             if share < 0.5 {
-                assert!(matches!(result, Err(SpectrumError::Stopped)), "{share}");
+                let cancelled = AnalysisError::Spectrum(SpectrumError::Cancelled);
+                assert_eq!(
+                    result.err().map(|e| e.to_string()),
+                    Some(cancelled.to_string()),
+                    "{share}"
+                );
             }
         }
     }

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::figure::{self, FigureError};
 use crate::report::Report;
 use crate::scene::{Accuracy, Measured, Scene, SceneError, SceneFile, json_schema};
-use crate::spectrum::{SpectrumError, Stop};
-use crate::stability::{Analysis, Detail};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail};
 
 /// What the page begins with.
 #[derive(Serialize)]
@@ -69,10 +69,10 @@ impl From<SceneError> for Refusal {
     }
 }
 
-impl From<SpectrumError> for Refusal {
-    fn from(error: SpectrumError) -> Self {
+impl From<AnalysisError> for Refusal {
+    fn from(error: AnalysisError) -> Self {
         let key = match &error {
-            SpectrumError::Unresolved { .. } | SpectrumError::Overstretched { .. } => {
+            AnalysisError::Unresolved { .. } | AnalysisError::Overstretched { .. } => {
                 Some("sweep.to_rpm".to_owned())
             }
             _ => None,
@@ -81,6 +81,12 @@ impl From<SpectrumError> for Refusal {
             key,
             message: error.to_string(),
         }
+    }
+}
+
+impl From<SpectrumError> for Refusal {
+    fn from(error: SpectrumError) -> Self {
+        Refusal::of(&error)
     }
 }
 
@@ -120,7 +126,7 @@ impl Charts {
     ///
     /// # Errors
     /// [`Refusal`] of a scene or of a computation that fails or is stopped.
-    pub fn chart(&self, scene: &str, fidelity: Fidelity, stop: &Stop) -> Result<String, Refusal> {
+    pub fn chart(&self, scene: &str, fidelity: Fidelity) -> Result<String, Refusal> {
         let started = Instant::now();
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
@@ -131,8 +137,14 @@ impl Charts {
             }
             Fidelity::Scene => Detail::Full,
         };
-        let analysis = Analysis::stoppable(&scene, detail, &|_, _| (), stop)?;
-        let report = Report::new(&scene, &analysis)?;
+        let analysis = Analysis::with_options(
+            &scene,
+            AnalysisOptions {
+                detail,
+                ..AnalysisOptions::default()
+            },
+        )?;
+        let report = analysis.report()?;
         let chart = self.keep(analysis);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         serde_json::to_string(&Chart {
@@ -204,15 +216,12 @@ impl SavedFile {
     ///
     /// # Errors
     /// [`Refusal`] of a scene or of a computation that fails or is stopped.
-    pub fn content(self, scene: &str, stop: &Stop) -> Result<Vec<u8>, Refusal> {
+    pub fn content(self, scene: &str) -> Result<Vec<u8>, Refusal> {
         let scene = Scene::from_json(scene)?;
         if self == SavedFile::Scene {
             return pretty(scene.file());
         }
-        let report = Report::new(
-            &scene,
-            &Analysis::stoppable(&scene, Detail::Full, &|_, _| (), stop)?,
-        )?;
+        let report = Analysis::new(&scene)?.report()?;
         let undrawn = |error: FigureError| Refusal::of(&error);
         match self {
             SavedFile::Scene | SavedFile::Report => pretty(&report),

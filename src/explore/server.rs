@@ -142,7 +142,7 @@ async fn chart(
     scene: String,
 ) -> Response {
     let charts = desk.charts.clone();
-    let work = move |stop: &_| charts.chart(&scene, fidelity, stop);
+    let work = move || charts.chart(&scene, fidelity);
     match desk.jobs.run(work).await {
         Some(Ok(text)) => json_text(StatusCode::OK, text),
         Some(Err(refusal)) => refused(&refusal),
@@ -163,7 +163,7 @@ async fn save(State(desk): State<Desk>, Path(name): Path<String>, scene: String)
     let Some(kind) = SavedFile::named(&name) else {
         return StatusCode::NOT_FOUND.into_response();
     };
-    match desk.jobs.run(move |stop| kind.content(&scene, stop)).await {
+    match desk.jobs.run(move || kind.content(&scene)).await {
         Some(Ok(content)) => ([(header::CONTENT_TYPE, kind.media_type())], content).into_response(),
         Some(Err(refusal)) => refused(&refusal),
         None => StatusCode::SERVICE_UNAVAILABLE.into_response(),

@@ -2,7 +2,7 @@
 
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit};
-use crate::report::{CutReport, Report, RunUpReport};
+use crate::report::{CutReport, RunUpReport};
 use crate::scene::{Accuracy, CutRun, RunUp, Scene, SpeedRange, rad_per_s};
 use crate::transient::{Cutting, RunningUp};
 
@@ -11,7 +11,7 @@ fn cut_report(scene: &Scene) -> CutReport {
     let cut = scene.cut().unwrap();
     let runs = [1800.0, 2800.0, 2600.0].map(|rpm| cut.at_rpm(rpm).unwrap());
     let cutting = Cutting::new(scene, cut, &runs, &|_, _| ()).unwrap();
-    CutReport::new(scene, &cutting)
+    CutReport::new(&cutting)
 }
 
 fn draft() -> Scene {
@@ -54,7 +54,7 @@ fn five_speeds_of_any_size_keep_their_labels_apart() {
         run(2800.0, 1e4),
     ];
     let cutting = Cutting::new(&scene, cut, &runs, &|_, _| ()).unwrap();
-    let mut report = CutReport::new(&scene, &cutting);
+    let mut report = CutReport::new(&cutting);
     for run in &report.runs {
         let within = |w: &f64| w.abs() <= report.linear_limit_m;
         assert!(run.deflection_m.iter().all(within), "{} rpm", run.rpm);
@@ -78,7 +78,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
         ..cut.at_rpm(2800.0).unwrap()
     };
     let cutting = Cutting::new(&scene, cut, &[run], &|_, _| ()).unwrap();
-    let report = CutReport::new(&scene, &cutting);
+    let report = CutReport::new(&cutting);
     assert_eq!(report.runs[0].transient_verdict, None);
     assert!(
         report
@@ -103,9 +103,9 @@ fn the_figures_of_a_run_up_are_tidy() {
         ..*scene.runup().unwrap()
     };
     let found = RunningUp::new(&scene, &runup, &|_, _| ()).unwrap();
-    let report = RunUpReport::new(&scene, &runup, &found).unwrap();
+    let report = RunUpReport::new(&found).unwrap();
     assert_tidy(&runup::sheet(&report));
     assert_tidy(&response_map::sheet(&report));
-    let chart = Report::new(&scene, &found.analysis).unwrap();
+    let chart = found.analysis.report().unwrap();
     assert_eq!(chart.instabilities.len(), report.bands.len());
 }

@@ -27,8 +27,8 @@ fn report(file: &SceneFile, reach: f64) -> Report {
     });
     file.accuracy = Accuracy::Draft;
     let scene = scene(&file);
-    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
-    Report::new(&scene, &analysis).unwrap()
+    let analysis = Analysis::new(&scene).unwrap();
+    analysis.report().unwrap()
 }
 
 /// Speeds at which a branch begins or ends between the ends of the sweep, below the height

@@ -2,6 +2,7 @@
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
+use crate::stability::AnalysisError;
 
 /// Why nothing could be fitted.
 #[derive(Debug, thiserror::Error)]
@@ -41,4 +42,7 @@ pub enum FitError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Freed, Scene, SceneError, SceneFile, scene_at};
-use crate::spectrum::{LowestModes, Mode, Part, SpectrumError, derivative};
+use crate::spectrum::{Component, LowestModes, Mode, SpectrumError, derivative};
 use crate::system::GyroscopicSystem;
 
 use super::Measurement;
@@ -54,19 +54,20 @@ impl Model<'_> {
         let refused =
             |value| DenseMatrix::from_row_slice(rows, columns, &vec![value; rows * columns]);
         let changes: Result<Vec<_>, SceneError> = (0..columns)
-            .map(|k| self.changed_parts(shares, k))
+            .map(|k| self.changed_components(shares, k))
             .collect();
         let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
             return Ok((vec![f64::NAN; rows], refused(f64::NAN)));
         };
         let lowest = LowestModes::new(&plate);
         let mut slopes = Vec::with_capacity(rows * columns);
-        let residuals =
-            self.residuals_of(&lowest, |speed, mode| {
-                slopes.extend(changes.iter().map(|parts| {
-                    mode.map_or(0.0, |mode| slope_hz(&lowest.parts, parts, speed, mode))
-                }));
-            })?;
+        let residuals = self.residuals_of(&lowest, |speed, mode| {
+            slopes.extend(changes.iter().map(|components| {
+                mode.map_or(0.0, |mode| {
+                    slope_hz(&lowest.components, components, speed, mode)
+                })
+            }));
+        })?;
         Ok((
             residuals,
             DenseMatrix::from_row_slice(rows, columns, &slopes),
@@ -103,16 +104,20 @@ impl Model<'_> {
         Ok(residuals)
     }
 
-    /// d/d(share k) of the matrices of every part.
-    fn changed_parts(&self, shares: &[f64], k: usize) -> Result<Vec<GyroscopicSystem>, SceneError> {
+    /// d/d(share k) of the matrices of every component.
+    fn changed_components(
+        &self,
+        shares: &[f64],
+        k: usize,
+    ) -> Result<Vec<GyroscopicSystem>, SceneError> {
         let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
         for (place, weight) in stencil(shares[k]) {
             let mut shares = shares.to_vec();
             shares[k] += place * STEP;
-            let parts = Part::of(&self.plate(&shares)?);
-            moved.resize_with(parts.len(), Vec::new);
-            for (terms, part) in moved.iter_mut().zip(parts) {
-                terms.push((weight / STEP, part.full));
+            let components = Component::of(&self.plate(&shares)?);
+            moved.resize_with(components.len(), Vec::new);
+            for (terms, component) in moved.iter_mut().zip(components) {
+                terms.push((weight / STEP, component.full));
             }
         }
         let combined = moved
@@ -153,12 +158,12 @@ fn frequency_hz(mode: &Mode) -> f64 {
 
 /// d|Im λ|/2π of a mode for a change of the matrices.
 fn slope_hz(
-    parts: &[Part],
+    components: &[Component],
     changes: &[GyroscopicSystem],
     speed_rad_per_s: f64,
     mode: &Mode,
 ) -> f64 {
-    let (system, change) = (&parts[mode.part].full, &changes[mode.part]);
+    let (system, change) = (&components[mode.component].full, &changes[mode.component]);
     let moved = derivative::with_change(
         system,
         speed_rad_per_s,

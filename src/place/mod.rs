@@ -34,6 +34,7 @@ use rayon::prelude::*;
 use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, common_turn, spread};
 use crate::spectrum::SpectrumError;
+use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
 pub use map::Map;
@@ -63,6 +64,9 @@ pub enum PlaceError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
 }
 
 /// What is to be made large.

@@ -2,8 +2,9 @@
 
 use crate::plate::Resolution;
 use crate::scene::Scene;
-use crate::spectrum::SpectrumError;
-use crate::stability::{Instability, flutter_onsets, resolved_plate, safe_window, search_bands};
+use crate::stability::{
+    AnalysisError, Instability, flutter_onsets, resolved_plate, safe_window, search_bands,
+};
 
 use super::Goal;
 
@@ -43,8 +44,8 @@ impl Question {
     /// Analyses a saw as far as the question asks.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
-    pub fn ask(&self, scene: &Scene) -> Result<Outcome, SpectrumError> {
+    /// [`AnalysisError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
+    pub fn ask(&self, scene: &Scene) -> Result<Outcome, AnalysisError> {
         let (plate, critical) = resolved_plate(scene, self.resolution, self.range.1)?;
         let lowest = critical.first().map(|c| c.speed_rad_per_s);
         let short = match (self.min_critical_rad_per_s, lowest) {

@@ -125,7 +125,7 @@ impl<'a> Numbered<'a> {
         let beside = beside.filter(|index| *index < samples.len());
         let candidates = beside.flat_map(|index| {
             let modes = samples[index].modes.iter().enumerate();
-            let own = modes.filter(|(_, m)| m.mode.part == critical.part);
+            let own = modes.filter(|(_, m)| m.mode.component == critical.component);
             own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), (index, k)))
         });
         let best = candidates.max_by(|x, y| x.0.total_cmp(&y.0))?;
@@ -215,8 +215,8 @@ fn standing_likeness(
     critical: &NamedCriticalSpeed,
     shape: &Col<c64>,
 ) -> f64 {
-    let part = &model.parts[critical.part];
-    let own = part.coordinates(shape);
+    let component = &model.components[critical.component];
+    let own = component.coordinates(shape);
     let product: c64 = (0..own.nrows()).map(|i| own[i] * critical.shape[i]).sum();
     product.norm_sqr()
 }

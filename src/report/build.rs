@@ -13,7 +13,7 @@ use super::{
     RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
-use crate::scene::{Scene, rpm};
+use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, StabilityState};
 
@@ -22,12 +22,13 @@ const LEAST_SHARE: f64 = 1e-4;
 /// Two critical speeds closer than this, of one name, are a double one.
 const DOUBLE: f64 = 1e-9;
 
-impl Report {
-    /// Reports an analysis of a scene.
+impl Analysis {
+    /// Everything found out, in the units and names of `report.json`.
     ///
     /// # Errors
     /// [`SpectrumError`] when the modes at rest or the limits of heat cannot be computed.
-    pub fn new(scene: &Scene, analysis: &Analysis) -> Result<Self, SpectrumError> {
+    pub fn report(&self) -> Result<Report, SpectrumError> {
+        let (analysis, scene) = (self, &self.scene);
         let model = &analysis.model;
         let samples = &analysis.chart.campbell.samples;
         let at_rest = match samples.first() {

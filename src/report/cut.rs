@@ -148,7 +148,8 @@ pub struct VerdictMapEntry {
 
 impl CutReport {
     /// Reports a cut.
-    pub fn new(scene: &Scene, cutting: &Cutting) -> Self {
+    pub fn new(cutting: &Cutting) -> Self {
+        let scene = &cutting.scene;
         let runs: Vec<CutRunEntry> = cutting
             .runs
             .iter()

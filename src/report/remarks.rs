@@ -152,8 +152,8 @@ fn contradicted(certificate: &CertificateEntry) -> Option<String> {
 
 fn left_free(analysis: &Analysis) -> Option<String> {
     let free_bore = matches!(analysis.model.plate.blade.bore, Bore::Free);
-    let mut parts = analysis.model.parts.iter();
-    let free = free_bore && parts.any(|p| !p.full.free_rigid.is_empty());
+    let mut components = analysis.model.components.iter();
+    let free = free_bore && components.any(|p| !p.full.free_rigid.is_empty());
     free.then(|| {
         "nothing holds the blade against some rigid motion; it is left out of the modes".to_owned()
     })

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, Report};
-use crate::scene::{RunUp, Scene, SceneFile, rpm};
+use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
+use crate::scene::{SceneFile, rpm};
 use crate::spectrum::SpectrumError;
 use crate::transient::{LINEAR_THICKNESSES, RunningUp};
 
@@ -80,8 +80,9 @@ impl RunUpReport {
     ///
     /// # Errors
     /// [`SpectrumError`] when the modes at rest cannot be computed.
-    pub fn new(scene: &Scene, runup: &RunUp, found: &RunningUp) -> Result<Self, SpectrumError> {
-        let chart = Report::new(scene, &found.analysis)?;
+    pub fn new(found: &RunningUp) -> Result<Self, SpectrumError> {
+        let (scene, runup) = (&found.scene, &found.runup);
+        let chart = found.analysis.report()?;
         let history = &found.history;
         let speeds: Vec<f64> = history.speed_rad_per_s.iter().map(|s| rpm(*s)).collect();
         let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());
@@ -103,7 +104,7 @@ impl RunUpReport {
         let response = &found.response;
         Ok(RunUpReport {
             sawflutter: chart.sawflutter,
-            scene: chart.scene,
+            scene: scene.file().clone(),
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             from_rpm: rpm(runup.speeds.from_rad_per_s),
             to_rpm: rpm(runup.speeds.to_rad_per_s),

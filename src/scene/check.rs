@@ -1,6 +1,6 @@
 //! Ranges of the numbers of a scene, and the errors of those outside.
 
-use super::SceneError;
+use super::{Blade, SceneError};
 
 /// Widest range of a positive quantity: far beyond any saw, and narrow enough
 /// that no product of them overflows.
@@ -45,4 +45,32 @@ pub fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, Sce
     let allowed = format!("between {low} and {high:e}");
     let remedy = "give it in the unit that ends the key's name";
     Err(refuse(key, value, allowed, remedy))
+}
+
+/// Whether a profile has no more rows than are sensible.
+pub fn few(key: &str, count: usize) -> Result<(), SceneError> {
+    if count <= MAX_GUIDES {
+        return Ok(());
+    }
+    let allowed = format!("at most {MAX_GUIDES} rows");
+    let remedy = "a smooth profile needs a dozen rows";
+    Err(refuse(key, count as f64, allowed, remedy))
+}
+
+/// Whether radii ascend from the bore to the rim.
+pub fn ascending(key: &str, radii: &[f64], blade: &Blade) -> Result<(), SceneError> {
+    let mut least = 0.0;
+    for (index, radius) in radii.iter().enumerate() {
+        if !(*radius > least && *radius <= blade.outer_radius_m) {
+            let allowed = format!(
+                "more than {least} and at most the radius of the rim ({})",
+                blade.outer_radius_m
+            );
+            let remedy = "list the rows from the bore to the rim, each radius once";
+            let key = format!("{key}[{index}].radius_m");
+            return Err(refuse(&key, *radius, allowed, remedy));
+        }
+        least = *radius;
+    }
+    Ok(())
 }

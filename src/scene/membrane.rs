@@ -4,7 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_GUIDES, positive, refuse, within};
+use super::check::{ascending, few, positive, refuse, within};
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
 use super::{Blade, SceneError};
@@ -259,32 +259,6 @@ impl RollBand {
             eigenstrain: within(&key("eigenstrain"), typed.eigenstrain, EIGENSTRAIN)?,
         })
     }
-}
-
-pub(super) fn few(key: &str, count: usize) -> Result<(), SceneError> {
-    if count <= MAX_GUIDES {
-        return Ok(());
-    }
-    let allowed = format!("at most {MAX_GUIDES} rows");
-    let remedy = "a smooth profile needs a dozen rows";
-    Err(refuse(key, count as f64, allowed, remedy))
-}
-
-pub(super) fn ascending(key: &str, radii: &[f64], blade: &Blade) -> Result<(), SceneError> {
-    let mut least = 0.0;
-    for (index, radius) in radii.iter().enumerate() {
-        if !(*radius > least && *radius <= blade.outer_radius_m) {
-            let allowed = format!(
-                "more than {least} and at most the radius of the rim ({})",
-                blade.outer_radius_m
-            );
-            let remedy = "list the rows from the bore to the rim, each radius once";
-            let key = format!("{key}[{index}].radius_m");
-            return Err(refuse(&key, *radius, allowed, remedy));
-        }
-        least = *radius;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

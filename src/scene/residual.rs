@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{refuse, within};
-use super::membrane::{ascending, few};
+use super::check::{ascending, few, refuse, within};
 use super::profile::Profile;
 use super::{Blade, Bore, SceneError};
 

@@ -3,8 +3,8 @@
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use faer::{Col, Mat, Scale, Side};
 
-use super::SpectrumError;
-use super::part::Part;
+use super::component::Component;
+use super::error::SpectrumError;
 use crate::system::GyroscopicSystem;
 
 /// A natural frequency at rest.
@@ -12,9 +12,9 @@ use crate::system::GyroscopicSystem;
 pub struct RestingMode {
     /// ω.
     pub frequency_rad_per_s: f64,
-    /// Index of the part that it belongs to.
-    pub part: usize,
-    /// q in the unknowns of the part, ‖q‖ = 1.
+    /// Index of the component that it belongs to.
+    pub component: usize,
+    /// q in the unknowns of the component, ‖q‖ = 1.
     pub shape: Col<f64>,
 }
 
@@ -25,18 +25,21 @@ const SMALL: usize = 64;
 const MORE: usize = 10;
 const ITERATIONS: usize = 8;
 
-/// The lowest `count` modes at rest of the parts of a plate, ascending; without damping, and
+/// The lowest `count` modes at rest of the components of a plate, ascending; without damping, and
 /// without the rigid motions that nothing holds.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
-pub fn modes_at_rest(parts: &[Part], count: usize) -> Result<Vec<RestingMode>, SpectrumError> {
+pub fn modes_at_rest(
+    components: &[Component],
+    count: usize,
+) -> Result<Vec<RestingMode>, SpectrumError> {
     let mut modes = Vec::new();
-    for (part, Part { full, .. }) in parts.iter().enumerate() {
+    for (component, Component { full, .. }) in components.iter().enumerate() {
         for (square, shape) in lowest(full, count)? {
             modes.push(RestingMode {
                 frequency_rad_per_s: square.sqrt(),
-                part,
+                component,
                 shape,
             });
         }
@@ -114,7 +117,7 @@ mod tests {
             };
             let plate = Plate::new(&scene, resolution);
             let lowest = LowestModes::new(&plate);
-            let found = modes_at_rest(&lowest.parts, 12).unwrap();
+            let found = modes_at_rest(&lowest.components, 12).unwrap();
             let exact = lowest.at(0.0, 12).unwrap();
             assert_eq!(found.len(), exact.len());
             for (found, exact) in found.iter().zip(&exact) {

@@ -5,9 +5,10 @@ use nalgebra::DMatrix;
 use crate::plate::Plate;
 use crate::system::spread;
 
-use super::SpectrumError;
-use super::part::{Part, standing_name};
-use super::pencil::singular_multiples;
+use super::component::Component;
+use super::critical::standing_name;
+use super::error::SpectrumError;
+use super::generalized::singular_multiples;
 
 /// A multiple of a stress under which K(Ω) is singular.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,28 +39,28 @@ pub struct AddedStress<'a> {
 /// [`SpectrumError::UnstableAtRest`] when it is not positive definite at m = 0.
 pub fn first_singular(
     plate: &Plate,
-    parts: &[Part],
+    components: &[Component],
     speed_rad_per_s: f64,
     added: &AddedStress<'_>,
 ) -> Result<Option<SingularStress>, SpectrumError> {
     let blocks: Vec<&DMatrix<f64>> = added.stiffness.iter().collect();
     let mut first: Option<SingularStress> = None;
-    for (index, part) in parts.iter().enumerate() {
+    for (index, component) in components.iter().enumerate() {
         let range = match plate.is_axisymmetric() {
             true => index..=index,
             false => 0..=plate.max_diameters(),
         };
         let term = spread(plate, range, &blocks);
-        let stiffness = &part.full.stiffness
-            + faer::Scale(speed_rad_per_s.powi(2)) * part.full.standing_spin()
+        let stiffness = &component.full.stiffness
+            + faer::Scale(speed_rad_per_s.powi(2)) * component.full.standing_spin()
             + faer::Scale(added.from) * &term;
         let softening = faer::Scale(-added.direction) * &term;
-        let found = singular_multiples(&stiffness, &part.full.free_rigid, &softening)?;
+        let found = singular_multiples(&stiffness, &component.full.free_rigid, &softening)?;
         let Some((multiple, shape)) = found.into_iter().next() else {
             continue;
         };
         if first.is_none_or(|other| multiple < other.multiple) {
-            let name = standing_name(plate, part.first, &shape, speed_rad_per_s);
+            let name = standing_name(plate, component.first, &shape, speed_rad_per_s);
             first = Some(SingularStress {
                 multiple,
                 diameters: name.diameters,
@@ -87,7 +88,7 @@ pub fn explained(plate: &Plate, error: SpectrumError) -> SpectrumError {
         from: 0.0,
         direction: 1.0,
     };
-    match first_singular(&flat, &Part::of(&flat), 0.0, &added) {
+    match first_singular(&flat, &Component::of(&flat), 0.0, &added) {
         Ok(Some(found)) => SpectrumError::Buckled {
             diameters: found.diameters,
             share: found.multiple,

@@ -11,7 +11,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::mode::real_times;
+use super::vectors::real_times;
 
 /// Below this share of the largest momentum of any displacement z it is rounding.
 const ROUNDING: f64 = 1e-10;

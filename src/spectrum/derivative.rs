@@ -6,7 +6,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::mode::real_times;
+use super::vectors::real_times;
 
 /// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
 pub fn with_speed(

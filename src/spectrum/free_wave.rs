@@ -8,8 +8,8 @@
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Col, Mat, Side, c64};
 
-use super::SpectrumError;
-use super::dense::{Eigenpair, by_magnitude, unit};
+use super::error::SpectrumError;
+use super::vectors::{Eigenpair, by_magnitude, unit};
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
@@ -84,11 +84,11 @@ fn symmetric_modes(
 
 #[cfg(test)]
 mod tests {
+    use super::super::vectors::real_times;
     use super::*;
     use crate::plate::Resolution;
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::companion_eigenpairs;
-    use crate::spectrum::mode::real_times;
 
     /// L(λ)q = 0 to the size of its terms, and the same eigenvalues as the quadratic problem of
     /// the space-fixed frame, before and past critical speeds.

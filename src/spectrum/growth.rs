@@ -7,11 +7,14 @@ use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-use super::dense::deflated_companion;
-use super::mode::{GROWTH_NOISE, MatrixNorms, Mode, classify, split};
-use super::part::{Part, frequency_scale};
-use super::projection::{Projection, pairs_of};
-use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs, orthonormal};
+use super::arnoldi::lowest_eigenpairs;
+use super::companion::{companion_eigenpairs, deflated_companion};
+use super::component::{Component, frequency_scale};
+use super::error::SpectrumError;
+use super::mode::{GROWTH_NOISE, Mode, classify, pairs_of};
+use super::projection::Projection;
+use super::residual::MatrixNorms;
+use super::vectors::{orthonormal, split};
 
 /// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system of which
 /// no motion grows beyond rounding.
@@ -57,10 +60,10 @@ pub fn fastest_growing_of(
 ) -> Result<Option<c64>, SpectrumError> {
     let scale = frequency_scale(plate);
     let mut fastest: Option<c64> = None;
-    for part in Part::of(plate) {
-        let found = match certified(&part, scale, speed_rad_per_s)? {
+    for component in Component::of(plate) {
+        let found = match certified(&component, scale, speed_rad_per_s)? {
             Some(found) => found,
-            None => fastest_growing(&part.full, speed_rad_per_s)?,
+            None => fastest_growing(&component.full, speed_rad_per_s)?,
         };
         fastest = [fastest, found]
             .into_iter()
@@ -82,12 +85,12 @@ const CONVERGED: f64 = 1e-9;
 /// divergent, flutter and reflected modes among the lowest. A tenth of the work of every
 /// eigenvalue. `None` where there is no such proof.
 fn certified(
-    part: &Part,
+    component: &Component,
     scale: f64,
     speed_rad_per_s: f64,
 ) -> Result<Option<Option<c64>>, SpectrumError> {
-    let full = &part.full;
-    if full.order() < SMALL || !full.is_conservative() || !part.full.free_rigid.is_empty() {
+    let full = &component.full;
+    if full.order() < SMALL || !full.is_conservative() || !component.full.free_rigid.is_empty() {
         return Ok(None);
     }
     let stiffness = full.stiffness_at(speed_rad_per_s);
@@ -148,11 +151,11 @@ mod tests {
         }]);
         let mut proven = 0;
         for plate in [&idle, &pushed] {
-            let part = &Part::of(plate)[0];
+            let component = &Component::of(plate)[0];
             for rpm in [600.0, 1540.0, 1800.0, 2110.0, 2262.0, 2800.0] {
                 let speed = rad_per_s(rpm);
-                let all = fastest_growing(&part.full, speed).unwrap();
-                let Some(few) = certified(part, frequency_scale(plate), speed).unwrap() else {
+                let all = fastest_growing(&component.full, speed).unwrap();
+                let Some(few) = certified(component, frequency_scale(plate), speed).unwrap() else {
                     continue;
                 };
                 proven += 1;

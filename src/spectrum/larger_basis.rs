@@ -10,25 +10,27 @@ use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Col, Mat, Par, Scale, Side, c64};
 
-use super::SpectrumError;
 use super::at_rest::RestingMode;
-use super::mode::{Mode, ModeKind, real_times};
+use super::component::Component;
+use super::critical::NamedCriticalSpeed;
+use super::error::SpectrumError;
+use super::mode::{Mode, ModeKind};
 use super::model::DescribedMode;
-use super::part::{NamedCriticalSpeed, Part};
+use super::vectors::real_times;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
 /// A larger basis that contains the one of a plate.
 #[derive(Debug)]
 pub struct LargerBasis {
-    /// Of each part of the plate.
+    /// Of each component of the plate.
     added: Vec<AddedFunctions>,
 }
 
-/// Functions that a part lacks.
+/// Functions that a component lacks.
 #[derive(Debug)]
 struct AddedFunctions {
-    /// K₀ between them and those of the part.
+    /// K₀ between them and those of the component.
     stiffness: Mat<f64>,
     /// K_σ − N between them.
     spin: Mat<f64>,
@@ -64,17 +66,17 @@ impl LargerBasis {
     /// Relative error of a frequency at rest.
     pub fn resting_error(&self, mode: &RestingMode) -> f64 {
         let shape = column(&mode.shape);
-        let softening = self.added[mode.part].softening(0.0, &shape)[(0, 0)];
+        let softening = self.added[mode.component].softening(0.0, &shape)[(0, 0)];
         0.5 * softening / mode.frequency_rad_per_s.powi(2)
     }
 
     /// Relative error of a critical speed Ω, xᵀK₀x = Ω² xᵀ(N − K_σ)x.
-    pub fn critical_error(&self, parts: &[Part], critical: &NamedCriticalSpeed) -> f64 {
+    pub fn critical_error(&self, components: &[Component], critical: &NamedCriticalSpeed) -> f64 {
         let shape = column(&critical.shape);
         let speed = critical.speed_rad_per_s;
-        let softening = self.added[critical.part].softening(speed, &shape)[(0, 0)];
+        let softening = self.added[critical.component].softening(speed, &shape)[(0, 0)];
         let x = &critical.shape;
-        let stiffness = x.transpose() * &parts[critical.part].full.stiffness * x;
+        let stiffness = x.transpose() * &components[critical.component].full.stiffness * x;
         0.5 * softening / stiffness
     }
 
@@ -84,22 +86,22 @@ impl LargerBasis {
     /// vanishes, and what is smooth is not the frequency but the speed at which it happens.
     pub fn frequency_errors(
         &self,
-        parts: &[Part],
+        components: &[Component],
         speed_rad_per_s: f64,
         modes: &[DescribedMode],
     ) -> Vec<Option<f64>> {
         let mut errors = vec![None; modes.len()];
-        for (index, part) in parts.iter().enumerate() {
-            let own = |k: &usize| modes[*k].mode.part == index && oscillates(&modes[*k].mode);
+        for (index, component) in components.iter().enumerate() {
+            let own = |k: &usize| modes[*k].mode.component == index && oscillates(&modes[*k].mode);
             let places: Vec<usize> = (0..modes.len()).filter(own).collect();
             if places.is_empty() {
                 continue;
             }
             let shapes: Vec<Col<c64>> = places
                 .iter()
-                .map(|&k| part.coordinates(&modes[k].shape))
+                .map(|&k| component.coordinates(&modes[k].shape))
                 .collect();
-            let columns = Mat::from_fn(part.full.order(), 2 * shapes.len(), |i, k| {
+            let columns = Mat::from_fn(component.full.order(), 2 * shapes.len(), |i, k| {
                 let q = shapes[k / 2][i];
                 if k % 2 == 0 { q.re } else { q.im }
             });
@@ -110,8 +112,8 @@ impl LargerBasis {
                     .iter()
                     .sum::<f64>();
                 let lambda = modes[place].mode.lambda;
-                let turned =
-                    Scale(c64::new(speed_rad_per_s, 0.0)) * real_times(&part.full.gyroscopic, q);
+                let turned = Scale(c64::new(speed_rad_per_s, 0.0))
+                    * real_times(&component.full.gyroscopic, q);
                 let on_blade = (Scale(lambda) * q + &turned).norm_l2();
                 // (ω + Ωγ)‖q‖, γ = −i qᴴGq/qᴴq.
                 let drift: c64 = q.adjoint() * &turned;
@@ -124,9 +126,14 @@ impl LargerBasis {
         errors
     }
 
-    /// What eliminating the functions takes off the stiffness of a part, projected on columns.
-    pub fn softening(&self, part: usize, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
-        self.added[part].softening(speed_rad_per_s, columns)
+    /// What eliminating the functions takes off the stiffness of a component, projected on columns.
+    pub fn softening(
+        &self,
+        component: usize,
+        speed_rad_per_s: f64,
+        columns: &Mat<f64>,
+    ) -> Mat<f64> {
+        self.added[component].softening(speed_rad_per_s, columns)
     }
 }
 
@@ -222,8 +229,9 @@ mod tests {
                 Plate::new(&scene, resolution)
             });
             let basis = LargerBasis::new(&plate, &larger).unwrap();
-            let [parts, finer] = [&plate, &larger].map(Part::of);
-            let [coarse, fine] = [&parts, &finer].map(|parts| modes_at_rest(parts, 10).unwrap());
+            let [components, finer] = [&plate, &larger].map(Component::of);
+            let [coarse, fine] =
+                [&components, &finer].map(|components| modes_at_rest(components, 10).unwrap());
             for (coarse, fine) in coarse.iter().zip(&fine) {
                 let error = coarse.frequency_rad_per_s / fine.frequency_rad_per_s - 1.0;
                 let told = basis.resting_error(coarse);
@@ -233,7 +241,7 @@ mod tests {
                 [&plate, &larger].map(|plate| SpectralModel::critical_speeds(plate).unwrap());
             for (coarse, fine) in coarse.iter().zip(&fine).take(6) {
                 let error = coarse.speed_rad_per_s / fine.speed_rad_per_s - 1.0;
-                let told = basis.critical_error(&parts, coarse);
+                let told = basis.critical_error(&components, coarse);
                 assert!((told / error - 1.0).abs() < 0.2, "{told} {error}");
             }
         }

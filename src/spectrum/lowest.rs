@@ -3,16 +3,19 @@
 
 use crate::plate::Plate;
 
+use super::arnoldi::lowest_eigenpairs;
+use super::companion::companion_eigenpairs;
+use super::component::{Component, frequency_scale};
+use super::error::SpectrumError;
 use super::mode::{Mode, ModeKind, classify};
 use super::model::SPLITTING;
-use super::part::{Part, frequency_scale};
-use super::{SpectrumError, Stop, companion_eigenpairs, lowest_eigenpairs};
+use super::work::Cancellation;
 
 /// A plate that is asked for its lowest modes.
 #[derive(Debug)]
 pub struct LowestModes {
-    /// Independent parts of the plate, whole.
-    pub parts: Vec<Part>,
+    /// Independent components of the plate, whole.
+    pub components: Vec<Component>,
     scale_rad_per_s: f64,
 }
 
@@ -25,7 +28,7 @@ impl LowestModes {
     /// Of a plate.
     pub fn new(plate: &Plate) -> Self {
         LowestModes {
-            parts: Part::of(plate),
+            components: Component::of(plate),
             scale_rad_per_s: frequency_scale(plate),
         }
     }
@@ -36,11 +39,11 @@ impl LowestModes {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn at(&self, speed_rad_per_s: f64, count: usize) -> Result<Vec<Mode>, SpectrumError> {
-        Stop::current().check()?;
+        Cancellation::current().check()?;
         let speed = speed_rad_per_s.max(SPLITTING * self.scale_rad_per_s);
         let mut modes = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            let system = &part.full;
+        for (index, component) in self.components.iter().enumerate() {
+            let system = &component.full;
             let mut pairs = Vec::new();
             if system.order() > SMALL {
                 let shift = 0.5 * self.scale_rad_per_s;

@@ -1,11 +1,11 @@
 //! What kind of mode an eigenpair is, and which sign its energy has.
 
-use faer::{Col, Mat, c64};
+use faer::{Col, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::dense::{Eigenpair, time_scale};
-use super::projection::Lifted;
+use super::companion::time_scale;
+use super::vectors::{Eigenpair, quadratic_form, real_times};
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl ModeKind {
     }
 }
 
-/// A mode of one independent part of the blade.
+/// A mode of one independent component of the blade.
 #[derive(Debug, Clone)]
 pub struct Mode {
     /// λ, in 1/s.
@@ -54,9 +54,9 @@ pub struct Mode {
     /// with positive action. The decaying partner of a flutter mode goes with the
     /// negative one.
     pub action: i8,
-    /// Index of the part.
-    pub part: usize,
-    /// q in the coordinates of the part, ‖q‖ = 1.
+    /// Index of the component.
+    pub component: usize,
+    /// q in the coordinates of the component, ‖q‖ = 1.
     pub coordinates: Col<c64>,
 }
 
@@ -107,6 +107,11 @@ impl Mode {
     }
 }
 
+/// Eigenvalues and coordinates of modes.
+pub fn pairs_of(modes: &[Mode]) -> Vec<(c64, &Col<c64>)> {
+    modes.iter().map(|m| (m.lambda, &m.coordinates)).collect()
+}
+
 /// |λ| below which a mode of a blade with free rigid motions is one of them.
 pub fn rigid_noise(system: &GyroscopicSystem) -> f64 {
     if system.free_rigid.is_empty() {
@@ -115,12 +120,12 @@ pub fn rigid_noise(system: &GyroscopicSystem) -> f64 {
     RIGID_NOISE * time_scale(&system.stiffness)
 }
 
-/// Sorts the eigenpairs of a part into kinds. The decaying partner of a divergent
+/// Sorts the eigenpairs of a component into kinds. The decaying partner of a divergent
 /// mode is dropped: it belongs to the same ±ω pair.
 pub fn classify(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
-    part: usize,
+    component: usize,
     pairs: Vec<Eigenpair>,
 ) -> Vec<Mode> {
     let rigid_noise = rigid_noise(system);
@@ -137,7 +142,7 @@ pub fn classify(
                 frequency_slope: 0.0,
                 growth_slope,
                 action: 1,
-                part,
+                component,
                 coordinates: q,
             };
             if rigid {
@@ -223,82 +228,4 @@ fn set_action(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
     mode.action = if form >= 0.0 { 1 } else { -1 };
     let slope = (speed * spin - omega * gamma) / form;
     mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
-}
-
-/// qᴴ A q for a real matrix.
-pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
-    q.adjoint() * real_times(matrix, q)
-}
-
-/// A q for a real matrix.
-pub fn real_times(matrix: &Mat<f64>, q: &Col<c64>) -> Col<c64> {
-    let (re, im) = split(q);
-    let (re, im) = (matrix * re, matrix * im);
-    Col::from_fn(matrix.nrows(), |i| c64::new(re[i], im[i]))
-}
-
-/// Real and imaginary parts.
-pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
-    (
-        Col::from_fn(q.nrows(), |i| q[i].re),
-        Col::from_fn(q.nrows(), |i| q[i].im),
-    )
-}
-
-/// ‖D‖ and ‖K‖ at any speed, from the products of their terms: for residuals.
-#[derive(Debug)]
-pub struct MatrixNorms {
-    /// Products of K₀, K_σ − N and K_circ, which K(Ω) has with 1, Ω² and Ω.
-    stiffness: [[f64; 3]; 3],
-    /// Products of G and C, which D(Ω) has with 2Ω and 1.
-    velocity: [[f64; 2]; 2],
-}
-
-impl MatrixNorms {
-    /// The products of a system's terms.
-    pub fn new(system: &GyroscopicSystem) -> Self {
-        let stiffness = [
-            Some(&system.stiffness),
-            Some(&system.spin),
-            system.circulatory.as_ref(),
-        ];
-        let velocity = [Some(&system.gyroscopic), system.damping.as_ref()];
-        MatrixNorms {
-            stiffness: stiffness.map(|left| stiffness.map(|right| product(left, right))),
-            velocity: velocity.map(|left| velocity.map(|right| product(left, right))),
-        }
-    }
-
-    /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖) ‖q‖): the relative change of the matrices
-    /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
-    pub fn backward_error(&self, speed_rad_per_s: f64, lambda: c64, lifted: &Lifted) -> f64 {
-        let speed = speed_rad_per_s;
-        let stiffness = norm(&self.stiffness, [1.0, speed * speed, speed]);
-        let velocity = norm(&self.velocity, [2.0 * speed, 1.0]);
-        let size = lambda.norm_sqr() + lambda.norm() * velocity + stiffness;
-        let denominator = size * lifted.shape.norm_l2();
-        if denominator > 0.0 {
-            lifted.residual.norm_l2() / denominator
-        } else {
-            0.0
-        }
-    }
-}
-
-/// Σ aᵢⱼ bᵢⱼ; zero for a term that is not there.
-fn product(left: Option<&Mat<f64>>, right: Option<&Mat<f64>>) -> f64 {
-    let Some((left, right)) = left.zip(right) else {
-        return 0.0;
-    };
-    let columns = left.col_iter().zip(right.col_iter());
-    columns.map(|(x, y)| x.transpose() * y).sum()
-}
-
-/// ‖Σ wᵢ Aᵢ‖ from the products of the Aᵢ.
-fn norm<const N: usize>(products: &[[f64; N]; N], weights: [f64; N]) -> f64 {
-    let rows = products.iter().zip(weights);
-    let square: f64 = rows
-        .map(|(row, w)| w * row.iter().zip(weights).map(|(p, v)| p * v).sum::<f64>())
-        .sum();
-    square.max(0.0).sqrt()
 }

@@ -1,23 +1,27 @@
 //! The spectrum of a saw as a function of speed, by the cheapest sound way.
 //!
-//! Parts that nothing couples are solved apart. Each part is projected on the
+//! Components that nothing couples are solved apart. Each component is projected on the
 //! lowest modes of a few speeds, chosen until the residuals on the whole basis say
 //! that every mode up to `complete_to` is right at every speed.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 
 use faer::{Col, Mat, c64};
 
 use crate::plate::Plate;
 
 use super::buckling;
+use super::companion::companion_eigenpairs;
+use super::component::{Component, frequency_scale};
+use super::critical::{NamedCriticalSpeed, named_critical_speeds};
 use super::derivative;
-use super::low::LowModel;
-use super::mode::{Mode, ModeKind, classify};
-use super::name::ModeName;
-use super::part::{NamedCriticalSpeed, Part, frequency_scale, named_critical_speeds};
-use super::projection::pairs_of;
-use super::{SpectrumError, Stop, companion_eigenpairs, free_wave, reduction};
+use super::error::SpectrumError;
+use super::free_wave;
+use super::guided_reduction;
+use super::mode::{Mode, ModeKind, classify, pairs_of};
+use super::mode_name::ModeName;
+use super::reflected::ReflectedModel;
+use super::work::{Cancellation, WorkCounters};
 
 /// How the modes of a speed are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,21 +33,6 @@ pub enum Strategy {
     Bands,
     /// Every eigenvalue of the whole basis at every speed: slow, the test oracle.
     Dense,
-}
-
-/// Work done, so that a silent slow-down fails a test.
-#[derive(Debug, Default)]
-pub struct WorkCounters {
-    /// Eigenproblems solved on the projected matrices.
-    pub reduced_solves: AtomicUsize,
-    /// Eigenproblems of the few states between two speeds.
-    pub local_solves: AtomicUsize,
-    /// Pairs of modes refined by inverse iteration on the projected matrices.
-    pub refined_pairs: AtomicUsize,
-    /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
-    pub full_solves: AtomicUsize,
-    /// Looked at where work is counted.
-    pub stop: Stop,
 }
 
 /// A mode with everything that a reader wants to know of it.
@@ -64,8 +53,8 @@ pub struct DescribedMode {
 pub struct SpectralModel {
     /// The matrices.
     pub plate: Plate,
-    /// Independent parts.
-    pub parts: Vec<Part>,
+    /// Independent components.
+    pub components: Vec<Component>,
     /// Every critical speed, ascending; each of a free blade is double and stands
     /// here twice.
     pub critical: Vec<NamedCriticalSpeed>,
@@ -76,7 +65,7 @@ pub struct SpectralModel {
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
-    /// Whether each part is a harmonic of an undamped free blade, a symmetric problem.
+    /// Whether each component is a harmonic of an undamped free blade, a symmetric problem.
     has_free_waves: bool,
 }
 
@@ -105,55 +94,54 @@ impl SpectralModel {
         range: (f64, f64),
         strategy: Strategy,
     ) -> Result<Self, SpectrumError> {
-        Self::stoppable(plate, critical, range, strategy, &Stop::current())
-    }
-
-    /// The same, which ends early when asked to, now and in all that is computed with it.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails; [`SpectrumError::Stopped`].
-    pub fn stoppable(
-        plate: Plate,
-        critical: Vec<NamedCriticalSpeed>,
-        range: (f64, f64),
-        strategy: Strategy,
-        stop: &Stop,
-    ) -> Result<Self, SpectrumError> {
         let counters = WorkCounters {
-            stop: stop.clone(),
+            cancellation: Cancellation::current(),
             ..WorkCounters::default()
         };
-        let mut parts = Part::of(&plate);
+        let mut components = Component::of(&plate);
         let (mut complete_to_rad_per_s, mut unsettled_rad_per_s) = (f64::INFINITY, 0.0);
         if strategy != Strategy::Dense {
             let scale = frequency_scale(&plate);
             // Harmonics that nothing couples are small enough to be solved whole.
-            let coupled = parts.iter_mut().filter(|_| !plate.is_axisymmetric());
-            for part in coupled {
+            let coupled = components.iter_mut().filter(|_| !plate.is_axisymmetric());
+            for component in coupled {
                 let bands_alone = match strategy == Strategy::Bands {
-                    true => reduction::for_bands(&part.full, range, scale, &critical, &counters)?,
+                    true => guided_reduction::for_bands(
+                        &component.full,
+                        range,
+                        scale,
+                        &critical,
+                        &counters,
+                    )?,
                     false => None,
                 };
                 if let Some(found) = bands_alone {
-                    part.chart = vec![found.low.clone()];
-                    part.low = Some((found.low, found.low_rad_per_s));
+                    component.chart = vec![found.low.clone()];
+                    component.low = Some((found.low, found.low_rad_per_s));
                     complete_to_rad_per_s = found.low_rad_per_s;
                     unsettled_rad_per_s = found.unsettled_rad_per_s;
                 } else {
-                    let found =
-                        reduction::of_guided(&part.full, range, scale, &critical, &counters)?;
-                    part.chart = found.chart;
-                    part.low = found.low.map(|low| (low, found.low_rad_per_s));
+                    let found = guided_reduction::of_guided(
+                        &component.full,
+                        range,
+                        scale,
+                        &critical,
+                        &counters,
+                    )?;
+                    component.chart = found.chart;
+                    component.low = found.low.map(|low| (low, found.low_rad_per_s));
                     complete_to_rad_per_s = found.chart_rad_per_s;
                     unsettled_rad_per_s = found.unsettled_rad_per_s;
                 }
             }
         }
-        let conservative = parts.iter().all(|part| part.full.is_conservative());
+        let conservative = components
+            .iter()
+            .all(|component| component.full.is_conservative());
         let mut model = SpectralModel {
             has_free_waves: strategy != Strategy::Dense && plate.is_axisymmetric() && conservative,
             plate,
-            parts,
+            components,
             critical,
             complete_to_rad_per_s,
             unsettled_rad_per_s,
@@ -171,7 +159,7 @@ impl SpectralModel {
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
     /// the reason.
     pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        named_critical_speeds(plate, &Part::of(plate))
+        named_critical_speeds(plate, &Component::of(plate))
             .map_err(|error| buckling::explained(plate, error))
     }
 
@@ -208,14 +196,14 @@ impl SpectralModel {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn drawn_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
-        let ([part], true) = (self.parts.as_slice(), speed_rad_per_s > 0.0) else {
+        let ([component], true) = (self.components.as_slice(), speed_rad_per_s > 0.0) else {
             return self.modes(speed_rad_per_s);
         };
-        let projection = part.at(speed_rad_per_s);
+        let projection = component.at(speed_rad_per_s);
         let Some(few) = projection.drawn_at(speed_rad_per_s) else {
             return self.modes(speed_rad_per_s);
         };
-        self.counters.stop.check()?;
+        self.counters.cancellation.check()?;
         self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
         let mut pairs = few.eigenpairs(speed)?;
         pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
@@ -231,23 +219,25 @@ impl SpectralModel {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn full_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let mut modes = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            self.counters.stop.check()?;
+        for (index, component) in self.components.iter().enumerate() {
+            self.counters.cancellation.check()?;
             self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
-            let pairs = companion_eigenpairs(&part.full, speed_rad_per_s)?;
-            modes.extend(classify(&part.full, speed_rad_per_s, index, pairs));
+            let pairs = companion_eigenpairs(&component.full, speed_rad_per_s)?;
+            modes.extend(classify(&component.full, speed_rad_per_s, index, pairs));
         }
         Ok(modes)
     }
 
     /// Whether the scene is undamped: then modes have Krein signs.
     pub fn is_conservative(&self) -> bool {
-        self.parts.iter().all(|part| part.full.is_conservative())
+        self.components
+            .iter()
+            .all(|component| component.full.is_conservative())
     }
 
     /// dλ/dΩ of a mode at a speed.
     pub fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
-        let system = &self.parts[mode.part].at(speed_rad_per_s).reduced;
+        let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
@@ -256,7 +246,7 @@ impl SpectralModel {
     /// blade keeps low ones accurate to their own size; there the numbers of the matrix are
     /// rounded, each by ε of itself.
     pub fn relative_rounding(&self, mode: &Mode) -> f64 {
-        let stiffness = &self.parts[mode.part].at(0.0).reduced.stiffness;
+        let stiffness = &self.components[mode.component].at(0.0).reduced.stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
         let size = match self.has_free_waves {
             true => {
@@ -279,10 +269,10 @@ impl SpectralModel {
         let scale = frequency_scale(&self.plate);
         let speed = speed_rad_per_s.max(SPLITTING * scale);
         let mut modes = Vec::new();
-        for (index, part) in self.parts.iter().enumerate() {
-            self.counters.stop.check()?;
+        for (index, component) in self.components.iter().enumerate() {
+            self.counters.cancellation.check()?;
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            let system = &part.at(speed_rad_per_s).reduced;
+            let system = &component.at(speed_rad_per_s).reduced;
             let mut pairs = match self.has_free_waves {
                 true => free_wave::eigenpairs(&self.plate, index, system, speed)?,
                 false => companion_eigenpairs(system, speed)?,
@@ -297,25 +287,25 @@ impl SpectralModel {
     /// The modes that instabilities are made of, from the smallest sound projection. `None`
     /// where there are no bands: for an undamped plate whose harmonics nothing couples, and below
     /// its lowest critical speed.
-    pub fn low_model(&self) -> Option<LowModel<'_>> {
-        let [part] = self.parts.as_slice() else {
+    pub fn reflected_model(&self) -> Option<ReflectedModel<'_>> {
+        let [component] = self.components.as_slice() else {
             return None;
         };
-        let last = part.chart.last().map_or(0.0, |p| p.to_rad_per_s);
+        let last = component.chart.last().map_or(0.0, |p| p.to_rad_per_s);
         let within = self.critical.iter().filter(|c| c.speed_rad_per_s <= last);
         let standing = within.map(|c| (c.speed_rad_per_s, &c.shape));
-        let (system, standing, height_rad_per_s) = match &part.low {
+        let (system, standing, height_rad_per_s) = match &component.low {
             Some((projection, height)) => {
                 let inward = |(speed, x)| (speed, projection.basis.transpose() * x);
                 (&projection.reduced, standing.map(inward).collect(), *height)
             }
-            None if part.is_projected() => return None,
+            None if component.is_projected() => return None,
             None => {
                 let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
-                (&part.full, own.collect(), self.complete_to_rad_per_s)
+                (&component.full, own.collect(), self.complete_to_rad_per_s)
             }
         };
-        Some(LowModel::new(
+        Some(ReflectedModel::new(
             system,
             standing,
             height_rad_per_s,
@@ -326,22 +316,23 @@ impl SpectralModel {
     /// Names and residuals of modes of one speed.
     pub fn describe(&self, speed_rad_per_s: f64, modes: Vec<Mode>) -> Vec<DescribedMode> {
         let mut described: Vec<Option<DescribedMode>> = modes.iter().map(|_| None).collect();
-        for (index, part) in self.parts.iter().enumerate() {
+        for (index, component) in self.components.iter().enumerate() {
             let places: Vec<usize> = (0..modes.len())
-                .filter(|&k| modes[k].part == index)
+                .filter(|&k| modes[k].component == index)
                 .collect();
             if places.is_empty() {
                 continue;
             }
             let own: Vec<Mode> = places.iter().map(|&k| modes[k].clone()).collect();
-            let lifted = part
+            let lifted = component
                 .at(speed_rad_per_s)
                 .lifted(speed_rad_per_s, &pairs_of(&own));
             for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
                 let backward_error =
-                    part.norms
+                    component
+                        .norms
                         .backward_error(speed_rad_per_s, mode.lambda, &lifted);
-                let shape = self.embed(part.first, &lifted.shape);
+                let shape = self.embed(component.first, &lifted.shape);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
                 described[place] = Some(DescribedMode {
                     mode,

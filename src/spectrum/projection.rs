@@ -1,14 +1,14 @@
-//! A part projected on few vectors, and what the projection leaves over.
+//! A component projected on few vectors, and what the projection leaves over.
 
 use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::dense::Eigenpair;
-use super::mode::{Mode, split};
-use super::state::{State, StateModel};
+use super::hamiltonian::{HamiltonianReduction, State};
+use super::residual::Lifted;
+use super::vectors::{Eigenpair, split};
 
-/// A part projected on few orthonormal vectors.
+/// A component projected on few orthonormal vectors.
 #[derive(Debug, Clone)]
 pub struct Projection {
     /// Last speed that it is good for.
@@ -17,14 +17,14 @@ pub struct Projection {
     pub basis: Mat<f64>,
     /// The projected matrices.
     pub reduced: GyroscopicSystem,
-    /// The matrices times V, for residuals on the whole part.
+    /// The matrices times V, for residuals on the whole component.
     products: GyroscopicSystem,
     /// The same on few states, each with the last speed that it is good for: for drawing.
-    pub(super) drawn: Vec<(f64, Option<StateModel>)>,
+    pub(super) drawn: Vec<(f64, Option<HamiltonianReduction>)>,
 }
 
 impl Projection {
-    /// Projects a part, for speeds up to `to_rad_per_s`.
+    /// Projects a component, for speeds up to `to_rad_per_s`.
     pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
         let products = system.times(basis.as_ref());
         let reduced = products.onto(basis.as_ref());
@@ -37,7 +37,7 @@ impl Projection {
         }
     }
 
-    /// The part itself.
+    /// The component itself.
     pub fn whole(system: &GyroscopicSystem) -> Self {
         Projection {
             to_rad_per_s: f64::INFINITY,
@@ -48,7 +48,7 @@ impl Projection {
         }
     }
 
-    /// Coordinates Vᵀq of a pair of the whole part that lies in the span.
+    /// Coordinates Vᵀq of a pair of the whole component that lies in the span.
     pub fn inward(&self, (lambda, q): &Eigenpair) -> Eigenpair {
         let (re, im) = split(q);
         let (re, im) = (self.basis.transpose() * re, self.basis.transpose() * im);
@@ -67,7 +67,7 @@ impl Projection {
     }
 
     /// The few states for a speed, where there are such.
-    pub fn drawn_at(&self, speed_rad_per_s: f64) -> Option<&StateModel> {
+    pub fn drawn_at(&self, speed_rad_per_s: f64) -> Option<&HamiltonianReduction> {
         let place = self.drawn.partition_point(|(to, _)| *to < speed_rad_per_s);
         self.drawn.get(place).and_then(|(_, model)| model.as_ref())
     }
@@ -100,29 +100,4 @@ impl Projection {
             })
             .collect()
     }
-}
-
-/// A mode of a projection on the whole part.
-#[derive(Debug)]
-pub struct Lifted {
-    /// Vq.
-    pub shape: Col<c64>,
-    /// L(λ)Vq.
-    pub residual: Col<c64>,
-}
-
-/// Eigenvalues and coordinates of modes.
-pub fn pairs_of(modes: &[Mode]) -> Vec<(c64, &Col<c64>)> {
-    modes.iter().map(|m| (m.lambda, &m.coordinates)).collect()
-}
-
-/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
-/// closer than `tolerance` to the span of the others are left out.
-pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
-    let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
-    let qr = matrix.col_piv_qr();
-    let rank = (0..rows.min(vectors.len()))
-        .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
-        .count();
-    qr.compute_thin_Q().subcols(0, rank).to_owned()
 }

@@ -3,12 +3,13 @@
 use super::band::{Instability, InstabilityKind};
 use super::basis::ChosenBasis;
 use super::chart::{CHART_SPEEDS, Detail, StabilityChart, chart, drawn};
+use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::loci::RootLoci;
 use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
 use crate::scene::Scene;
-use crate::spectrum::{SpectralModel, SpectrumError, Stop, Strategy};
+use crate::spectrum::{SpectralModel, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
 /// usual rule of thumb of saw makers.
@@ -19,9 +20,29 @@ const FREE_CHART_SPEEDS: usize = 101;
 /// The same of a sketch.
 const SKETCH_SPEEDS: usize = 25;
 
+/// How an analysis is carried out.
+#[derive(Clone, Copy)]
+pub struct AnalysisOptions<'a> {
+    /// How closely the chart is drawn.
+    pub detail: Detail,
+    /// Progress callback: speeds of the chart that are done, and all of them.
+    pub progress: Progress<'a>,
+}
+
+impl Default for AnalysisOptions<'_> {
+    fn default() -> Self {
+        AnalysisOptions {
+            detail: Detail::Full,
+            progress: &|_, _| (),
+        }
+    }
+}
+
 /// Everything about the stability of one saw.
 #[derive(Debug)]
 pub struct Analysis {
+    /// The saw.
+    pub scene: Scene,
     /// Modes at any speed of the range.
     pub model: SpectralModel,
     /// Range of speeds, in rad/s.
@@ -33,8 +54,6 @@ pub struct Analysis {
     pub flutter_speed: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
     pub first_merge: Option<f64>,
-    /// Growth rate from which flutter counts.
-    pub flutter_threshold_per_s: f64,
     /// The eigenvalues of the band at the flutter speed, or of the first of all.
     pub root_loci: Option<RootLoci>,
     /// Estimated relative error of the critical speeds within the range, extrapolated from
@@ -48,21 +67,22 @@ impl Analysis {
     /// Analyses a saw over the speeds of its scene.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, SpectrumError> {
-        Self::stoppable(scene, Detail::Full, progress, &Stop::current())
+    /// [`AnalysisError`]; [`SpectrumError::Cancelled`](crate::spectrum::SpectrumError::Cancelled)
+    /// once the computation that this thread works for is cancelled, see
+    /// [`Cancellation::watched`](crate::spectrum::Cancellation::watched).
+    pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
+        Self::with_options(scene, AnalysisOptions::default())
     }
 
-    /// The same, which ends early when asked to.
+    /// The same with a progress callback, or drawn less closely.
     ///
     /// # Errors
-    /// Those of [`Analysis::new`]; [`SpectrumError::Stopped`].
-    pub fn stoppable(
+    /// Those of [`Analysis::new`].
+    pub fn with_options(
         scene: &Scene,
-        detail: Detail,
-        progress: Progress<'_>,
-        stop: &Stop,
-    ) -> Result<Self, SpectrumError> {
+        options: AnalysisOptions<'_>,
+    ) -> Result<Self, AnalysisError> {
+        let AnalysisOptions { detail, progress } = options;
         let ChosenBasis {
             plate,
             critical,
@@ -70,8 +90,8 @@ impl Analysis {
             estimated_relative_error,
             estimated_resting_error,
             larger,
-        } = ChosenBasis::stoppable(scene, scene.tolerance(), stop)?;
-        let model = SpectralModel::stoppable(plate, critical, range, Strategy::Reduced, stop)?;
+        } = ChosenBasis::new(scene, scene.tolerance())?;
+        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
         let chart = match (model.plate.is_axisymmetric(), detail) {
             (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
@@ -89,6 +109,7 @@ impl Analysis {
             None => None,
         };
         Ok(Analysis {
+            scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
             model,
@@ -96,7 +117,6 @@ impl Analysis {
             chart,
             flutter_speed,
             first_merge,
-            flutter_threshold_per_s: threshold,
             root_loci,
         })
     }
@@ -106,7 +126,7 @@ impl Analysis {
         let bands = &self.chart.instabilities;
         verdict(
             bands,
-            self.flutter_threshold_per_s,
+            self.scene.flutter_threshold_per_s(),
             self.range,
             speed_rad_per_s,
         )
@@ -117,7 +137,7 @@ impl Analysis {
         let bands = &self.chart.instabilities;
         safe_window(
             bands,
-            self.flutter_threshold_per_s,
+            self.scene.flutter_threshold_per_s(),
             self.range,
             speed_rad_per_s,
         )

@@ -7,10 +7,11 @@
 //! found is then asked for the lowest modes at rest too, and what the functions of a size two
 //! steps larger would change of them is measured: it must be below the tolerance as well.
 
+use super::error::AnalysisError;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
 use crate::spectrum::{
-    LargerBasis, NamedCriticalSpeed, Part, SpectralModel, SpectrumError, Stop, modes_at_rest,
+    Cancellation, Component, LargerBasis, NamedCriticalSpeed, SpectralModel, modes_at_rest,
 };
 
 /// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
@@ -71,21 +72,14 @@ impl ChosenBasis {
     /// The smallest basis that meets a tolerance, or else the largest there is.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails, when the sweep ends where the blade is
+    /// [`AnalysisError`] when an eigenproblem fails, when the sweep ends where the blade is
     /// not elastic any more, or when the largest basis does not hold the waves that are
     /// reflected within it.
-    pub fn new(scene: &Scene, tolerance: f64) -> Result<Self, SpectrumError> {
-        Self::stoppable(scene, tolerance, &Stop::current())
-    }
-
-    /// The same, which ends early when asked to.
-    ///
-    /// # Errors
-    /// Those of [`ChosenBasis::new`]; [`SpectrumError::Stopped`].
-    pub fn stoppable(scene: &Scene, tolerance: f64, stop: &Stop) -> Result<Self, SpectrumError> {
+    pub fn new(scene: &Scene, tolerance: f64) -> Result<Self, AnalysisError> {
+        let cancellation = Cancellation::current();
         let fastest = fastest_rad_per_s(scene.blade());
         if let Some(sweep) = scene.sweep().filter(|sweep| sweep.to_rad_per_s > fastest) {
-            return Err(SpectrumError::Overstretched {
+            return Err(AnalysisError::Overstretched {
                 to_rpm: rpm(sweep.to_rad_per_s),
                 limit_rpm: rpm(fastest),
             });
@@ -93,7 +87,7 @@ impl ChosenBasis {
         let mut differences: Vec<f64> = Vec::new();
         let mut previous: Option<Vec<NamedCriticalSpeed>> = None;
         for (rung, (max_diameters, radial_functions)) in LADDER.into_iter().enumerate() {
-            stop.check()?;
+            cancellation.check()?;
             let last = rung + 1 == LADDER.len();
             let resolution = Resolution {
                 max_diameters,
@@ -138,16 +132,16 @@ impl ChosenBasis {
 /// which are reflected below a speed.
 ///
 /// # Errors
-/// [`SpectrumError`] when an eigenproblem fails, when the blade is not elastic at that speed any
+/// [`AnalysisError`] when an eigenproblem fails, when the blade is not elastic at that speed any
 /// more, or when the largest basis does not hold these waves.
 pub(crate) fn resolved_plate(
     scene: &Scene,
     least: Resolution,
     to_rad_per_s: f64,
-) -> Result<(Plate, Vec<NamedCriticalSpeed>), SpectrumError> {
+) -> Result<(Plate, Vec<NamedCriticalSpeed>), AnalysisError> {
     let fastest = fastest_rad_per_s(scene.blade());
     if to_rad_per_s > fastest {
-        return Err(SpectrumError::Overstretched {
+        return Err(AnalysisError::Overstretched {
             to_rpm: rpm(to_rad_per_s),
             limit_rpm: rpm(fastest),
         });
@@ -185,8 +179,8 @@ fn ahead(rung: usize) -> Resolution {
 }
 
 /// Largest estimated relative error of the lowest frequencies at rest.
-fn resting_error(plate: &Plate, larger: &LargerBasis) -> Result<f64, SpectrumError> {
-    let modes = modes_at_rest(&Part::of(plate), MODES_AT_REST)?;
+fn resting_error(plate: &Plate, larger: &LargerBasis) -> Result<f64, AnalysisError> {
+    let modes = modes_at_rest(&Component::of(plate), MODES_AT_REST)?;
     let errors = modes.iter().map(|mode| larger.resting_error(mode));
     Ok(REMAINDER * errors.fold(0.0, f64::max))
 }
@@ -217,7 +211,7 @@ fn unresolved(
     plate: &Plate,
     critical: &[NamedCriticalSpeed],
     to_rad_per_s: f64,
-) -> Result<(), SpectrumError> {
+) -> Result<(), AnalysisError> {
     let last = plate.max_diameters();
     // Stiff guides mix the waves beyond recognition; but there are two of each n ≥ 2, and the
     // second of the most diameters is the last of them.
@@ -226,7 +220,7 @@ fn unresolved(
     let highest = [all_pairs, most_diameters].into_iter().flatten();
     let highest = highest.min_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     match highest {
-        Some(c) if c.speed_rad_per_s < to_rad_per_s => Err(SpectrumError::Unresolved {
+        Some(c) if c.speed_rad_per_s < to_rad_per_s => Err(AnalysisError::Unresolved {
             to_rpm: rpm(to_rad_per_s),
             limit_rpm: rpm(c.speed_rad_per_s),
             diameters: plate.max_diameters(),
@@ -296,7 +290,7 @@ mod tests {
             to_rad_per_s: rad_per_s(43_500.0),
         });
         match ChosenBasis::new(&torn.unwrap(), 1e-2) {
-            Err(SpectrumError::Overstretched { limit_rpm, .. }) => {
+            Err(AnalysisError::Overstretched { limit_rpm, .. }) => {
                 assert!((limit_rpm - 43_400.0).abs() < 50.0, "{limit_rpm}");
             }
             other => panic!("{other:?}"),

@@ -3,9 +3,10 @@
 use super::band::Instability;
 use super::certificate::Certificate;
 use super::damped;
+use super::error::AnalysisError;
 use super::undamped::{self, WITHIN_BANDS};
 use crate::campbell::{Campbell, Closeness, Progress};
-use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::spectrum::SpectralModel;
 
 /// Speeds of a chart, before those that its events add.
 pub(super) const CHART_SPEEDS: usize = 51;
@@ -34,13 +35,13 @@ pub struct StabilityChart {
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.
 ///
 /// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
+/// [`AnalysisError`] when an eigenproblem fails.
 pub fn chart(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
     progress: Progress<'_>,
-) -> Result<StabilityChart, SpectrumError> {
+) -> Result<StabilityChart, AnalysisError> {
     drawn(model, range, count, Detail::Full, progress)
 }
 
@@ -51,7 +52,7 @@ pub(super) fn drawn(
     count: usize,
     detail: Detail,
     progress: Progress<'_>,
-) -> Result<StabilityChart, SpectrumError> {
+) -> Result<StabilityChart, AnalysisError> {
     let closeness = match detail {
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH),

@@ -60,8 +60,8 @@ fn band(
     };
     let mut samples: Vec<Sample> = signatures.iter().filter_map(of).collect();
     let at = |speed: f64| Ok(of(&evaluator.at(speed)?));
-    for part in 1..PARTS {
-        samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
+    for component in 1..PARTS {
+        samples.extend(at(from + (to - from) * component as f64 / PARTS as f64)?);
     }
     // λ² passes linearly through zero at a critical speed: the chord is its slope.
     let zero = |at: f64| Sample {

@@ -8,8 +8,8 @@ use super::basis::REMAINDER;
 use super::chart::StabilityChart;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
-    DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State, StateModel,
-    companion_eigenpairs, critical_speeds, orthonormal, split,
+    DescribedMode, HamiltonianReduction, LargerBasis, ModeKind, SpectralModel, SpectrumError,
+    State, companion_eigenpairs, critical_speeds, orthonormal, split,
 };
 use crate::system::GyroscopicSystem;
 
@@ -76,7 +76,7 @@ impl Estimates {
         let within = model.critical.iter();
         let within = within.filter(|c| c.speed_rad_per_s <= range.1);
         let critical: Vec<f64> = within
-            .map(|critical| REMAINDER * larger.critical_error(&model.parts, critical))
+            .map(|critical| REMAINDER * larger.critical_error(&model.components, critical))
             .collect();
         let samples = &chart.campbell.samples;
         let looks = LOOKS.map(|share| range.0 + share * (range.1 - range.0));
@@ -85,7 +85,7 @@ impl Estimates {
             samples.iter().min_by(|x, y| away(x).total_cmp(&away(y)))
         });
         let drawn = looks.flat_map(|sample| {
-            larger.frequency_errors(&model.parts, sample.speed_rad_per_s, &sample.modes)
+            larger.frequency_errors(&model.components, sample.speed_rad_per_s, &sample.modes)
         });
         let drawn = REMAINDER * drawn.flatten().fold(0.0, f64::max);
         let least = critical.iter().copied().fold(0.0, f64::max);
@@ -121,7 +121,7 @@ impl Estimates {
     ) -> Vec<Option<f64>> {
         let errors = self
             .larger
-            .frequency_errors(&model.parts, speed_rad_per_s, modes);
+            .frequency_errors(&model.components, speed_rad_per_s, modes);
         let with_remainder = |error: Option<f64>| error.map(|error| REMAINDER * error);
         errors.into_iter().map(with_remainder).collect()
     }
@@ -135,9 +135,9 @@ impl Estimates {
         let Some([growing, partner]) = modes_of(band, &sample.modes) else {
             return Ok(BandError::default());
         };
-        let part = growing.mode.part;
-        let full = &model.parts[part].full;
-        let shapes = [growing, partner].map(|m| model.parts[part].coordinates(&m.shape));
+        let component = growing.mode.component;
+        let full = &model.components[component].full;
+        let shapes = [growing, partner].map(|m| model.components[component].coordinates(&m.shape));
         let halves = shapes.iter().flat_map(|q| {
             let (re, im) = split(q);
             [re, im]
@@ -146,7 +146,7 @@ impl Estimates {
         let basis = orthonormal(full.order(), &halves, INDEPENDENT);
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
-        larger.stiffness -= self.larger.softening(part, band.peak, &basis);
+        larger.stiffness -= self.larger.softening(component, band.peak, &basis);
         match (band.kind, model.is_conservative()) {
             (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
             (InstabilityKind::Flutter, true) => {
@@ -178,18 +178,18 @@ impl Estimates {
         band: &Instability,
         growing: &DescribedMode,
     ) -> Result<BandError, SpectrumError> {
-        let part = growing.mode.part;
-        let full = &model.parts[part].full;
+        let component = growing.mode.component;
+        let full = &model.components[component].full;
         let ends = model.critical.iter().filter(|c| {
             let is_end = |end: f64| (c.speed_rad_per_s / end - 1.0).abs() < SAME_SPEED;
-            c.part == part && (is_end(band.from) || is_end(band.to))
+            c.component == component && (is_end(band.from) || is_end(band.to))
         });
-        let (re, im) = split(&model.parts[part].coordinates(&growing.shape));
+        let (re, im) = split(&model.components[component].coordinates(&growing.shape));
         let shapes = ends.map(|c| c.shape.clone()).chain([re, im]);
         let basis = orthonormal(full.order(), &shapes.collect::<Vec<_>>(), INDEPENDENT);
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
-        larger.stiffness -= self.larger.softening(part, band.peak, &basis);
+        larger.stiffness -= self.larger.softening(component, band.peak, &basis);
         let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
         let [Some(before), Some(after)] = [before, after] else {
             return Ok(BandError::default());
@@ -236,7 +236,7 @@ impl Lean {
 
 /// Ends of a band that are critical speeds are so to this.
 const SAME_SPEED: f64 = 1e-6;
-/// Parts that a band of divergence is divided into to find its fastest growth.
+/// Components that a band of divergence is divided into to find its fastest growth.
 const LEANING_LOOKS: usize = 16;
 /// Vectors closer than this to the span of the others are left out.
 const INDEPENDENT: f64 = 1e-6;
@@ -250,7 +250,7 @@ fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a D
     let close =
         |m: &&DescribedMode| (m.mode.growth_per_s() / band.peak_growth_per_s - 1.0).abs() < 0.1;
     let growing = nearest(&mut modes.iter().filter(close))?;
-    let own = |m: &&DescribedMode| m.mode.part == growing.mode.part;
+    let own = |m: &&DescribedMode| m.mode.component == growing.mode.component;
     let partner = match growing.mode.kind {
         ModeKind::Flutter => {
             let decaying = |m: &&DescribedMode| m.mode.kind == ModeKind::Decaying;
@@ -268,7 +268,7 @@ fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a D
 /// Flutter of two merged modes: the discriminant of the pair is nearly a parabola of the speed.
 fn merged(systems: [&GyroscopicSystem; 2], states: &[State; 2], band: &Instability) -> BandError {
     let humps = systems.map(|system| {
-        let model = StateModel::new(system, band.frequency, states)?;
+        let model = HamiltonianReduction::new(system, band.frequency, states)?;
         (model.order() == 4).then_some(())?;
         Hump::new(band, |speed| {
             let (sum, product) = model.pair_invariants(speed);

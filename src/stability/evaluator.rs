@@ -9,7 +9,7 @@ use faer::c64;
 
 use super::certificate::Certificate;
 use super::signature::Signature;
-use crate::spectrum::{LowModel, LowModes, ModePair, SpectralModel, SpectrumError};
+use crate::spectrum::{ModePair, ReflectedModel, ReflectedModes, SpectralModel, SpectrumError};
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
 /// known to 1e-15 of the stiffness only.
@@ -40,9 +40,9 @@ struct Tally {
 /// Evaluates signatures, checks the Krein index of each, and counts.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
-    low: Option<LowModel<'a>>,
+    low: Option<ReflectedModel<'a>>,
     /// The same between neighbouring anchors, with the upper of both.
-    pieces: Vec<(f64, LowModel<'a>)>,
+    pieces: Vec<(f64, ReflectedModel<'a>)>,
     tally: Tally,
 }
 
@@ -52,14 +52,14 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        let low = model.low_model();
+        let low = model.reflected_model();
         let mut pieces = Vec::new();
         if let Some(low) = &low {
             let anchors: Vec<_> = anchors(speeds)
                 .into_par_iter()
                 .map(|speed| low.modes(speed))
                 .collect();
-            let anchors: Vec<LowModes> = anchors.into_iter().collect::<Result<_, _>>()?;
+            let anchors: Vec<ReflectedModes> = anchors.into_iter().collect::<Result<_, _>>()?;
             pieces = anchors
                 .par_windows(2)
                 .map(|ends| (ends[1].speed_rad_per_s, low.between([&ends[0], &ends[1]])))
@@ -107,7 +107,7 @@ impl<'a> SignatureEvaluator<'a> {
                 return Ok(signature);
             }
         }
-        self.from_reduced(speed_rad_per_s)
+        self.reduced_at(speed_rad_per_s)
     }
 
     /// The same from the whole reduced model, without the coarser models between anchors.
@@ -116,10 +116,10 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn exactly_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        self.from_reduced(speed_rad_per_s)
+        self.reduced_at(speed_rad_per_s)
     }
 
-    fn from_reduced(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+    fn reduced_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
         let modes = match &self.low {
             Some(low) => low.modes(speed_rad_per_s)?.modes,
             None => self.model.all_modes(speed_rad_per_s)?,
@@ -155,7 +155,7 @@ impl<'a> SignatureEvaluator<'a> {
     }
 
     /// The smallest model for a speed.
-    fn near(&self, speed_rad_per_s: f64) -> Option<&LowModel<'a>> {
+    fn near(&self, speed_rad_per_s: f64) -> Option<&ReflectedModel<'a>> {
         let place = self.pieces.partition_point(|(to, _)| *to < speed_rad_per_s);
         self.pieces.get(place).map(|(_, low)| low)
     }

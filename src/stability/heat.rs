@@ -144,8 +144,8 @@ impl<'a> Heating<'a> {
             from: from_k - self.now_k,
             direction,
         };
-        let (plate, parts) = (&self.model.plate, &self.model.parts);
-        let found = first_singular(plate, parts, speed_rad_per_s, &added)?;
+        let (plate, components) = (&self.model.plate, &self.model.components);
+        let found = first_singular(plate, components, speed_rad_per_s, &added)?;
         let limit = |found: SingularStress| HeatLimit {
             rise_k: from_k + direction * found.multiple,
             diameters: found.diameters,
@@ -228,12 +228,12 @@ impl<'a> Heating<'a> {
         let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();
         let mut lowest = Vec::new();
         let free = plate.is_axisymmetric();
-        for (index, part) in self.model.parts.iter().enumerate() {
+        for (index, component) in self.model.components.iter().enumerate() {
             let range = match free {
                 true => index..=index,
                 false => 0..=plate.max_diameters(),
             };
-            let mut system = part.full.clone();
+            let mut system = component.full.clone();
             system.stiffness += faer::Scale(rise_k - self.now_k) * spread(plate, range, &blocks);
             let found = match critical_speeds(&system) {
                 Ok(found) => found,
@@ -243,7 +243,7 @@ impl<'a> Heating<'a> {
             let kept = if free { 1 } else { CURVES };
             lowest.extend(found.into_iter().take(kept).map(|critical| {
                 let speed_rad_per_s = critical.speed_rad_per_s;
-                let name = standing_name(plate, part.first, &critical.shape, speed_rad_per_s);
+                let name = standing_name(plate, component.first, &critical.shape, speed_rad_per_s);
                 Named {
                     speed_rad_per_s,
                     diameters: name.diameters,

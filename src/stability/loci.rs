@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::band::Instability;
 use crate::campbell::{Sighted, match_modes};
-use crate::spectrum::{LowModel, Mode, ModeKind, SpectralModel, SpectrumError};
+use crate::spectrum::{Mode, ModeKind, ReflectedModel, SpectralModel, SpectrumError};
 
 /// Two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ impl RootLoci {
         band: &Instability,
         range: (f64, f64),
     ) -> Result<Option<Self>, SpectrumError> {
-        let Some(low) = model.low_model() else {
+        let Some(low) = model.reflected_model() else {
             return Ok(None);
         };
         let width = band.to - band.from;
@@ -77,7 +77,7 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
 const NEIGHBOURS: usize = 32;
 
 /// The lowest modes of a speed, ascending.
-fn lowest_modes(low: &LowModel<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
+fn lowest_modes(low: &ReflectedModel<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
     let mut modes = low.modes(speed)?.modes;
     modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
     modes.truncate(NEIGHBOURS);
@@ -93,7 +93,10 @@ struct Pair {
 
 impl Pair {
     /// The growing and the decaying mode of a band where it grows fastest.
-    fn at_peak(low: &LowModel<'_>, band: &Instability) -> Result<Option<Self>, SpectrumError> {
+    fn at_peak(
+        low: &ReflectedModel<'_>,
+        band: &Instability,
+    ) -> Result<Option<Self>, SpectrumError> {
         let modes = lowest_modes(low, band.peak)?;
         let nearest = |kind: ModeKind, growth: f64| {
             let wanted = c64::new(growth, band.frequency);
@@ -120,7 +123,7 @@ impl Pair {
     /// the band, two waves beside it.
     fn followed(
         &self,
-        low: &LowModel<'_>,
+        low: &ReflectedModel<'_>,
         band: &Instability,
         speeds: impl Iterator<Item = f64>,
     ) -> Result<Vec<Row>, SpectrumError> {
@@ -143,7 +146,7 @@ impl Pair {
     }
 
     /// The same two modes at another speed.
-    fn to(&self, low: &LowModel<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
+    fn to(&self, low: &ReflectedModel<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
         let modes = lowest_modes(low, speed)?;
         let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
         let height = highest(&self.modes).max(highest(&modes));

@@ -4,11 +4,12 @@ use super::band::Instability;
 use super::basis::ChosenBasis;
 use super::certificate::Certificate;
 use super::chart::{CHART_SPEEDS, chart};
+use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::plate::Plate;
 use crate::scene::Scene;
-use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
 #[derive(Debug)]
@@ -33,8 +34,8 @@ impl Onsets {
     /// Finds the onsets of a saw over the speeds of its scene.
     ///
     /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(scene: &Scene) -> Result<Self, SpectrumError> {
+    /// [`AnalysisError`] when an eigenproblem fails.
+    pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
         let ChosenBasis {
             plate,
             critical,
@@ -70,15 +71,15 @@ impl Onsets {
 /// by the modes that can meet alone, unless damping leaves all that a chart has to be looked at.
 ///
 /// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
+/// [`AnalysisError`] when an eigenproblem fails.
 pub fn search_bands(
     plate: Plate,
     critical: Vec<NamedCriticalSpeed>,
     range: (f64, f64),
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
     if plate.damping.is_none() && plate.guide_damping.is_none() {
         let model = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
-        return undamped_bands(&model, range, SEARCH_SPEEDS);
+        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
     }
     let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
     let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;

@@ -10,7 +10,7 @@ use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
 use crate::scene::{MembraneFile, Scene, SceneError, SceneFile};
-use crate::spectrum::{Mode, Part, SpectrumError, derivative};
+use crate::spectrum::{Component, Mode, SpectrumError, derivative};
 use crate::system::GyroscopicSystem;
 
 /// Relative step of the difference: truncation (1e-3)⁴ and rounding 1e-16/1e-3 are
@@ -58,10 +58,10 @@ struct Parameter {
 /// # Errors
 /// [`SensitivityError`].
 pub fn sensitivities(
-    scene: &Scene,
     analysis: &Analysis,
     modes_at_rad_per_s: f64,
 ) -> Result<Vec<Sensitivity>, SensitivityError> {
+    let scene = &analysis.scene;
     let modes = analysis.model.modes(modes_at_rad_per_s)?;
     let modes = analysis.model.describe(modes_at_rad_per_s, modes);
     let mergings: Vec<Option<Merging>> = analysis
@@ -72,27 +72,27 @@ pub fn sensitivities(
         .collect::<Result<_, _>>()?;
     let mut all = Vec::new();
     for parameter in parameters(scene) {
-        let changes = changed_parts(scene, &analysis.model.plate, &parameter)?;
+        let changes = changed_components(scene, &analysis.model.plate, &parameter)?;
         let relative = |merging: &Merging| {
-            let system = &analysis.model.parts[merging.part].full;
-            let change = &changes[merging.part];
+            let system = &analysis.model.components[merging.component].full;
+            let change = &changes[merging.component];
             merging.change(system, change) / merging.speed
         };
         let critical = analysis.model.critical.iter();
         all.push(Sensitivity {
             critical_speeds: critical
                 .take_while(|c| c.speed_rad_per_s <= analysis.range.1)
-                .map(|c| relative(&Merging::standing(c.part, c.speed_rad_per_s, &c.shape)))
+                .map(|c| relative(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
                 .collect(),
             onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
             eigenvalues: modes
                 .iter()
                 .map(|m| {
-                    let part = &analysis.model.parts[m.mode.part];
-                    let x = part.coordinates(&m.shape);
-                    let change = &changes[m.mode.part];
+                    let component = &analysis.model.components[m.mode.component];
+                    let x = component.coordinates(&m.shape);
+                    let change = &changes[m.mode.component];
                     derivative::with_change(
-                        &part.full,
+                        &component.full,
                         modes_at_rad_per_s,
                         m.mode.lambda,
                         &x,
@@ -194,8 +194,8 @@ fn of_membrane(file: &SceneFile) -> Vec<Parameter> {
 /// Finds a number of the membrane stress.
 type Number = dyn Fn(&mut MembraneFile) -> Option<&mut f64>;
 
-/// Change of the matrices of every part for the whole change of a parameter.
-fn changed_parts(
+/// Change of the matrices of every component for the whole change of a parameter.
+fn changed_components(
     scene: &Scene,
     plate: &Plate,
     parameter: &Parameter,
@@ -206,10 +206,10 @@ fn changed_parts(
     let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
     for (place, weight) in stencil {
         let scene = scene.edited(|file| (parameter.shift)(file, place * share))?;
-        let parts = Part::of(&Plate::new(&scene, plate.resolution));
-        moved.resize_with(parts.len(), Vec::new);
-        for (terms, part) in moved.iter_mut().zip(parts) {
-            terms.push((weight / (12.0 * share), part.full));
+        let components = Component::of(&Plate::new(&scene, plate.resolution));
+        moved.resize_with(components.len(), Vec::new);
+        for (terms, component) in moved.iter_mut().zip(components) {
+            terms.push((weight / (12.0 * share), component.full));
         }
     }
     Ok(moved
@@ -220,7 +220,7 @@ fn changed_parts(
 
 /// A speed at which something begins: two modes merge, or a wave stands still.
 struct Merging {
-    part: usize,
+    component: usize,
     speed: f64,
     lambda: c64,
     x: Col<c64>,
@@ -229,10 +229,10 @@ struct Merging {
 }
 
 impl Merging {
-    fn standing(part: usize, speed: f64, shape: &Col<f64>) -> Self {
+    fn standing(component: usize, speed: f64, shape: &Col<f64>) -> Self {
         let x = Col::from_fn(shape.nrows(), |i| c64::new(shape[i], 0.0));
         Merging {
-            part,
+            component,
             speed,
             lambda: c64::new(0.0, 0.0),
             x,
@@ -255,7 +255,7 @@ impl Merging {
                 .critical
                 .iter()
                 .min_by(|x, y| distance(x.speed_rad_per_s).total_cmp(&distance(y.speed_rad_per_s)));
-            return Ok(nearest.map(|c| Self::standing(c.part, c.speed_rad_per_s, &c.shape)));
+            return Ok(nearest.map(|c| Self::standing(c.component, c.speed_rad_per_s, &c.shape)));
         }
         // Just below the onset the two vectors are x ± εu: their mean is x up to ε².
         let before = band.from * (1.0 - 1e-8);
@@ -264,14 +264,14 @@ impl Merging {
         let Some((first, second)) = pair else {
             return Ok(None);
         };
-        let part = &model.parts[first.part];
-        let lift = |mode: &Mode| part.lifted(before, &mode.coordinates);
+        let component = &model.components[first.component];
+        let lift = |mode: &Mode| component.lifted(before, &mode.coordinates);
         let (x, y) = (lift(first), lift(second));
         let overlap: c64 = y.adjoint() * &x;
         let turn = overlap / overlap.norm().max(f64::MIN_POSITIVE);
         let mean = faer::Scale(c64::new(0.5, 0.0)) * (x + faer::Scale(turn) * y);
         Ok(Some(Merging {
-            part: first.part,
+            component: first.component,
             speed: band.from,
             lambda: (first.lambda + second.lambda) * 0.5,
             x: mean,
@@ -295,10 +295,10 @@ impl Merging {
             .iter()
             .min_by(|x, y| distance(x).total_cmp(&distance(y)));
         Ok(nearest.map(|mode| Merging {
-            part: mode.part,
+            component: mode.component,
             speed: band.from,
             lambda: mode.lambda,
-            x: analysis.model.parts[mode.part].lifted(band.from, &mode.coordinates),
+            x: analysis.model.components[mode.component].lifted(band.from, &mode.coordinates),
             damped: true,
         }))
     }

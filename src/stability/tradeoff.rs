@@ -9,10 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::band::InstabilityKind;
 use super::basis::{ChosenBasis, LADDER};
 use super::chart::{StabilityChart, chart};
+use super::error::AnalysisError;
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
-use crate::spectrum::{NamedCriticalSpeed, SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 use crate::system::GyroscopicSystem;
 
 /// A way to the answer.
@@ -76,8 +77,8 @@ struct Events {
 /// Measures every setting on a saw.
 ///
 /// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
-pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, SpectrumError> {
+/// [`AnalysisError`] when an eigenproblem fails.
+pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, AnalysisError> {
     let range = ChosenBasis::new(scene, 1e-3)?.range;
     let mut runs: Vec<(Method, (usize, usize), usize)> = Vec::new();
     let mut add = |method: Method, sizes: &[(usize, usize)], speeds: usize| {
@@ -164,7 +165,7 @@ fn events(
     resolution: Resolution,
     speeds: usize,
     range: (f64, f64),
-) -> Result<Option<Events>, SpectrumError> {
+) -> Result<Option<Events>, AnalysisError> {
     let plate = Plate::new(scene, resolution);
     let below = |critical: &[NamedCriticalSpeed]| -> Vec<f64> {
         let speeds = critical.iter().map(|c| c.speed_rad_per_s);

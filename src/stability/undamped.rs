@@ -3,6 +3,7 @@
 use super::band::Instability;
 use super::certificate::{Certificate, Mismatch, mismatches};
 use super::divergence::{close_pairs, divergence};
+use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::flutter::flutter;
 use super::search::Path;
@@ -24,7 +25,7 @@ pub(super) fn charted(
     count: usize,
     (within_bands, closeness): (&[f64], Closeness),
     progress: Progress<'_>,
-) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
     // A free blade has no bands to search for, and is only held against the Krein index.

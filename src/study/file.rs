@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::SceneError;
-use crate::spectrum::SpectrumError;
+use crate::stability::AnalysisError;
 use crate::text::{KeyedError, from_keyed_json};
 
 /// Which numbers of a scene vary, how, and what the saws have to keep.
@@ -173,7 +173,7 @@ pub enum StudyError {
     },
     /// The saw without deviations cannot be analysed.
     #[error("the saw of the scene itself: {0}")]
-    Nominal(#[from] SpectrumError),
+    Nominal(#[from] AnalysisError),
 }
 
 impl StudyFile {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::plan::Study;
 use super::saw::Saw;
-use crate::spectrum::Stop;
+use crate::spectrum::Cancellation;
 
 /// Analyses saws, each handed over as soon as it is done, in no order. Each thread has a saw of
 /// its own: a second thread makes one saw 1.3 times as fast, but two saws take no longer than one.
@@ -29,7 +29,7 @@ pub fn run<E: Send>(
         }
         Ok(())
     };
-    let stop = &Stop::current();
+    let stop = &Cancellation::current();
     std::thread::scope(|scope| {
         let threads = rayon::current_num_threads().clamp(1, indices.len().max(1));
         let workers: Vec<_> = (0..threads)

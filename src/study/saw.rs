@@ -6,8 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::SpectrumError;
-use crate::stability::Onsets;
+use crate::stability::{AnalysisError, Onsets};
 
 /// A saw and what became of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -87,7 +86,7 @@ impl Study {
         }
     }
 
-    fn found(&self, scene: &Scene) -> Result<Found, SpectrumError> {
+    fn found(&self, scene: &Scene) -> Result<Found, AnalysisError> {
         let onsets = Onsets::new(scene)?;
         let criteria = self.limits().map(|limits| {
             limits.criteria(

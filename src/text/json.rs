@@ -2,26 +2,9 @@
 
 use serde::de::DeserializeOwned;
 
+use super::fault::{Fault, KeyedError, offset};
 use super::problem;
 use super::token::{Part, tokens, without_comments};
-
-/// What a JSON text was refused for.
-#[derive(Debug)]
-pub(crate) struct KeyedError {
-    /// JSON path of the key, or the whole.
-    pub key: String,
-    /// What is wrong with it, and the remedy.
-    pub message: String,
-    /// Whether a list of the known keys helps.
-    pub of_keys: bool,
-}
-
-/// What the parser says, and where.
-pub(super) struct Fault {
-    /// JSON path as the parser has it; empty for the whole.
-    pub path: String,
-    pub error: serde_json::Error,
-}
 
 /// Reads JSON, and nothing after it; errors point at the key, or at the `whole` by its name.
 /// Comments, commas before a closing bracket, and numbers in quotation marks where only a number
@@ -88,13 +71,4 @@ fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
     let mut next = text.to_owned();
     next.replace_range(token.start..token.end(), &format!(" {number} "));
     Some(next)
-}
-
-/// Offset in bytes at which the parser stopped, behind what it had read.
-pub(super) fn offset(text: &str, error: &serde_json::Error) -> usize {
-    let lines = text
-        .split_inclusive('\n')
-        .take(error.line().saturating_sub(1));
-    let before: usize = lines.map(str::len).sum();
-    (before + error.column()).min(text.len())
 }

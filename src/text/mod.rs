@@ -1,13 +1,15 @@
 //! Text as people have it: files of any editor or spreadsheet as Unicode, JSON with comments, and
 //! words that may be shown on a terminal.
 
+mod fault;
 mod file;
 mod json;
 mod problem;
 mod token;
 
+pub(crate) use fault::KeyedError;
 pub use file::{FileError, Kind, OtherEncodings, read_path, read_stream};
-pub(crate) use json::{KeyedError, from_keyed_json};
+pub(crate) use json::from_keyed_json;
 
 /// Characters that steer a terminal, or turn the direction of what follows, as their escapes.
 /// Line breaks stay.

@@ -1,6 +1,6 @@
 //! What keeps a text from being the JSON that was expected, in plain words.
 
-use super::json::{Fault, KeyedError, offset};
+use super::fault::{Fault, KeyedError, offset};
 use super::token::{Part, Token, tokens};
 
 /// The cause and the remedy of a parser's complaint.

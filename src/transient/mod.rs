@@ -37,6 +37,7 @@ pub use verdict_map::{VerdictMap, verdict_map};
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::spline::SplineError;
+use crate::stability::AnalysisError;
 
 /// Why a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +48,9 @@ pub enum TransientError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
     /// The blade could not be followed on its arbor.
     #[error(transparent)]
     Spline(#[from] SplineError),

@@ -12,7 +12,7 @@ use faer::{Col, Mat};
 use nalgebra::{DMatrix, DVector};
 
 use crate::scene::rpm;
-use crate::spectrum::{Stop, time_scale};
+use crate::spectrum::{Cancellation, time_scale};
 use crate::system::GyroscopicSystem;
 
 use super::TransientError;
@@ -63,7 +63,7 @@ impl Propagator {
         loads: &[Col<f64>],
         step_s: f64,
     ) -> Result<Self, TransientError> {
-        Stop::current().check()?;
+        Cancellation::current().check()?;
         let (order, count) = (system.order(), loads.len());
         let (stiffness, velocity) = (
             system.stiffness_at(speed_rad_per_s),

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp, rpm};
-use crate::spectrum::{Mode, SpectralModel, Stop};
+use crate::spectrum::{Cancellation, Mode, SpectralModel};
 use crate::stability::Instability;
 use crate::system::GyroscopicSystem;
 
@@ -100,7 +100,7 @@ pub fn run_up(
         &load,
     );
     let stride = steps.div_ceil(MAX_SAMPLES);
-    let stop = Stop::current();
+    let stop = Cancellation::current();
     let mut history = RunUpHistory {
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),

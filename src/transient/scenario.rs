@@ -15,6 +15,8 @@ use super::{
 /// A cut at some speeds.
 #[derive(Debug)]
 pub struct Cutting {
+    /// The saw.
+    pub scene: Scene,
     /// The saw without the forces.
     pub plate: Plate,
     /// The cut.
@@ -86,6 +88,7 @@ impl Cutting {
             })
             .collect::<Result<Vec<_>, TransientError>>()?;
         Ok(Cutting {
+            scene: scene.clone(),
             plate,
             cut: cut.clone(),
             runs,
@@ -110,6 +113,10 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
 /// A run-up.
 #[derive(Debug)]
 pub struct RunningUp {
+    /// The saw.
+    pub scene: Scene,
+    /// What it is put through.
+    pub runup: RunUp,
     /// Modes and bands over the speeds of the run-up.
     pub analysis: Analysis,
     /// Deflection at the probe.
@@ -136,7 +143,7 @@ impl RunningUp {
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
         let swept = scene.swept(runup.speeds)?;
-        let analysis = Analysis::new(&swept, &|_, _| ())?;
+        let analysis = Analysis::new(&swept)?;
         let model = &analysis.model;
         let modes = model.modes(runup.speeds.from_rad_per_s)?;
         let highest = modes
@@ -158,6 +165,8 @@ impl RunningUp {
             .collect();
         let response = response_map(plate, runup, scene.probe(), (&speeds, &frequencies));
         Ok(RunningUp {
+            scene: scene.clone(),
+            runup: *runup,
             history,
             growths,
             response,

@@ -187,10 +187,12 @@ pub fn survives_chart(scene: &Scene) {
 /// Everything that `sawflutter analyze` computes. JSON has no NaN: it would be written as
 /// null, which no number of a report may be.
 pub fn survives_analysis(scene: &Scene) -> bool {
-    let Ok(analysis) = Analysis::new(scene, &|_, _| ()) else {
+    let Ok(analysis) = Analysis::new(scene) else {
         return false;
     };
-    let report = Report::new(scene, &analysis).expect("the modes at rest are in the chart");
+    let report = analysis
+        .report()
+        .expect("the modes at rest are in the chart");
     let json = serde_json::to_string(&report).expect("a report is JSON");
     let read: Report =
         serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {json}"));

@@ -74,7 +74,7 @@ impl Worst {
 
 /// Modes of one harmonic of an unguided blade, by frequency: there every n is a part.
 pub fn of_diameters(modes: &[Mode], n: usize) -> impl Iterator<Item = &Mode> {
-    modes.iter().filter(move |mode| mode.part == n)
+    modes.iter().filter(move |mode| mode.component == n)
 }
 
 /// A saw with lengths × L, masses × M and times × T: pressure is × M/LT², density × M/L³,

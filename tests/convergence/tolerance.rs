@@ -158,7 +158,7 @@ fn assert_promises(saws: &[Saw], reached: usize) {
 fn onsets_keep_the_tolerance() {
     let onsets = |tolerance: f64| -> Vec<f64> {
         let scene = Scene::paper().edited(|saw| saw.tolerance = Some(tolerance));
-        let analysis = Analysis::new(&scene.unwrap(), &|_, _| ()).unwrap();
+        let analysis = Analysis::new(&scene.unwrap()).unwrap();
         let bands = analysis.chart.instabilities.into_iter();
         bands
             .filter(|b| b.kind == InstabilityKind::Flutter)

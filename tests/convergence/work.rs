@@ -14,13 +14,13 @@ fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
         saw.sweep = Some(SweepFile { from_rpm, to_rpm });
     });
     let scene = scene.unwrap();
-    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&scene).unwrap();
     (scene, analysis)
 }
 
 fn report(accuracy: Accuracy) -> Report {
-    let (scene, analysis) = analysis(accuracy, 3000.0);
-    Report::new(&scene, &analysis).unwrap()
+    let (_, analysis) = analysis(accuracy, 3000.0);
+    analysis.report().unwrap()
 }
 
 #[test]
@@ -47,10 +47,10 @@ fn work_hardly_depends_on_the_accuracy() {
 /// Below the lowest critical speed no wave is reflected, and no band is searched for.
 #[test]
 fn a_slow_saw_takes_less_work() {
-    let (scene, analysis) = analysis(Accuracy::Design, 1400.0);
-    assert!(analysis.model.low_model().is_none());
+    let (_, analysis) = analysis(Accuracy::Design, 1400.0);
+    assert!(analysis.model.reflected_model().is_none());
     assert!(analysis.chart.certificate.speeds_checked > 0);
-    let work = Report::new(&scene, &analysis).unwrap().work;
+    let work = analysis.report().unwrap().work;
     println!("{work:?}");
     assert_eq!(work.refined_pairs, 0);
     assert!(

@@ -117,7 +117,7 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
         let passed: Vec<bool> = check.criteria.iter().map(|c| c.passed).collect();
         assert_eq!(found.kept, passed);
         let own = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
-        let analysis = Analysis::new(&own.unwrap(), &|_, _| ()).unwrap();
+        let analysis = Analysis::new(&own.unwrap()).unwrap();
         assert!(analysis.flutter_speed.is_some());
         // Bands are searched on fewer modes than are charted, each right to 1e-8.
         for (one, other) in [

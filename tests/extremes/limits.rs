@@ -1,10 +1,9 @@
 //! Where the numbers end: what cannot be trusted is said, what would not fit is refused.
 
-use sawflutter::campbell::{even_speeds, sample};
+use sawflutter::campbell::{CampbellError, even_speeds, sample};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
+use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
 
 use crate::common::relative_error;
@@ -21,7 +20,7 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
         let mut file = paper();
         file.guides[0].stiffness_n_per_m = stiffness;
         file.accuracy = Accuracy::Draft;
-        let analysis = Analysis::new(&scene(&file), &|_, _| ()).unwrap();
+        let analysis = Analysis::new(&scene(&file)).unwrap();
         let estimated = analysis.estimated_relative_error.unwrap();
         let chosen = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
         let finer = critical(
@@ -49,8 +48,8 @@ fn rounding_that_eats_digits_is_warned_about() {
         file.accuracy = Accuracy::Draft;
         change(&mut file);
         let scene = scene(&file);
-        let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
-        let report = Report::new(&scene, &analysis).unwrap();
+        let analysis = Analysis::new(&scene).unwrap();
+        let report = analysis.report().unwrap();
         let warning = report.warnings.iter().find(|w| w.contains("six digits"));
         warning.cloned()
     };
@@ -81,7 +80,7 @@ fn what_would_not_fit_is_refused_with_the_number() {
     let range = (0.0, rad_per_s(1000.0));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let message = match sample(&model, &even_speeds(range, 10_000_000), &|_, _| ()) {
-        Err(error @ SpectrumError::TooLarge { .. }) => error.to_string(),
+        Err(error @ CampbellError::TooLarge { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
     assert!(message.contains("more than 1024 MB"), "{message}");

@@ -15,7 +15,9 @@ fn body_frequencies(file: &SceneFile, n: usize, speed: f64) -> Vec<f64> {
     let modes = model.all_modes(speed).unwrap();
     let carried = n as f64 * speed;
     let forward = modes.iter().filter(|m| {
-        m.part == n && m.kind != ModeKind::Rigid && (n == 0 || m.frequency_rad_per_s() > carried)
+        m.component == n
+            && m.kind != ModeKind::Rigid
+            && (n == 0 || m.frequency_rad_per_s() > carried)
     });
     // A forward wave is seen nΩ faster from space.
     let mut found: Vec<f64> = forward
@@ -86,7 +88,7 @@ pub fn membrane_disk() -> Row {
         let expected = speed * (m + square.sqrt());
         let nearest = modes
             .iter()
-            .filter(|mode| mode.part == n as usize)
+            .filter(|mode| mode.component == n as usize)
             .map(|mode| mode.frequency_rad_per_s())
             .min_by(|x, y| (x - expected).abs().total_cmp(&(y - expected).abs()));
         row.compare(
@@ -116,7 +118,7 @@ pub fn hardly_turning() -> Row {
             let lowest = squares[usize::from(n <= 1)].sqrt();
             let found: Vec<f64> = modes
                 .iter()
-                .filter(|m| m.part == n && m.frequency_rad_per_s() > 0.5 * lowest)
+                .filter(|m| m.component == n && m.frequency_rad_per_s() > 0.5 * lowest)
                 .map(|m| m.frequency_rad_per_s())
                 .collect();
             let carried = n as f64 * speed;

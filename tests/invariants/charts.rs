@@ -7,7 +7,6 @@ use faer::c64;
 use proptest::prelude::*;
 use sawflutter::campbell::{Campbell, even_speeds, sample};
 use sawflutter::plate::Plate;
-use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
 use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
@@ -175,8 +174,8 @@ fn any_number_of_threads_writes_the_same_report() {
             .unwrap();
         pool.install(|| {
             assert_eq!(rayon::current_num_threads(), threads);
-            let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
-            serde_json::to_string(&Report::new(&scene, &analysis).unwrap()).unwrap()
+            let analysis = Analysis::new(&scene).unwrap();
+            serde_json::to_string(&analysis.report().unwrap()).unwrap()
         })
     };
     let one = report(1);

@@ -116,7 +116,7 @@ fn frequencies_on_the_blade_at_every_speed() {
         let modes = model.modes(speed_rad_per_s).unwrap();
         for described in model.describe(speed_rad_per_s, modes) {
             let name = &described.name;
-            assert_eq!(name.diameters, described.mode.part);
+            assert_eq!(name.diameters, described.mode.component);
             let Some(f) = on_blade_hz
                 .get(name.diameters)
                 .filter(|_| name.circles == 0)

@@ -31,7 +31,7 @@ fn analysis_of(air: f64, material: f64) -> Analysis {
         air_n_s_per_m3: air,
         material_retardation_time_s: material,
     };
-    Analysis::new(&free_blade(damping), &|_, _| ()).unwrap()
+    Analysis::new(&free_blade(damping)).unwrap()
 }
 
 #[test]
@@ -162,10 +162,10 @@ fn damped_pad() -> Scene {
 #[test]
 fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     let scene = damped_pad();
-    let analysis = Analysis::new(&scene, &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&scene).unwrap();
     let undamped = scene.edited(|file| file.guides[0].damping_n_s_per_m = 0.0);
     let undamped = undamped.unwrap();
-    let undamped = Analysis::new(&undamped, &|_, _| ()).unwrap();
+    let undamped = Analysis::new(&undamped).unwrap();
     let (found, expected) = (
         analysis.flutter_speed.unwrap(),
         undamped.flutter_speed.unwrap(),
@@ -226,7 +226,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
 /// A chart has enough points of each band that straight lines between them show its growth.
 #[test]
 fn growth_of_a_damped_band_is_drawn_as_it_is() {
-    let analysis = Analysis::new(&damped_pad(), &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&damped_pad()).unwrap();
     let samples = &analysis.chart.campbell.samples;
     for band in &analysis.chart.instabilities {
         let inside = |speed: f64| (band.from..=band.to).contains(&speed);
@@ -257,7 +257,7 @@ fn growth_of_a_damped_band_is_drawn_as_it_is() {
 /// other.
 #[test]
 fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
-    let analysis = Analysis::new(&damped_pad(), &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&damped_pad()).unwrap();
     let campbell = &analysis.chart.campbell;
     let mut followed = 0;
     for band in &analysis.chart.instabilities {

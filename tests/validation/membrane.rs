@@ -12,7 +12,7 @@ use sawflutter::check::{Check, Limits};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{InPlane, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
-use sawflutter::stability::{Analysis, HeatLimits, sensitivities};
+use sawflutter::stability::{Analysis, AnalysisError, HeatLimits, sensitivities};
 
 use super::saws::{collar, dense_analysis, heated, rolled, scene_with};
 
@@ -123,10 +123,7 @@ fn without_heat_everything_stays_as_it_was() {
 fn a_buckled_blade_is_an_error_with_the_remedy() {
     let hot = heated(&collar(), 150.0);
     for message in [
-        Analysis::new(&hot, &|_, _| ())
-            .map(drop)
-            .unwrap_err()
-            .to_string(),
+        Analysis::new(&hot).map(drop).unwrap_err().to_string(),
         Check::new(&hot, &Limits::at(100.0))
             .map(drop)
             .unwrap_err()
@@ -146,8 +143,8 @@ fn the_krein_index_holds_under_membrane_stress() {
     });
     let stressed = scene_with(&Scene::paper(), membrane);
     let draft = stressed.edited(|saw| saw.tolerance = Some(1e-2)).unwrap();
-    let plain = Analysis::new(&Scene::paper(), &|_, _| ()).unwrap();
-    let analysis = Analysis::new(&draft, &|_, _| ()).unwrap();
+    let plain = Analysis::new(&Scene::paper()).unwrap();
+    let analysis = Analysis::new(&draft).unwrap();
     let certificate = &analysis.chart.certificate;
     assert!(certificate.speeds_checked > 20 && certificate.violations.is_empty());
     let lowest = |a: &Analysis| rpm(a.model.critical[0].speed_rad_per_s);
@@ -164,7 +161,7 @@ fn sensitivities_to_heat_and_tension() {
     });
     let scene = scene_with(&Scene::paper(), membrane);
     let analysis = dense_analysis(&scene, SMALL, [300.0, 2000.0], 12);
-    let found = sensitivities(&scene, &analysis, rad_per_s(400.0)).unwrap();
+    let found = sensitivities(&analysis, rad_per_s(400.0)).unwrap();
     let of_membrane: Vec<_> = found
         .iter()
         .filter(|s| s.parameter.starts_with("membrane."))
@@ -273,14 +270,14 @@ proptest! {
             });
             scene = swept.unwrap();
         }
-        match Analysis::new(&scene, &|_, _| ()) {
+        match Analysis::new(&scene) {
             Ok(analysis) => {
                 prop_assert!(analysis.chart.certificate.violations.is_empty());
                 let limits = HeatLimits::new(&scene, &analysis.model).unwrap().unwrap();
                 let buckling = limits.buckling.map_or(f64::INFINITY, |b| b.rise_k.abs());
                 prop_assert!(buckling > rise_k.abs());
             }
-            Err(SpectrumError::Buckled { share, .. }) => prop_assert!(share < 1.0 + 1e-9),
+            Err(AnalysisError::Spectrum(SpectrumError::Buckled { share, .. })) => prop_assert!(share < 1.0 + 1e-9),
             Err(other) => prop_assert!(false, "{other}"),
         }
     }

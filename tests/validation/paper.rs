@@ -155,7 +155,7 @@ fn rigid_motions_of_the_free_spinning_blade() {
 /// that they could merge with.
 #[test]
 fn the_free_blade_is_never_unstable() {
-    let analysis = Analysis::new(&scene("free-blade"), &|_, _| ()).unwrap();
+    let analysis = Analysis::new(&scene("free-blade")).unwrap();
     assert_close("end of the sweep", rpm(analysis.range.1), 4000.0, 1e-12);
     let chart = &analysis.chart;
     assert!(chart.instabilities.is_empty(), "{:?}", chart.instabilities);
@@ -182,7 +182,7 @@ fn guided() -> &'static Analysis {
     static ANALYSIS: OnceLock<Analysis> = OnceLock::new();
     ANALYSIS.get_or_init(|| {
         let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Reference);
-        Analysis::new(&scene.unwrap(), &|_, _| ()).unwrap()
+        Analysis::new(&scene.unwrap()).unwrap()
     })
 }
 

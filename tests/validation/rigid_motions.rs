@@ -48,7 +48,7 @@ fn the_krein_index_matches_at_every_speed() {
         let range = (0.0, rad_per_s(2400.0));
         let plate = Plate::new(&scene, RESOLUTION);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        assert_eq!(model.parts[0].full.free_rigid.len(), free);
+        assert_eq!(model.components[0].full.free_rigid.len(), free);
         let (bands, certificate) = undamped_bands(&model, range, 101).unwrap();
         println!("{free} free: {bands:#?}");
         assert_eq!(certificate.violations, Vec::<f64>::new());

@@ -69,7 +69,7 @@ pub fn dense_analysis(
         chart,
         flutter_speed: None,
         first_merge: None,
-        flutter_threshold_per_s: 0.25,
+        scene: scene.clone(),
         root_loci: None,
         estimated_relative_error: None,
         estimates: None,

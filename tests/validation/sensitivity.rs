@@ -53,7 +53,7 @@ fn they_agree_where_a_rigid_motion_is_free() {
 fn assert_central_differences(scene: &Scene) -> usize {
     let at = rad_per_s(1800.0);
     let middle = analysis_of(scene);
-    let found = sensitivities(scene, &middle, at).unwrap();
+    let found = sensitivities(&middle, at).unwrap();
     assert_eq!(found.len(), 3 + 3 * scene.guides().len());
     let share = 0.01;
     // Rounding 1e-11 and truncation (1e-4)² of the differences, over a step of 2e-4.

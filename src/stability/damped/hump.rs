@@ -61,13 +61,13 @@ fn stretch(
     path: &Path,
     range: std::ops::Range<usize>,
 ) -> Result<Stretch, SpectrumError> {
-    let part = spectra[path[range.start].0].values[path[range.start].1].part;
+    let component = spectra[path[range.start].0].values[path[range.start].1].component;
     let point = |k: usize| curve_point(&spectra[path[k].0], path[k].1);
     let mut curve: Vec<CurvePoint> = range.clone().map(point).collect();
     let (first, last) = (path[range.start].0, path[range.end - 1].0);
     if range.start > 0 {
         let outside = point(range.start - 1);
-        curve.insert(0, onset(solver, part, outside, curve[0])?);
+        curve.insert(0, onset(solver, component, outside, curve[0])?);
     } else if first > 0 {
         let speed = 0.5 * (spectra[first - 1].speed + spectra[first].speed);
         curve.insert(0, moved(curve[0], speed));
@@ -75,13 +75,13 @@ fn stretch(
     let inside = curve[curve.len() - 1];
     if range.end < path.len() {
         let outside = point(range.end);
-        curve.push(onset(solver, part, outside, inside)?);
+        curve.push(onset(solver, component, outside, inside)?);
     } else if last + 1 < spectra.len() {
         let speed = 0.5 * (spectra[last].speed + spectra[last + 1].speed);
         curve.push(moved(inside, speed));
     }
     Ok(Stretch {
-        curve: with_extrema(solver, part, curve)?,
+        curve: with_extrema(solver, component, curve)?,
         cut: [
             range.start == 0 && first == 0,
             range.end == path.len() && last + 1 == spectra.len(),
@@ -109,7 +109,7 @@ fn moved(point: CurvePoint, speed_rad_per_s: f64) -> CurvePoint {
 /// Where Re λ = 0 between a point outside a stretch and its neighbour inside.
 fn onset(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -117,13 +117,13 @@ fn onset(
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
-    root(solver, part, [outside, inside], |p| p.lambda.re)
+    root(solver, component, [outside, inside], |p| p.lambda.re)
 }
 
 /// A curve with every speed at which its growth is largest or smallest.
 fn with_extrema(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     curve: Vec<CurvePoint>,
 ) -> Result<Vec<CurvePoint>, SpectrumError> {
     let mut full = Vec::with_capacity(curve.len());
@@ -135,7 +135,7 @@ fn with_extrema(
         let width = next.speed_rad_per_s - curve[k].speed_rad_per_s;
         let turns = (curve[k].slope.re < 0.0) != (next.slope.re < 0.0);
         if turns && width > SPEED_TOLERANCE * next.speed_rad_per_s {
-            let found = root(solver, part, [curve[k], next], |p| p.slope.re)?;
+            let found = root(solver, component, [curve[k], next], |p| p.slope.re)?;
             let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
             if !ends.contains(&found.speed_rad_per_s) {
                 full.push(found);
@@ -148,7 +148,7 @@ fn with_extrema(
 /// The point between two points of a path at which a number of it is zero, by false position.
 fn root(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     [mut low, mut high]: [CurvePoint; 2],
     number: impl Fn(&CurvePoint) -> f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -167,7 +167,7 @@ fn root(
             true => 0.5,
             false => (at_low / (at_low - at_high)).clamp(1e-3, 0.999),
         };
-        let found = between_points(solver, part, [low, high], share)?;
+        let found = between_points(solver, component, [low, high], share)?;
         let value = number(&found);
         let moves = (found.speed_rad_per_s - best.speed_rad_per_s).abs();
         if value.abs() <= number(&best).abs() {
@@ -191,7 +191,7 @@ fn root(
 /// The point of a path at a share of the way between two of its points.
 fn between_points(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     points: [CurvePoint; 2],
     share: f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -199,12 +199,12 @@ fn between_points(
     let ends = points.map(|p| Eigenvalue {
         lambda: p.lambda,
         slope: p.slope,
-        part,
+        component,
         action: 1,
     });
     let speed = from + share * (to - from);
     let expected = between(&ends, to - from, share);
-    let found = solver.nearest(speed, part, expected)?;
+    let found = solver.nearest(speed, component, expected)?;
     Ok(CurvePoint {
         speed_rad_per_s: speed,
         lambda: found.map_or(expected, |f| f.lambda),

@@ -112,7 +112,7 @@ impl Link {
 /// change as the mean of both slopes says, and the slopes must be alike. The second part tells
 /// two paths apart that cross in the middle of the interval.
 fn misfit(x: &Eigenvalue, y: &Eigenvalue, width: f64) -> (f64, Eigenvalue) {
-    if x.part != y.part {
+    if x.component != y.component {
         return (f64::INFINITY, *y);
     }
     let off = |y: &Eigenvalue| {

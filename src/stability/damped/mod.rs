@@ -17,6 +17,7 @@ use rayon::prelude::*;
 
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::certificate::Certificate;
+use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
 use crate::spectrum::{
@@ -37,7 +38,7 @@ pub(super) fn charted(
     range: (f64, f64),
     count: usize,
     progress: Progress<'_>,
-) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let twin = twin_bands(model, range)?;
     let mut speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
@@ -61,8 +62,7 @@ fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instabilit
         return Ok(Vec::new());
     }
     let critical = SpectralModel::critical_speeds(&plate)?;
-    let stop = &model.counters.stop;
-    let twin = SpectralModel::stoppable(plate, critical, range, Strategy::Bands, stop)?;
+    let twin = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
     let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS)?;
     Ok(bands)
 }

@@ -21,8 +21,8 @@ pub struct Eigenvalue {
     pub lambda: c64,
     /// dλ/dΩ.
     pub slope: c64,
-    /// Independent part of the blade that it belongs to.
-    pub part: usize,
+    /// Independent component of the blade that it belongs to.
+    pub component: usize,
     /// Sign of the action, −1 for a reflected wave.
     pub action: i8,
 }
@@ -48,13 +48,13 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// The eigenvalue of a part next to an expected one.
-    pub fn nearest(&self, part: usize, expected: c64) -> Option<Eigenvalue> {
+    /// The eigenvalue of a component next to an expected one.
+    pub fn nearest(&self, component: usize, expected: c64) -> Option<Eigenvalue> {
         let distance = |v: &Eigenvalue| (v.lambda - expected).norm();
         self.values
             .iter()
             .flat_map(|v| [*v, v.conj()])
-            .filter(|v| v.part == part)
+            .filter(|v| v.component == component)
             .min_by(|x, y| distance(x).total_cmp(&distance(y)))
     }
 }
@@ -84,17 +84,17 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// The eigenvalue of a part at a speed next to an expected one, or its conjugate.
+    /// The eigenvalue of a component at a speed next to an expected one, or its conjugate.
     pub fn nearest(
         &self,
         speed: f64,
-        part: usize,
+        component: usize,
         expected: c64,
     ) -> Result<Option<Eigenvalue>, SpectrumError> {
         let modes = self.modes(speed)?;
         let upper = c64::new(expected.re, expected.im.abs());
         let distance = |m: &&Mode| (m.lambda - upper).norm();
-        let same = modes.iter().filter(|m| m.part == part);
+        let same = modes.iter().filter(|m| m.component == component);
         let nearest = same.min_by(|x, y| distance(x).total_cmp(&distance(y)));
         Ok(nearest.map(|mode| {
             let found = self.eigenvalue(speed, mode);
@@ -121,7 +121,7 @@ impl<'a> Solver<'a> {
             lambda: mode.lambda,
             // Where two eigenvalues meet.
             slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
-            part: mode.part,
+            component: mode.component,
             action: mode.action,
         }
     }

@@ -87,7 +87,7 @@ fn halves(
 /// Whether the cubic of a pair meets the growth in the middle.
 fn is_drawn(solver: &Solver<'_>, pair: &Pair, middle: &Spectrum) -> bool {
     let expected = pair.at(0.5);
-    let found = middle.nearest(pair.ends[0].part, expected);
+    let found = middle.nearest(pair.ends[0].component, expected);
     found.is_some_and(|found| {
         let size = pair.growth().max(found.lambda.re);
         let tolerance = CURVE_TOLERANCE * size + CURVE_FLOOR * solver.highest();
@@ -111,7 +111,7 @@ fn place_to_look(pairs: &[Pair]) -> Option<f64> {
     let reflected = pairs.iter().filter(|p| p.ends[0].action < 0);
     let mut crossings = reflected.flat_map(|minus| {
         let others = pairs.iter().filter(|p| p.ends[0].action > 0);
-        let others = others.filter(|p| p.ends[0].part == minus.ends[0].part);
+        let others = others.filter(|p| p.ends[0].component == minus.ends[0].component);
         others.filter_map(|plus| crossing(plus, minus))
     });
     crossings.next()

@@ -7,14 +7,16 @@ use std::sync::atomic::Ordering;
 use faer::{Col, Mat, Scale, c64};
 use rayon::prelude::*;
 
-use super::projection::{Lifted, Projection, orthonormal};
+use super::arnoldi::lowest_eigenpairs;
+use super::companion::companion_eigenpairs;
+use super::critical::NamedCriticalSpeed;
+use super::error::SpectrumError;
+use super::mode::{ModeKind, classify};
+use super::projection::Projection;
+use super::residual::Lifted;
+use super::vectors::{Eigenpair, orthonormal, quadratic_form, split};
+use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
-
-use super::dense::Eigenpair;
-use super::mode::{ModeKind, classify, quadratic_form, split};
-use super::model::WorkCounters;
-use super::part::NamedCriticalSpeed;
-use super::{SpectrumError, companion_eigenpairs, lowest_eigenpairs};
 
 /// Modes a chart shows at the lowest speed.
 const CHART_MODES: usize = 12;
@@ -57,7 +59,7 @@ pub struct GuidedReductions {
 /// the chart's height, and every reflected one, is right in between too.
 ///
 /// # Errors
-/// [`SpectrumError::Stopped`].
+/// [`SpectrumError::Cancelled`].
 pub fn of_guided(
     system: &GyroscopicSystem,
     range: (f64, f64),
@@ -71,7 +73,7 @@ pub fn of_guided(
         || builder.chart_height(range.0),
     );
     let ((low_rad_per_s, last), (chart_rad_per_s, first)) = (reflected?, drawn?);
-    counters.stop.check()?;
+    counters.cancellation.check()?;
     builder.window = chart_rad_per_s.max(low_rad_per_s);
     builder.add_first_snapshots([Some(first), last])?;
     let low = match low_rad_per_s > 0.0 && system.is_conservative() {
@@ -286,7 +288,7 @@ impl<'a> Builder<'a> {
     fn whole_range(&mut self, height: f64) -> Result<Projection, SpectrumError> {
         let mut settled: Vec<f64> = Vec::new();
         loop {
-            self.counters.stop.check()?;
+            self.counters.cancellation.check()?;
             let basis = self.basis(&self.snapshots, height);
             let projection = Projection::new(self.system, basis, self.range.1);
             let mut halfway = self.halfway();
@@ -320,7 +322,7 @@ impl<'a> Builder<'a> {
     fn pieces(&mut self) -> Result<Vec<Projection>, SpectrumError> {
         let mut finished: Vec<Projection> = Vec::new();
         loop {
-            self.counters.stop.check()?;
+            self.counters.cancellation.check()?;
             let is_open = |pair: &&[Snapshot]| {
                 let to = pair[1].speed;
                 finished.iter().all(|piece| piece.to_rad_per_s != to)

@@ -7,19 +7,20 @@ use faer::{Col, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::dense::Eigenpair;
+use super::companion::companion_eigenpairs;
+use super::error::SpectrumError;
+use super::hamiltonian::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
-use super::model::WorkCounters;
-use super::pair::{ModePair, standing_states};
-use super::state::{State, StateModel};
-use super::{SpectrumError, companion_eigenpairs};
+use super::mode_pair::{ModePair, standing_states};
+use super::vectors::Eigenpair;
+use super::work::WorkCounters;
 
 /// A projected system with the frequency up to which its modes are complete.
 #[derive(Debug, Clone)]
-pub struct LowModel<'a> {
+pub struct ReflectedModel<'a> {
     system: &'a GyroscopicSystem,
     /// The same between two speeds, on the states of the modes at both.
-    local: Option<StateModel>,
+    local: Option<HamiltonianReduction>,
     /// Critical speeds and their standing waves.
     standing: Vec<(f64, Col<f64>)>,
     height_rad_per_s: f64,
@@ -28,7 +29,7 @@ pub struct LowModel<'a> {
 
 /// The low modes of one speed.
 #[derive(Debug, Clone)]
-pub struct LowModes {
+pub struct ReflectedModes {
     /// Ω.
     pub speed_rad_per_s: f64,
     /// Those above the height are there to tell what comes next, and not to be trusted to
@@ -42,14 +43,14 @@ pub struct LowModes {
 /// Modes up to this multiple of the height help to span those below it.
 const SPAN_MARGIN: f64 = 1.2;
 
-impl<'a> LowModel<'a> {
+impl<'a> ReflectedModel<'a> {
     pub(super) fn new(
         system: &'a GyroscopicSystem,
         standing: Vec<(f64, Col<f64>)>,
         height_rad_per_s: f64,
         counters: &'a WorkCounters,
     ) -> Self {
-        LowModel {
+        ReflectedModel {
             system,
             local: None,
             standing,
@@ -62,8 +63,8 @@ impl<'a> LowModel<'a> {
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn modes(&self, speed_rad_per_s: f64) -> Result<LowModes, SpectrumError> {
-        self.counters.stop.check()?;
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<ReflectedModes, SpectrumError> {
+        self.counters.cancellation.check()?;
         let pairs = match &self.local {
             Some(local) => {
                 self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
@@ -81,7 +82,7 @@ impl<'a> LowModel<'a> {
             .map(|pair| State::new(self.system, speed_rad_per_s, pair.clone()))
             .collect();
         let modes = classify(self.system, speed_rad_per_s, 0, pairs);
-        Ok(LowModes {
+        Ok(ReflectedModes {
             speed_rad_per_s,
             modes,
             states,
@@ -91,7 +92,7 @@ impl<'a> LowModel<'a> {
     /// The same between two speeds, on the states of the modes at both and on the standing
     /// waves between them: few states, whose error falls with the fourth power of the
     /// distance and vanishes at both ends and where a wave stands.
-    pub fn between(&self, ends: [&LowModes; 2]) -> Self {
+    pub fn between(&self, ends: [&ReflectedModes; 2]) -> Self {
         // Without the momentum of free rigid motions, which depends on the speed, two ends
         // do not span what is between.
         if !self.system.free_rigid.is_empty() {
@@ -111,15 +112,15 @@ impl<'a> LowModel<'a> {
         for end in ends {
             states.extend(end.states.iter().cloned());
         }
-        LowModel {
-            local: StateModel::new(self.system, self.height_rad_per_s, &states),
+        ReflectedModel {
+            local: HamiltonianReduction::new(self.system, self.height_rad_per_s, &states),
             ..self.clone()
         }
     }
 
     /// The projected system itself, where no speeds are near enough to be between.
     pub fn whole(&self) -> Self {
-        LowModel {
+        ReflectedModel {
             local: None,
             ..self.clone()
         }

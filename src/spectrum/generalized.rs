@@ -1,42 +1,11 @@
-//! Critical speeds: K₀ x = Ω² (N − K_σ) x, without a sweep.
+//! The symmetric pencil A − m B.
 
 use faer::linalg::solvers::SelfAdjointEigen;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Col, Mat, Par, Scale, Side};
 
-use crate::system::GyroscopicSystem;
-
-use super::{SpectrumError, Stop};
-
-/// A speed at which K(Ω) is singular: a wave stands still in space.
-#[derive(Debug, Clone)]
-pub struct CriticalSpeed {
-    /// Ω.
-    pub speed_rad_per_s: f64,
-    /// The standing wave, ‖x‖ = 1.
-    pub shape: Col<f64>,
-}
-
-/// Every critical speed of a part of the blade, ascending.
-///
-/// With A = K₀ = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
-/// [`GyroscopicSystem::standing_spin`]) the values 1/Ω² are the positive
-/// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
-/// most accurate. A and B both vanish on the rigid motions that no guide holds, so
-/// stiffening them makes A definite and moves nothing else.
-///
-/// # Errors
-/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
-/// [`SpectrumError::NoConvergence`].
-pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
-    let softening = Scale(-1.0) * system.standing_spin();
-    let found = singular_multiples(&system.stiffness, &system.free_rigid, &softening)?;
-    let speeds = found.into_iter().map(|(square, shape)| CriticalSpeed {
-        speed_rad_per_s: square.sqrt(),
-        shape,
-    });
-    Ok(speeds.collect())
-}
+use super::error::SpectrumError;
+use super::work::Cancellation;
 
 /// Every m > 0 at which A − m B is singular, ascending, with x of (A − m B) x = 0, ‖x‖ = 1, for
 /// symmetric A and B. A is positive definite but for the motions `free`, on which both vanish.
@@ -49,7 +18,7 @@ pub fn singular_multiples(
     free: &[Col<f64>],
     softening: &Mat<f64>,
 ) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
-    Stop::current().check()?;
+    Cancellation::current().check()?;
     let order = stiffness.nrows();
     let mut stiffness = stiffness.clone();
     let mean = stiffness.norm_l2() / (order as f64).sqrt();

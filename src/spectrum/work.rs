@@ -1,29 +1,44 @@
-//! The wish that a computation may end before it is done.
+//! Counters of the work done, and the flag by which it is cancelled.
 
 use std::cell::RefCell;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::SpectrumError;
+use super::error::SpectrumError;
+
+/// Work done, so that a silent slow-down fails a test.
+#[derive(Debug, Default)]
+pub struct WorkCounters {
+    /// Eigenproblems solved on the projected matrices.
+    pub reduced_solves: AtomicUsize,
+    /// Eigenproblems of the few states between two speeds.
+    pub local_solves: AtomicUsize,
+    /// Pairs of modes refined by inverse iteration on the projected matrices.
+    pub refined_pairs: AtomicUsize,
+    /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
+    pub full_solves: AtomicUsize,
+    /// Looked at where work is counted.
+    pub cancellation: Cancellation,
+}
 
 /// A flag shared by a computation and whoever may lose interest in it. The computation looks
-/// at it between two eigenproblems and then ends with [`SpectrumError::Stopped`].
+/// at it between two eigenproblems and then ends with [`SpectrumError::Cancelled`].
 #[derive(Debug, Clone, Default)]
-pub struct Stop(Arc<AtomicBool>);
+pub struct Cancellation(Arc<AtomicBool>);
 
 thread_local! {
     /// The flag of the computation that this thread works for.
-    static CURRENT: RefCell<Stop> = RefCell::default();
+    static CURRENT: RefCell<Cancellation> = RefCell::default();
 }
 
-impl Stop {
-    /// The flag of the computation that this thread works for, see [`Stop::watched`]; one that
+impl Cancellation {
+    /// The flag of the computation that this thread works for, see [`Cancellation::watched`]; one that
     /// nobody sets on other threads.
     pub fn current() -> Self {
         CURRENT.with_borrow(Clone::clone)
     }
 
-    /// Does work that looks at this flag wherever it asks for [`Stop::current`]: on threads of its
+    /// Does work that looks at this flag wherever it asks for [`Cancellation::current`]: on threads of its
     /// own, as many as the current pool has, so that several computations can be watched at once.
     ///
     /// # Errors
@@ -50,21 +65,21 @@ impl Stop {
             .build()
     }
 
-    /// Asks the computation to end.
-    pub fn ask(&self) {
+    /// Cancels the computation.
+    pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
     /// Whether it was asked to.
-    pub fn is_asked(&self) -> bool {
+    pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
     /// # Errors
-    /// [`SpectrumError::Stopped`] once the computation was asked to end.
+    /// [`SpectrumError::Cancelled`] once the computation was asked to end.
     pub fn check(&self) -> Result<(), SpectrumError> {
-        match self.is_asked() {
-            true => Err(SpectrumError::Stopped),
+        match self.is_cancelled() {
+            true => Err(SpectrumError::Cancelled),
             false => Ok(()),
         }
     }
@@ -79,14 +94,18 @@ mod tests {
     /// Every thread of a watched computation sees its flag and no other's.
     #[test]
     fn two_computations_are_stopped_apart() {
-        let (first, second) = (Stop::default(), Stop::default());
-        let seen = |stop: &Stop| {
-            let asked = || (0..64).into_par_iter().map(|_| Stop::current().is_asked());
+        let (first, second) = (Cancellation::default(), Cancellation::default());
+        let seen = |stop: &Cancellation| {
+            let asked = || {
+                (0..64)
+                    .into_par_iter()
+                    .map(|_| Cancellation::current().is_cancelled())
+            };
             stop.watched(|| asked().collect::<Vec<_>>()).unwrap()
         };
-        first.ask();
+        first.cancel();
         assert!(seen(&first).into_iter().all(|asked| asked));
         assert!(!seen(&second).into_iter().any(|asked| asked));
-        assert!(!Stop::current().is_asked());
+        assert!(!Cancellation::current().is_cancelled());
     }
 }

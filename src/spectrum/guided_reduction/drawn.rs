@@ -3,10 +3,10 @@
 use std::sync::atomic::Ordering;
 
 use super::{Builder, Snapshot};
-use crate::spectrum::dense::Eigenpair;
-use crate::spectrum::pair::standing_states;
+use crate::spectrum::hamiltonian::{HamiltonianReduction, State};
+use crate::spectrum::mode_pair::standing_states;
 use crate::spectrum::projection::Projection;
-use crate::spectrum::state::{State, StateModel};
+use crate::spectrum::vectors::Eigenpair;
 
 /// Largest estimated error of a frequency that is drawn from them, relative to the chart's height.
 const LOCAL_TOLERANCE: f64 = 1e-5;
@@ -21,7 +21,7 @@ impl Builder<'_> {
         piece: &Projection,
         ends: &[Snapshot],
         (middle, pairs): (f64, Vec<Eigenpair>),
-    ) -> Vec<(f64, Option<StateModel>)> {
+    ) -> Vec<(f64, Option<HamiltonianReduction>)> {
         let low = |pairs: Vec<Eigenpair>| -> Vec<Eigenpair> {
             let height = DRAWN_MARGIN * self.window;
             let low = |pair: &Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
@@ -47,14 +47,14 @@ impl Builder<'_> {
                 }
             }
             states.extend(inner.iter().cloned().chain(outer));
-            let model = StateModel::new(&piece.reduced, self.window, &states);
+            let model = HamiltonianReduction::new(&piece.reduced, self.window, &states);
             let good = model.filter(|model| self.draws_well(piece, model, 0.5 * (from + to)));
             drawn.push((to, good));
         }
         drawn
     }
 
-    fn draws_well(&self, piece: &Projection, model: &StateModel, speed: f64) -> bool {
+    fn draws_well(&self, piece: &Projection, model: &HamiltonianReduction, speed: f64) -> bool {
         self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
         // What these states cannot draw, the piece itself does.
         model.eigenpairs(speed).is_ok_and(|pairs| {

@@ -8,10 +8,9 @@ use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::deflation::Deflation;
-use super::{SpectrumError, Stop};
-
-/// λ, in 1/s, and q with (λ² + λD + K) q = 0.
-pub type Eigenpair = (c64, Col<c64>);
+use super::error::SpectrumError;
+use super::vectors::{Eigenpair, by_magnitude, unit};
+use super::work::Cancellation;
 
 /// The power of two next to the root mean square of the natural frequencies.
 /// Dividing time by it is exact, and keeps the blocks of the companion matrix of
@@ -65,7 +64,7 @@ pub(super) fn deflated_companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<(Mat<f64>, f64, Option<Deflation>), SpectrumError> {
-    Stop::current().check()?;
+    Cancellation::current().check()?;
     let (state, scale) = companion(system, speed_rad_per_s)?;
     let deflation = Deflation::new(system, speed_rad_per_s, scale);
     let state = match &deflation {
@@ -79,7 +78,7 @@ pub(super) fn deflated_companion(
 /// each rigid motion that nothing holds there is one, with λ = 0 exactly.
 ///
 /// # Errors
-/// [`SpectrumError::NotFinite`], [`SpectrumError::NoConvergence`] or [`SpectrumError::Stopped`].
+/// [`SpectrumError::NotFinite`], [`SpectrumError::NoConvergence`] or [`SpectrumError::Cancelled`].
 pub fn companion_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -104,15 +103,4 @@ pub fn companion_eigenpairs(
         .chain(free)
         .collect();
     Ok(by_magnitude(pairs))
-}
-
-pub(super) fn unit(q: faer::ColRef<'_, c64>) -> Col<c64> {
-    let norm = q.norm_l2();
-    let factor = if norm > 0.0 { 1.0 / norm } else { 0.0 };
-    Scale(c64::new(factor, 0.0)) * q
-}
-
-pub(super) fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
-    pairs.sort_by(|x, y| x.0.norm().total_cmp(&y.0.norm()));
-    pairs
 }

@@ -13,10 +13,8 @@ use faer::{Col, Mat, Scale, c64};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-use super::SpectrumError;
-use super::dense::{Eigenpair, by_magnitude, unit};
-use super::mode::split;
-use super::projection::orthonormal;
+use super::error::SpectrumError;
+use super::vectors::{Eigenpair, by_magnitude, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,7 +41,7 @@ impl State {
 
 /// A system projected on few states.
 #[derive(Debug, Clone)]
-pub struct StateModel {
+pub struct HamiltonianReduction {
     deflections: Mat<f64>,
     /// (WᵀJᵀW)⁻¹ Wᵀ S_k W in units of `scale`.
     terms: [Mat<f64>; 3],
@@ -55,7 +53,7 @@ const SPAN_TOLERANCE: f64 = 1e-9;
 /// Smallest pivot of the symplectic form that can be divided by.
 const LEAST_PIVOT: f64 = 1e-9;
 
-impl StateModel {
+impl HamiltonianReduction {
     /// Projects a system on the real and imaginary parts of states; `scale`, in 1/s, makes
     /// momenta of the size of deflections. `None` where the symplectic form is singular on
     /// them: then a state lacks its partner.
@@ -97,7 +95,7 @@ impl StateModel {
             return None;
         }
         let over_form = |term: Mat<f64>| factors.solve(Scale(scale.powi(-2)) * term);
-        Some(StateModel {
+        Some(HamiltonianReduction {
             deflections: q.to_owned(),
             terms: [rest, linear, square].map(over_form),
             scale,

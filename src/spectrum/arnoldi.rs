@@ -14,9 +14,9 @@ use faer::{Col, ColRef, Mat, Scale, c64};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-use super::SpectrumError;
-use super::dense::{Eigenpair, by_magnitude, unit};
-use super::mode::{rigid_noise, split};
+use super::error::SpectrumError;
+use super::mode::rigid_noise;
+use super::vectors::{Eigenpair, by_magnitude, split, unit};
 
 /// (A − σ)⁻¹ in units of σ: eigenvalues σ/(λ − σ).
 struct ShiftedInverse {

@@ -5,12 +5,12 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::state::{State, StateModel};
+use super::hamiltonian::{HamiltonianReduction, State};
 
 /// The invariant subspace of two modes at one speed, and what it says next to that speed.
 #[derive(Debug)]
 pub struct ModePair {
-    model: StateModel,
+    model: HamiltonianReduction,
     subspace: Subspace,
 }
 
@@ -121,7 +121,7 @@ impl ModePair {
                 state
             })
             .collect();
-        let model = StateModel::new(system, scale, &states)?;
+        let model = HamiltonianReduction::new(system, scale, &states)?;
         (model.order() == 4).then_some(ModePair { model, subspace })
     }
 

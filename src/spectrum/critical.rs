@@ -1,0 +1,108 @@
+//! Critical speeds: K₀ x = Ω² (N − K_σ) x, without a sweep.
+
+use faer::{Col, Scale, c64};
+
+use crate::plate::Plate;
+use crate::system::GyroscopicSystem;
+
+use super::component::Component;
+use super::error::SpectrumError;
+use super::generalized::singular_multiples;
+use super::mode::{Mode, ModeKind};
+use super::mode_name::ModeName;
+
+/// A speed at which K(Ω) is singular: a wave stands still in space.
+#[derive(Debug, Clone)]
+pub struct CriticalSpeed {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// The standing wave, ‖x‖ = 1.
+    pub shape: Col<f64>,
+}
+
+/// Every critical speed of a component of the blade, ascending.
+///
+/// With A = K₀ = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
+/// [`GyroscopicSystem::standing_spin`]) the values 1/Ω² are the positive
+/// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
+/// most accurate. A and B both vanish on the rigid motions that no guide holds, so
+/// stiffening them makes A definite and moves nothing else.
+///
+/// # Errors
+/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
+/// [`SpectrumError::NoConvergence`].
+pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
+    let softening = Scale(-1.0) * system.standing_spin();
+    let found = singular_multiples(&system.stiffness, &system.free_rigid, &softening)?;
+    let speeds = found.into_iter().map(|(square, shape)| CriticalSpeed {
+        speed_rad_per_s: square.sqrt(),
+        shape,
+    });
+    Ok(speeds.collect())
+}
+
+/// A standing wave at its critical speed.
+#[derive(Debug, Clone)]
+pub struct NamedCriticalSpeed {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub circles: usize,
+    /// Index of the component it belongs to.
+    pub component: usize,
+    /// The standing wave in the unknowns of its component, ‖x‖ = 1.
+    pub shape: Col<f64>,
+}
+
+/// Every critical speed of a plate, ascending, with the name of its wave.
+pub(super) fn named_critical_speeds(
+    plate: &Plate,
+    components: &[Component],
+) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+    let mut named = Vec::new();
+    for (index, component) in components.iter().enumerate() {
+        for critical in critical_speeds(&component.full)? {
+            let speed = critical.speed_rad_per_s;
+            let name = standing_name(plate, component.first, &critical.shape, speed);
+            named.push(NamedCriticalSpeed {
+                speed_rad_per_s: speed,
+                diameters: name.diameters,
+                circles: name.circles,
+                component: index,
+                shape: critical.shape,
+            });
+        }
+    }
+    named.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+    Ok(named)
+}
+
+/// The name of a wave that stands still, from its unknowns in a component.
+pub(crate) fn standing_name(
+    plate: &Plate,
+    first: usize,
+    unknowns: &Col<f64>,
+    speed_rad_per_s: f64,
+) -> ModeName {
+    let mut shape = Col::zeros(plate.degrees_of_freedom());
+    for i in 0..unknowns.nrows() {
+        shape[first + i] = c64::new(unknowns[i], 0.0);
+    }
+    // A shape at rest has no kinetic energy to be named by: it is named as an oscillation.
+    let lambda = match speed_rad_per_s > 0.0 {
+        true => c64::new(0.0, 0.0),
+        false => c64::new(0.0, 1.0),
+    };
+    let standing = Mode {
+        lambda,
+        kind: ModeKind::Positive,
+        frequency_slope: 0.0,
+        growth_slope: c64::new(0.0, 0.0),
+        action: 1,
+        component: 0,
+        coordinates: Col::zeros(0),
+    };
+    ModeName::new(plate, &standing, &shape, speed_rad_per_s)
+}

@@ -1,0 +1,46 @@
+//! Why an eigenproblem has no answer.
+
+/// Why a spectrum could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum SpectrumError {
+    /// The QR iteration did not converge.
+    #[error("the eigenvalues of order {order} did not converge at {rpm} rpm")]
+    NoConvergence {
+        /// Order of the state matrix.
+        order: usize,
+        /// Rotation speed.
+        rpm: f64,
+    },
+    /// The stiffness at rest is not positive definite, so that no speed is critical
+    /// in the usual sense.
+    #[error(
+        "the blade is not stable at rest: its stiffness of order {order} is not positive definite"
+    )]
+    UnstableAtRest {
+        /// Order of the stiffness matrix.
+        order: usize,
+    },
+    /// Heat, roll tension or residual stress press the blade out of its plane.
+    #[error(
+        "the blade buckles at rest, in {diameters} nodal diameters: it stays flat up to {share:.3} of the stress of `membrane` and no more; lower the temperature or the residual stress there, roll it otherwise (a hot rim and roll tension work against each other), or hold the blade by stiffer guides"
+    )]
+    Buckled {
+        /// Nodal diameters of the shape that it takes.
+        diameters: usize,
+        /// Share of the scene's membrane stress under which it would buckle.
+        share: f64,
+    },
+    /// Numbers so far apart that their products overflow.
+    #[error(
+        "the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart"
+    )]
+    NotFinite {
+        /// Order of the matrix.
+        order: usize,
+        /// Rotation speed.
+        rpm: f64,
+    },
+    /// Whoever asked for the spectrum does not want it any more, see [`Cancellation`].
+    #[error("the computation was cancelled")]
+    Cancelled,
+}

@@ -1,0 +1,72 @@
+//! What is left of the equation of motion when an eigenpair is put into it.
+
+use faer::{Col, Mat, c64};
+
+use crate::system::GyroscopicSystem;
+
+/// A mode of a projection on the whole component.
+#[derive(Debug)]
+pub struct Lifted {
+    /// Vq.
+    pub shape: Col<c64>,
+    /// L(λ)Vq.
+    pub residual: Col<c64>,
+}
+
+/// ‖D‖ and ‖K‖ at any speed, from the products of their terms: for residuals.
+#[derive(Debug)]
+pub struct MatrixNorms {
+    /// Products of K₀, K_σ − N and K_circ, which K(Ω) has with 1, Ω² and Ω.
+    stiffness: [[f64; 3]; 3],
+    /// Products of G and C, which D(Ω) has with 2Ω and 1.
+    velocity: [[f64; 2]; 2],
+}
+
+impl MatrixNorms {
+    /// The products of a system's terms.
+    pub fn new(system: &GyroscopicSystem) -> Self {
+        let stiffness = [
+            Some(&system.stiffness),
+            Some(&system.spin),
+            system.circulatory.as_ref(),
+        ];
+        let velocity = [Some(&system.gyroscopic), system.damping.as_ref()];
+        MatrixNorms {
+            stiffness: stiffness.map(|left| stiffness.map(|right| product(left, right))),
+            velocity: velocity.map(|left| velocity.map(|right| product(left, right))),
+        }
+    }
+
+    /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖) ‖q‖): the relative change of the matrices
+    /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
+    pub fn backward_error(&self, speed_rad_per_s: f64, lambda: c64, lifted: &Lifted) -> f64 {
+        let speed = speed_rad_per_s;
+        let stiffness = norm(&self.stiffness, [1.0, speed * speed, speed]);
+        let velocity = norm(&self.velocity, [2.0 * speed, 1.0]);
+        let size = lambda.norm_sqr() + lambda.norm() * velocity + stiffness;
+        let denominator = size * lifted.shape.norm_l2();
+        if denominator > 0.0 {
+            lifted.residual.norm_l2() / denominator
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Σ aᵢⱼ bᵢⱼ; zero for a term that is not there.
+fn product(left: Option<&Mat<f64>>, right: Option<&Mat<f64>>) -> f64 {
+    let Some((left, right)) = left.zip(right) else {
+        return 0.0;
+    };
+    let columns = left.col_iter().zip(right.col_iter());
+    columns.map(|(x, y)| x.transpose() * y).sum()
+}
+
+/// ‖Σ wᵢ Aᵢ‖ from the products of the Aᵢ.
+fn norm<const N: usize>(products: &[[f64; N]; N], weights: [f64; N]) -> f64 {
+    let rows = products.iter().zip(weights);
+    let square: f64 = rows
+        .map(|(row, w)| w * row.iter().zip(weights).map(|(p, v)| p * v).sum::<f64>())
+        .sum();
+    square.max(0.0).sqrt()
+}

@@ -1,0 +1,50 @@
+//! Complex vectors, real matrices, and eigenpairs made of them.
+
+use faer::{Col, ColRef, Mat, Scale, c64};
+
+/// λ, in 1/s, and q with (λ² + λD + K) q = 0.
+pub type Eigenpair = (c64, Col<c64>);
+
+/// Real and imaginary parts.
+pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
+    (
+        Col::from_fn(q.nrows(), |i| q[i].re),
+        Col::from_fn(q.nrows(), |i| q[i].im),
+    )
+}
+
+/// A q for a real matrix.
+pub fn real_times(matrix: &Mat<f64>, q: &Col<c64>) -> Col<c64> {
+    let (re, im) = split(q);
+    let (re, im) = (matrix * re, matrix * im);
+    Col::from_fn(matrix.nrows(), |i| c64::new(re[i], im[i]))
+}
+
+/// qᴴ A q for a real matrix.
+pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
+    q.adjoint() * real_times(matrix, q)
+}
+
+/// q/‖q‖; zero stays zero.
+pub fn unit(q: ColRef<'_, c64>) -> Col<c64> {
+    let norm = q.norm_l2();
+    let factor = if norm > 0.0 { 1.0 / norm } else { 0.0 };
+    Scale(c64::new(factor, 0.0)) * q
+}
+
+/// Ordered by |λ|.
+pub fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
+    pairs.sort_by(|x, y| x.0.norm().total_cmp(&y.0.norm()));
+    pairs
+}
+
+/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
+/// closer than `tolerance` to the span of the others are left out.
+pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
+    let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
+    let qr = matrix.col_piv_qr();
+    let rank = (0..rows.min(vectors.len()))
+        .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
+        .count();
+    qr.compute_thin_Q().subcols(0, rank).to_owned()
+}

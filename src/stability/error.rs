@@ -1,0 +1,48 @@
+//! Why a saw could not be analysed.
+
+use crate::campbell::CampbellError;
+use crate::spectrum::SpectrumError;
+
+/// Why a saw could not be analysed: an eigenproblem without an answer, or a sweep that the model
+/// does not hold for.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The chart would not fit into the memory allowed.
+    #[error(transparent)]
+    Campbell(CampbellError),
+    /// The blade would be torn long before the end of the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
+    )]
+    Overstretched {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Fastest speed allowed.
+        limit_rpm: f64,
+    },
+    /// Waves that the basis does not hold become critical within the sweep.
+    #[error(
+        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that this accuracy holds, are critical there; end the sweep earlier or ask for a finer accuracy"
+    )]
+    Unresolved {
+        /// End of the sweep.
+        to_rpm: f64,
+        /// Lowest critical speed of the most diameters.
+        limit_rpm: f64,
+        /// Largest number of nodal diameters in the basis.
+        diameters: usize,
+    },
+}
+
+impl From<CampbellError> for AnalysisError {
+    fn from(error: CampbellError) -> Self {
+        match error {
+            CampbellError::Spectrum(error) => AnalysisError::Spectrum(error),
+            error => AnalysisError::Campbell(error),
+        }
+    }
+}
