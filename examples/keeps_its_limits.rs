@@ -1,0 +1,15 @@
+//! Holds a saw against limits, as a test does: `cargo run --release --example keeps_its_limits`.
+
+use sawflutter::check::{Check, Limits};
+use sawflutter::scene::{Scene, rad_per_s};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let saw = Scene::paper(); // Scene::from_path("saws/edger.json")?
+    let limits = Limits {
+        min_flutter_rad_per_s: Some(rad_per_s(2000.0)),
+        ..Limits::at(rad_per_s(1250.0))
+    };
+    let check = Check::new(&saw, &limits)?;
+    assert!(check.passed(), "{:?}", check.failures());
+    Ok(())
+}
