@@ -62,9 +62,13 @@ pub fn axis_over(values: &[f64], places: [f64; 2]) -> Axis {
 
 /// Marks the place in a record from which on a linear model knows no more than the rate of
 /// growth.
-pub fn draw_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64, text: &str) {
+pub fn draw_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64) {
     let line = [[x, panel.top], [x, panel.bottom]];
     sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
+}
+
+/// Writes at that line what it is.
+pub fn label_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64, text: &str) {
     let length = text_width(text, LABEL_SIZE, Weight::Regular) + 16.0;
     let (anchor, x) = match panel.right - x < length {
         true => (Anchor::End, x - 8.0),

@@ -4,7 +4,7 @@
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
-use super::columns::{Columns, draw_end_of_model, name_of_row};
+use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
 use super::style::{
     ALARM, AXIS_SIZE, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, shorten, tint,
@@ -84,7 +84,9 @@ fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
         sheet.line(part, Stroke::solid(FORWARD, CURVE));
     }
     if let Some(until_s) = run.linear_until_s {
-        draw_end_of_model(sheet, panel, time.at(until_s), "the linear model ends");
+        let x = time.at(until_s);
+        draw_end_of_model(sheet, panel, x);
+        label_end_of_model(sheet, panel, x, "the linear model ends");
     }
     draw_verdict(sheet, panel, run);
 }
@@ -102,7 +104,14 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    let label = [(in_cut.left + in_cut.right) / 2.0, panel.top + 16.0];
+    // Beside the line at which the linear model ends, where that is in the cut.
+    let end = run.linear_until_s.map_or(in_cut.right, |s| time.at(s));
+    let end = end.clamp(in_cut.left, in_cut.right);
+    let free = match end - in_cut.left < in_cut.right - end {
+        true => [end, in_cut.right],
+        false => [in_cut.left, end],
+    };
+    let label = [(free[0] + free[1]) / 2.0, panel.top + 16.0];
     sheet.text(label, letters, "in the cut");
 }
 

@@ -7,7 +7,7 @@ use super::columns::draw_end_of_model;
 use super::declutter::{Wish, push_apart};
 use super::key::Key;
 use super::style::{
-    AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
+    ALARM, AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width,
 };
 use super::{FigureError, bands, heading, render};
@@ -60,11 +60,9 @@ pub(super) fn sheet(report: &RunUpReport) -> Sheet {
     label_critical_speeds(&mut sheet, report, &speed);
     draw_record(&mut sheet, report, &speed, &deflection);
     if let Some(until_rpm) = report.linear_until_rpm {
-        let text =
-            format!("more than {LINEAR_THICKNESSES} thicknesses: the linear model ends here");
-        draw_end_of_model(&mut sheet, &PANEL, speed.at(until_rpm), &text);
+        draw_end_of_model(&mut sheet, &PANEL, speed.at(until_rpm));
     }
-    draw_key(&mut sheet);
+    draw_key(&mut sheet, report.linear_until_rpm.is_some());
     sheet
 }
 
@@ -130,11 +128,22 @@ fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) 
     }
 }
 
-fn draw_key(sheet: &mut Sheet) {
-    Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0)
-        .shade(DIVERGENCE_SHADE)
+fn draw_key(sheet: &mut Sheet, model_ends: bool) {
+    let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
+    key.shade(DIVERGENCE_SHADE)
         .word("divergence")
         .shade(FLUTTER_SHADE)
         .word("flutter")
         .word("dashed: critical speeds [rpm]");
+    if model_ends {
+        let line = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
+            sheet.line(
+                [[x, y - 7.0], [x, y + 7.0]],
+                Stroke::solid(ALARM, 1.5 * HAIRLINE),
+            );
+        };
+        key.mark(2.0, line).word(&format!(
+            "more than {LINEAR_THICKNESSES} thicknesses: the linear model ends"
+        ));
+    }
 }

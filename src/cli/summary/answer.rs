@@ -116,7 +116,7 @@ fn flutter(text: &mut String, report: &Report) -> Result {
     match report.first_merge_rpm {
         Some(rpm) => writeln!(
             text,
-            "First flutter of all, whatever its growth: {rpm:.0} rpm"
+            "First flutter band, including weak ones: {rpm:.0} rpm"
         ),
         None => Ok(()),
     }

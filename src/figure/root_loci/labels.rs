@@ -76,7 +76,7 @@ fn ends_of_track(chart: &Chart, track: &Track) -> Option<Block> {
     let outer = samples.find(|s| s.rpm <= first || last <= s.rpm)?;
     let name = track.name.as_ref().filter(|_| outer.rpm <= first);
     let name = name.map(|name| match sign(track.look) {
-        Some(sign) => format!("{sign} : {name}"),
+        Some(sign) => format!("Krein sign {sign}, {name}"),
         None => name.clone(),
     });
     let way = match chart.loci.merge {
@@ -165,19 +165,19 @@ fn write_block(sheet: &mut Sheet, block: &Block, [x, centre]: [f64; 2], anchor: 
     }
 }
 
-/// The outermost points of the merged modes.
+/// The outermost points of the coalesced modes.
 fn label_peak(sheet: &mut Sheet, chart: &Chart) {
     let peak = chart.loci.peak;
     let [x, y] = plane::at(chart, &peak);
     let growth = format!("{} 1/s", two_digits(peak.growth));
-    let merged = if chart.loci.merge {
-        "merged, growing"
+    let what = if chart.loci.merge {
+        "coalesced, growing"
     } else {
         "growing"
     };
     let block = Block {
         lines: vec![
-            merged.to_owned(),
+            what.to_owned(),
             format!("peak {} rpm", chart.rpm(peak.rpm)),
             growth,
         ],
@@ -188,7 +188,10 @@ fn label_peak(sheet: &mut Sheet, chart: &Chart) {
     write_block(sheet, &block, [block.x, y], Anchor::Start);
     if chart.loci.merge {
         let block = Block {
-            lines: vec!["merged, decaying".to_owned(), "(mirror image)".to_owned()],
+            lines: vec![
+                "coalesced, decaying".to_owned(),
+                "(mirror image)".to_owned(),
+            ],
             colour: tint(FLUTTER, 0.75),
             x: 2.0 * chart.growth.at(0.0) - x - 12.0,
             centre: y,

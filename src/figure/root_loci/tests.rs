@@ -40,14 +40,14 @@ fn speeds_signs_and_modes_are_named() {
     for text in [
         "Root loci around the flutter onset at 2256 rpm",
         "Guided blade, 864 mm",
-        "+ : 4 diameters, backward",
+        "Krein sign +, 4 diameters, backward",
         "\u{2212} : 4 diameters, reflected",
         "onset 2256 rpm",
         "peak 2261 rpm",
         "end 2267 rpm",
         "2240 rpm",
         "2282 rpm",
-        "merged, growing",
+        "coalesced, growing",
         "0.53 1/s",
     ] {
         assert!(svg.contains(text), "{text}");
