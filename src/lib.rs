@@ -5,7 +5,8 @@
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
 //! [`report`] → [`figure`] → `explore`. [`check`], [`fit`] and [`place`] stand after [`stability`],
 //! [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
-//! [`plate`] alone.
+//! [`plate`] alone. [`analytical`] imports nothing: closed forms with their sources, which the
+//! tests hold the rest against.
 //!
 //! ```
 //! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
@@ -24,6 +25,7 @@
 #[cfg(test)]
 extern crate self as sawflutter;
 
+pub mod analytical;
 pub mod campbell;
 pub mod check;
 #[cfg(feature = "cli")]

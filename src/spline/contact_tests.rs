@@ -7,6 +7,7 @@ use proptest::prelude::*;
 
 use super::tests::scene_with;
 use super::*;
+use crate::analytical::oscillator::approach_m;
 
 /// A flank that a force meets head on gives way by the gap and (F/K)^{2/3}.
 #[test]
@@ -20,7 +21,7 @@ fn one_tooth_is_pressed_in_by_the_closed_form() {
         // At θ = 0 along −y, with the torque that puts its line on the tooth.
         let seat = contact.seat(Vector3::new(0.0, -force, -force)).unwrap();
         let pressed_in = -(seat.y + seat.z) - 0.25e-3;
-        let exact = (force / 6.96e9_f64).powf(2.0 / 3.0);
+        let exact = approach_m(force, 6.96e9);
         assert!(
             (pressed_in / exact - 1.0).abs() < 1e-8,
             "{pressed_in} {exact}"

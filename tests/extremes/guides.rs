@@ -1,6 +1,8 @@
 //! Guides: soft, rigid, tiny, larger than the blade, on the same spot, evenly spaced.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use sawflutter::analytical::free_wave::{on_a_bed_rad_per_s, space_frequencies_rad_per_s};
+use sawflutter::analytical::point_springs::{StandingWave, critical_speeds_rad_per_s};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, GuideFile, InPlane, Mount, SceneFile, rad_per_s};
 use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
@@ -29,15 +31,12 @@ fn collared() -> SceneFile {
 }
 
 /// Critical speeds of a clamped blade on one point spring at θ = 0, without its matrices: the
-/// sine waves do not feel the spring, and with the standing cosine waves x of the free blade,
-/// xᵀK_b x = 1, xᵀ(N − K_σ)x = μ, f = x(r₀), the others solve 1/k + Σ f²/(1 − Ω²μ) = 0, one
-/// between each two poles. With k → ∞ that is the pinned blade.
+/// sine waves do not feel the spring, and the standing cosine waves of the free blade are what
+/// the secular equation is made of. With k → ∞ that is the pinned blade.
 fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64> {
     let plate = Plate::new(&scene(file), resolution);
     let at_spring = plate.functions_at(0.3, 0.0);
-    let mut waves: Vec<(f64, f64)> = Vec::new();
-    let mut poles: Vec<f64> = Vec::new();
-    let mut critical: Vec<f64> = Vec::new();
+    let mut waves: Vec<StandingWave> = Vec::new();
     for block in &plate.harmonics {
         let lower = block.bending.clone().cholesky().unwrap().l();
         let inverse = lower.try_inverse().unwrap();
@@ -47,33 +46,16 @@ fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64>
         let values = DVector::from_row_slice(&at_spring[offset..offset + plate.basis.count()]);
         for (k, mu) in eigen.eigenvalues.iter().enumerate() {
             let shape = inverse.transpose() * eigen.eigenvectors.column(k);
-            waves.push((*mu, shape.dot(&values).powi(2)));
-            if *mu > 1e-12 * eigen.eigenvalues.max() && block.diameters > 1 {
-                poles.push(1.0 / mu);
-                critical.push(mu.recip().sqrt());
-            }
+            waves.push(StandingWave {
+                inverse_critical_speed_squared_s2: *mu,
+                deflection_m: shape.dot(&values),
+            });
         }
     }
-    poles.sort_by(f64::total_cmp);
-    let sum = |s: f64| {
-        let terms = waves.iter().map(|(mu, f2)| f2 / (1.0 - s * mu));
-        stiffness.recip() + terms.sum::<f64>()
-    };
-    for pair in poles.windows(2) {
-        let (mut low, mut high) = (pair[0], pair[1]);
-        while high - low > 1e-15 * high {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if sum(middle) < 0.0 {
-                low = middle
-            } else {
-                high = middle
-            }
-        }
-        critical.push((0.5 * (low + high)).sqrt());
-    }
+    let sines = waves.iter().map(|w| w.inverse_critical_speed_squared_s2);
+    let sines = sines.filter(|mu| *mu > 0.0).map(|mu| mu.recip().sqrt());
+    let mut critical = critical_speeds_rad_per_s(stiffness, &waves);
+    critical.extend(sines);
     critical.sort_by(f64::total_cmp);
     critical
 }
@@ -127,21 +109,25 @@ pub fn pad_under_the_whole_blade() -> Row {
     for stiffness in [1e-3, 1.0, 1e3, 1e6, 1e9, 1e12, 1e15] {
         let mut file = unguided();
         let free = Plate::new(&scene(&file), SMALL);
-        let per_mass = stiffness / 4.0 / free.blade.mass_per_area_kg_per_m2();
+        let stiffness_per_area = stiffness / 4.0;
+        let mass_per_area = free.blade.mass_per_area_kg_per_m2();
         let mut expected: Vec<f64> = Vec::new();
         let mut unit = f64::INFINITY;
         for block in &free.harmonics {
-            let n = block.diameters as f64;
+            let n = block.diameters;
             let count = block.bending.nrows();
-            let stiffness = &block.bending
-                + (&block.spin + DMatrix::identity(count, count) * (n * n)) * (speed * speed);
+            let inertia = DMatrix::identity(count, count) * (n * n) as f64;
+            let stiffness = &block.bending + (&block.spin + inertia) * (speed * speed);
             for square in &SymmetricEigen::new(stiffness).eigenvalues {
-                let omega = (square + per_mass).sqrt();
-                expected.push((omega + n * speed).abs());
-                if n > 0.0 {
-                    expected.push((omega - n * speed).abs());
+                // Heave and tilt: zero to rounding, of either sign.
+                let free = square.max(0.0).sqrt();
+                let omega = on_a_bed_rad_per_s(free, stiffness_per_area, mass_per_area);
+                let [forward, backward] = space_frequencies_rad_per_s(n, omega, speed);
+                expected.push(forward);
+                if n > 0 {
+                    expected.push(backward.abs());
                 }
-                if n >= 2.0 {
+                if n >= 2 {
                     unit = unit.min(omega);
                 }
             }

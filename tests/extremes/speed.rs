@@ -1,6 +1,10 @@
 //! Rotation speed: hardly turning, and so fast that the plate is a membrane.
 
 use nalgebra::{DMatrix, SymmetricEigen};
+use sawflutter::analytical::free_wave::space_frequencies_rad_per_s;
+use sawflutter::analytical::spinning_membrane::{
+    annulus_umbrella_ratio_squared, disk_frequency_ratio_squared,
+};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, SceneFile, rad_per_s};
 use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
@@ -47,7 +51,7 @@ pub fn membrane_ring() -> Row {
     for ratio in [0.05, 0.28, 0.7] {
         let nu = 0.29;
         let expected: Vec<f64> = (1..=3)
-            .map(|l| speed * ((3.0 + nu) * f64::from(l * (l + 1)) / 2.0).sqrt())
+            .map(|circles| speed * annulus_umbrella_ratio_squared(nu, circles).sqrt())
             .collect();
         let found = body_frequencies(&membrane(ratio), 0, speed);
         row.compare(&found, &expected, &format!("a/b = {ratio}"));
@@ -64,14 +68,14 @@ pub fn membrane_disk() -> Row {
     );
     let speed = rad_per_s(10_000.0);
     for n in 2..=4 {
-        let (nu, m) = (0.29, f64::from(n));
-        let square = ((3.0 + nu) * m * (m + 2.0) - m * m * (1.0 + 3.0 * nu)) / 8.0;
+        let m = n as f64;
+        let square = disk_frequency_ratio_squared(0.29, n, 0);
         // The wave found both ways; below nΩ it is the reflected one.
         let plate = Plate::new(
             &scene(&membrane(0.001)),
             Resolution::of(Accuracy::Reference),
         );
-        let block = &plate.harmonics[n as usize];
+        let block = &plate.harmonics[n];
         let stiffness = &block.spin + DMatrix::identity(12, 12) * (m * m);
         let mut squares: Vec<f64> = SymmetricEigen::new(stiffness)
             .eigenvalues
@@ -85,10 +89,10 @@ pub fn membrane_disk() -> Row {
         );
         let model = SpectralModel::new(plate, (0.0, speed), Strategy::Reduced).unwrap();
         let modes = model.all_modes(speed).unwrap();
-        let expected = speed * (m + square.sqrt());
+        let [expected, _] = space_frequencies_rad_per_s(n, speed * square.sqrt(), speed);
         let nearest = modes
             .iter()
-            .filter(|mode| mode.component == n as usize)
+            .filter(|mode| mode.component == n)
             .map(|mode| mode.frequency_rad_per_s())
             .min_by(|x, y| (x - expected).abs().total_cmp(&(y - expected).abs()));
         row.compare(
@@ -121,11 +125,11 @@ pub fn hardly_turning() -> Row {
                 .filter(|m| m.component == n && m.frequency_rad_per_s() > 0.5 * lowest)
                 .map(|m| m.frequency_rad_per_s())
                 .collect();
-            let carried = n as f64 * speed;
+            let [forward, backward] = space_frequencies_rad_per_s(n, lowest, speed);
             let expected = if n == 0 {
                 vec![lowest]
             } else {
-                vec![lowest - carried, lowest + carried]
+                vec![backward, forward]
             };
             row.compare(&found, &expected, &format!("{rpm} rpm, n = {n}"));
         }

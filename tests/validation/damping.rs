@@ -6,6 +6,7 @@
 //! for rotating shafts and disks.)
 
 use nalgebra::DMatrix;
+use sawflutter::analytical::free_wave::damped_onset_rad_per_s;
 use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
 use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -77,31 +78,25 @@ fn air_destabilises_exactly_the_reflected_waves() {
     }
 }
 
-/// Onset under light damping of both kinds. A backward wave of the blade has body
-/// frequency ω_b(Ω) and shape x; in space it turns at ω = ω_b − nΩ. The work of both
-/// dampings vanishes where η xᵀK_b x ω_b + (c/ρh)(ω_b − nΩ) = 0.
+/// Onset of a wave whose shape x changes with the speed: the closed form of the shape at the
+/// speed itself.
 fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64) -> f64 {
-    let n = block.diameters as f64;
-    let work = |speed: f64| {
-        let inertia = DMatrix::identity(block.spin.nrows(), block.spin.nrows()) * (n * n);
-        let eigen = (&block.bending + (&block.spin + inertia) * speed.powi(2)).symmetric_eigen();
-        let lowest = eigen.eigenvalues.imin();
-        let x = eigen.eigenvectors.column(lowest);
-        let omega = eigen.eigenvalues[lowest].sqrt();
-        let bending = (x.transpose() * &block.bending * x)[(0, 0)];
-        eta * bending * omega + air_per_mass * (omega - n * speed)
+    let size = block.spin.nrows();
+    let tension = &block.spin + DMatrix::identity(size, size) * block.diameters.pow(2) as f64;
+    let from_shape_at = |speed: f64| {
+        let eigen = (&block.bending + &tension * speed.powi(2)).symmetric_eigen();
+        let x = eigen.eigenvectors.column(eigen.eigenvalues.imin());
+        let quotient = |matrix: &DMatrix<f64>| (x.transpose() * matrix * x)[(0, 0)];
+        let bending = quotient(&block.bending);
+        let to_air = eta * bending / air_per_mass;
+        damped_onset_rad_per_s(block.diameters, bending.sqrt(), quotient(&tension), to_air).unwrap()
     };
-    let (mut low, mut high) = (rad_per_s(1000.0), rad_per_s(2700.0));
-    assert!(work(low) > 0.0 && work(high) < 0.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if work(middle) > 0.0 {
-            low = middle
-        } else {
-            high = middle
-        }
+    let mut speed = rad_per_s(1500.0);
+    for _ in 0..20 {
+        speed = from_shape_at(speed);
     }
-    low
+    assert!((from_shape_at(speed) / speed - 1.0).abs() < 1e-12);
+    speed
 }
 
 #[test]

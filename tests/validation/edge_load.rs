@@ -1,9 +1,10 @@
 //! K_e of forces at the rim against identities, brute force and the paper's cut.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 use faer::{Col, Mat, Side};
+use sawflutter::analytical::tilt;
 use sawflutter::plate::{BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
 use sawflutter::scene::{Blade, Scene};
 
@@ -46,36 +47,27 @@ const UNEVEN: [RimForce; 3] = [
     },
 ];
 
-/// Σ x ⊗ F over the forces, made symmetric: [xx, yy, xy] in N·m.
-///
-/// The reaction of the net force, a traction that is the same all around the bore,
-/// has no first moment; that of the torque, a pure shear, only a skew one.
+/// Σ sym(x ⊗ F) of forces at the rim. The reaction of the net force, a traction that is the same
+/// all around the bore, has no first moment; that of the torque, a pure shear, only a skew one.
 fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for load in loads {
-        let (sin, cos) = load.angle_rad.sin_cos();
-        let force = [
-            load.radial_n * cos - load.tangential_n * sin,
-            load.radial_n * sin + load.tangential_n * cos,
-        ];
-        let point = [cos, sin].map(|x| x * blade.outer_radius_m);
-        sum[0] += point[0] * force[0];
-        sum[1] += point[1] * force[1];
-        sum[2] += 0.5 * (point[0] * force[1] + point[1] * force[0]);
-    }
-    sum
+    let forces = loads.iter().map(|load| tilt::PlaneForce {
+        radius_m: blade.outer_radius_m,
+        angle_rad: load.angle_rad,
+        radial_n: load.radial_n,
+        tangential_n: load.tangential_n,
+    });
+    tilt::stiffness_of_forces_n_m(&forces.collect::<Vec<_>>())
 }
 
-/// For w = x, x and y, y the geometric stiffness is h ∫ σ_xx, h ∫ σ_xy, h ∫ σ_yy: the
-/// virial of the tractions, whatever the stress inside.
+/// The tilts w = x and y feel the virial of the tractions, whatever the stress inside.
 fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], tolerance: f64) {
     let [x, y] = [plate.offset(1), plate.offset(1) + plate.basis.count()];
     let blade = &plate.blade;
-    // ∫ ρh x² dA, the inertia of the unit tilt w = x.
-    let inertia = blade.mass_per_area_kg_per_m2()
-        * 0.25
-        * PI
-        * (blade.outer_radius_m.powi(4) - blade.inner_radius_m.powi(4));
+    let inertia = tilt::inertia_kg_m2(
+        blade.inner_radius_m,
+        blade.outer_radius_m,
+        blade.mass_per_area_kg_per_m2(),
+    );
     let expected = virial.map(|moment| moment / inertia);
     let found = [stiffness[(x, x)], stiffness[(y, y)], stiffness[(x, y)]];
     let scale = expected.iter().fold(0.0, |max: f64, v| max.max(v.abs()));

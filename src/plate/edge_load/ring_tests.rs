@@ -6,6 +6,7 @@ use faer::{Mat, Side};
 
 use super::tests::LOADS;
 use super::*;
+use crate::analytical::{RadialAndHoop, lame_ring, tilt};
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 
@@ -36,26 +37,22 @@ fn uniform_tension(blade: &Blade, pressure_pa: f64, forces: usize) -> Vec<RimFor
         .collect()
 }
 
-/// Lamé's ring: σ = A ∓ B/r², A = p b²/(b² − a²), B = A a².
-fn lame(blade: &Blade, pressure_pa: f64) -> [f64; 2] {
-    let (aa, bb) = (blade.inner_radius_m.powi(2), blade.outer_radius_m.powi(2));
-    let uniform = pressure_pa * bb / (bb - aa);
-    [uniform, uniform * aa]
+fn lame(blade: &Blade, pressure_pa: f64, r: f64) -> RadialAndHoop {
+    lame_ring::stress_under_rim_tension(blade.inner_radius_m, blade.outer_radius_m, pressure_pa, r)
 }
 
 /// K of the axisymmetric stress of Lamé's ring for n, as `HarmonicBlock` would build it.
 fn lame_block(plate: &Plate, pressure_pa: f64, n: usize) -> Mat<f64> {
-    let [uniform, inverse] = lame(&plate.blade, pressure_pa);
     let density = plate.blade.material.density_kg_per_m3;
     let size = plate.basis.count();
     let mut block = Mat::zeros(size, size);
     for (r, w) in plate.basis.rule().iter() {
         let f = plate.basis.evaluate(n, r);
-        let (radial, hoop) = (uniform - inverse / (r * r), uniform + inverse / (r * r));
+        let stress = lame(&plate.blade, pressure_pa, r);
         for j in 0..size {
             for k in 0..size {
-                let hoop_term = (n * n) as f64 * hoop / (r * r) * f.value[j] * f.value[k];
-                let energy = radial * f.slope[j] * f.slope[k] + hoop_term;
+                let hoop_term = (n * n) as f64 * stress.hoop_pa / (r * r) * f.value[j] * f.value[k];
+                let energy = stress.radial_pa * f.slope[j] * f.slope[k] + hoop_term;
                 block[(j, k)] += w * r / density * energy;
             }
         }
@@ -70,12 +67,12 @@ fn a_uniform_pressure_is_lames_ring() {
         let loads = uniform_tension(&plate.blade, pressure, 11);
         let stress = EdgeStress::new(&plate.blade, &loads, 10);
         let stiffness = edge_stiffness(&plate, &stress);
-        let [uniform, inverse] = lame(&plate.blade, pressure);
         for r in [0.12, 0.2, 0.34] {
             let at = stress.harmonic(0, r);
+            let expected = lame(&plate.blade, pressure, r);
             let scale = 1e-13 * pressure.abs();
-            assert!((at.radial_pa[0] - (uniform - inverse / (r * r))).abs() < scale);
-            assert!((at.hoop_pa[0] - (uniform + inverse / (r * r))).abs() < scale);
+            assert!((at.radial_pa[0] - expected.radial_pa).abs() < scale);
+            assert!((at.hoop_pa[0] - expected.hoop_pa).abs() < scale);
             assert!(at.shear_pa[0].abs() < scale);
         }
         let mut expected = Mat::zeros(stiffness.nrows(), stiffness.ncols());
@@ -105,8 +102,7 @@ fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64
     .unwrap()
 }
 
-/// A blade under uniform tension p tilts at ω² = 4 p b²/ρ(b⁴ − a⁴) as long as it
-/// hardly bends; the waves of n = 2 … 5 move by what the ring's own matrix says.
+/// A blade under uniform tension tilts as a rigid body as long as it hardly bends; the waves of n = 2 … 5 move by what the ring's own matrix says.
 #[test]
 fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
     let plate = free_plate(8);
@@ -115,9 +111,9 @@ fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
     let loads = uniform_tension(&plate.blade, pressure, 11);
     let stiffness = edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &loads, 10));
     let density = plate.blade.material.density_kg_per_m3;
-    let exact = 4.0 * pressure * b * b / (density * (b.powi(4) - a.powi(4)));
-    let tilt = squared_frequencies(&plate, &stiffness, 1)[0];
-    assert!((tilt / exact - 1.0).abs() < 1e-5, "{tilt} {exact}");
+    let exact = tilt::frequency_squared_under_rim_tension(a, b, density, pressure);
+    let found = squared_frequencies(&plate, &stiffness, 1)[0];
+    assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
 
     let pressure = 5.0e6;
     let loads = uniform_tension(&plate.blade, pressure, 11);
@@ -142,7 +138,7 @@ fn a_torque_is_pure_shear() {
     let stress = EdgeStress::new(&blade, &LOADS, 12);
     let torque = blade.outer_radius_m * LOADS.iter().map(|load| load.tangential_n).sum::<f64>();
     for r in [blade.inner_radius_m, 0.2, blade.outer_radius_m] {
-        let exact = torque / (TAU * r * r * blade.thickness_m);
+        let exact = lame_ring::shear_under_torque_pa(torque, blade.thickness_m, r);
         let [shear, _] = stress.harmonic(0, r).shear_pa;
         assert!((shear / exact - 1.0).abs() < 1e-14, "{shear} {exact}");
     }

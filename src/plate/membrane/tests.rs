@@ -1,6 +1,7 @@
 //! Stresses against closed forms of other authors and against equilibrium and compatibility.
 
 use super::*;
+use crate::analytical::heated_annulus::{stress_of_conducted_heat, stress_of_square_rise};
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Mount, Profile, RollBand, Scene};
 
@@ -123,7 +124,6 @@ fn strains_are_compatible() {
     }
 }
 
-/// Timoshenko & Goodier, section 150, with ∫ T r dr of T = ΔT ((r − a)/(b − a))² multiplied out.
 #[test]
 fn a_square_rise_has_the_stress_of_the_textbook() {
     let text = r#"{"temperature": {"expansion_per_k": 1.1e-5, "rim_rise_k": 40, "exponent": 2}}"#;
@@ -131,37 +131,22 @@ fn a_square_rise_has_the_stress_of_the_textbook() {
     let blade = stress.blade;
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let load = 1.1e-5 * 40.0 * blade.material.youngs_modulus_pa;
-    let primitive = |r: f64| r.powi(4) / 4.0 - 2.0 * a * r.powi(3) / 3.0 + a * a * r * r / 2.0;
-    let moment = |r: f64| (primitive(r) - primitive(a)) / (b - a).powi(2);
     for r in [a, 0.15, 0.2, 0.31, b] {
-        let rise = ((r - a) / (b - a)).powi(2);
-        let ring = b * b - a * a;
-        let radial = load / (r * r) * ((r * r - a * a) / ring * moment(b) - moment(r));
-        let hoop = load / (r * r) * ((r * r + a * a) / ring * moment(b) + moment(r) - rise * r * r);
+        let expected = stress_of_square_rise(a, b, load, r);
         let found = stress.at(r);
-        assert!((found.radial_pa - radial).abs() < 1e-12 * load);
-        assert!((found.hoop_pa - hoop).abs() < 1e-12 * load);
+        assert!((found.radial_pa - expected.radial_pa).abs() < 1e-12 * load);
+        assert!((found.hoop_pa - expected.hoop_pa).abs() < 1e-12 * load);
     }
 }
 
-/// The steady flow of heat from rim to bore, T = ΔT ln(r/a)/ln(b/a), has a stress of its own in
-/// the same section; a table of it comes to that with the square of its spacing.
+/// The steady flow of heat from rim to bore has a stress of its own in the textbook; a table of
+/// its temperature comes to that with the square of its spacing.
 #[test]
 fn a_table_of_the_conducted_heat_converges_to_the_textbook() {
     let blade = stress_of(LINEAR, Bore::Free).blade;
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let logarithm = (b / a).ln();
     let load = 1.2e-5 * 25.0 * blade.material.youngs_modulus_pa;
-    // Theirs, section 150 equation (g), with the inside hotter: here ΔT is −25 K and a uniform
-    // rise of 25 K adds nothing.
-    let textbook = |r: f64| {
-        let ring = a * a / (b * b - a * a);
-        let inner = -load / (2.0 * logarithm);
-        [
-            inner * (-(b / r).ln() - ring * (1.0 - b * b / (r * r)) * logarithm),
-            inner * (1.0 - (b / r).ln() - ring * (1.0 + b * b / (r * r)) * logarithm),
-        ]
-    };
     let error = |rows: usize| {
         let table: Vec<String> = (0..=rows)
             .map(|k| {
@@ -177,12 +162,10 @@ fn a_table_of_the_conducted_heat_converges_to_the_textbook() {
         let stress = stress_of(&text, Bore::Free);
         let worst = (0..=50).map(|k| {
             let r = a + (b - a) * f64::from(k) / 50.0;
-            let [radial, hoop] = textbook(r);
+            let expected = stress_of_conducted_heat(a, b, load, r);
             let found = stress.at(r);
-            (found.radial_pa - radial)
-                .abs()
-                .max((found.hoop_pa - hoop).abs())
-                / load
+            let radial = (found.radial_pa - expected.radial_pa).abs();
+            radial.max((found.hoop_pa - expected.hoop_pa).abs()) / load
         });
         worst.fold(0.0, f64::max)
     };

@@ -1,0 +1,100 @@
+//! Waves of a blade that nothing outside touches, of n nodal diameters.
+//!
+//! On the blade a wave has the frequency ω_b, ω_b² = ω₀² + κΩ² for a shape that does not change
+//! with the speed: ω₀ is its frequency at rest, κ its stiffening by rotation (Rayleigh's
+//! quotients of bending and of centrifugal tension; κ is what [`super::spinning_membrane`] gives
+//! for the shape of a membrane). The true lowest frequency, whose shape adapts, is not below the
+//! value with the lowest ω₀ and the lowest κ, and not above that of any one shape.
+//!
+//! Sources: R. V. Southwell, Proc. R. Soc. Lond. A 101 (1922), 133–153; W. D. Iwan & K. J.
+//! Stahl, J. Appl. Mech. 40 (1973), 445–451; S. C. Huang & S. H. Crandall, J. Appl. Mech. 41
+//! (1974), for the two dampings.
+
+/// ω_b = √(ω₀² + κΩ²), in rad/s.
+pub fn body_frequency_rad_per_s(
+    rest_frequency_rad_per_s: f64,
+    spin_stiffening: f64,
+    speed_rad_per_s: f64,
+) -> f64 {
+    (rest_frequency_rad_per_s.powi(2) + spin_stiffening * speed_rad_per_s.powi(2)).sqrt()
+}
+
+/// Frequencies in space of the forward and the backward wave, ω_b + nΩ and ω_b − nΩ, in rad/s.
+/// Where the second is negative the wave is reflected: past its critical speed it is carried
+/// forward.
+pub fn space_frequencies_rad_per_s(
+    nodal_diameters: usize,
+    body_frequency_rad_per_s: f64,
+    speed_rad_per_s: f64,
+) -> [f64; 2] {
+    let carried = nodal_diameters as f64 * speed_rad_per_s;
+    [
+        body_frequency_rad_per_s + carried,
+        body_frequency_rad_per_s - carried,
+    ]
+}
+
+/// The speed in rad/s at which the backward wave stands still in space: nΩ = ω_b, so
+/// Ω = ω₀/√(n² − κ). `None` where tension outruns the speed, n² ≤ κ, as for n ≤ 1.
+pub fn critical_speed_rad_per_s(
+    nodal_diameters: usize,
+    rest_frequency_rad_per_s: f64,
+    spin_stiffening: f64,
+) -> Option<f64> {
+    damped_onset_rad_per_s(
+        nodal_diameters,
+        rest_frequency_rad_per_s,
+        spin_stiffening,
+        0.0,
+    )
+}
+
+/// The speed in rad/s from which light damping makes the backward wave grow: air that stands in
+/// space, c per area on a blade of mass ρh per area, and a material with the retardation time η.
+///
+/// The work of both, η ω₀² ω_b + (c/ρh)(ω_b − nΩ), vanishes at Ω = q ω₀/√(n² − κq²) with
+/// q = 1 + η ω₀² ρh/c. Material damping delays the onset beyond the critical speed (q = 1), and
+/// alone it never comes. `None` where there is none, κq² ≥ n².
+///
+/// `material_to_air` is η ω₀² ρh/c = q − 1: the ratio of the two dampings of the wave at rest.
+/// Exact to first order in the damping ratios.
+pub fn damped_onset_rad_per_s(
+    nodal_diameters: usize,
+    rest_frequency_rad_per_s: f64,
+    spin_stiffening: f64,
+    material_to_air: f64,
+) -> Option<f64> {
+    let q = 1.0 + material_to_air;
+    let rest = (nodal_diameters as f64).powi(2) - spin_stiffening * q * q;
+    (rest > 0.0).then(|| q * rest_frequency_rad_per_s / rest.sqrt())
+}
+
+/// ω_b on an even bed of springs under the whole blade, in rad/s: √(ω_b² + k″/ρh), with k″ in N/m
+/// per m². Every shape is as much stiffened as any other.
+pub fn on_a_bed_rad_per_s(
+    body_frequency_rad_per_s: f64,
+    bed_stiffness_n_per_m3: f64,
+    mass_per_area_kg_per_m2: f64,
+) -> f64 {
+    (body_frequency_rad_per_s.powi(2) + bed_stiffness_n_per_m3 / mass_per_area_kg_per_m2).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The work of the two dampings, put down for itself, changes its sign at the onset.
+    #[test]
+    fn no_work_is_done_at_the_onset() {
+        let (n, rest, stiffening, ratio) = (3, 200.0, 2.6, 0.4);
+        let speed = damped_onset_rad_per_s(n, rest, stiffening, ratio).unwrap();
+        let body = body_frequency_rad_per_s(rest, stiffening, speed);
+        let [_, backward] = space_frequencies_rad_per_s(n, body, speed);
+        assert!((ratio * body + backward).abs() < 1e-12 * body);
+        let critical = critical_speed_rad_per_s(n, rest, stiffening).unwrap();
+        let body = body_frequency_rad_per_s(rest, stiffening, critical);
+        assert!((body - 3.0 * critical).abs() < 1e-12 * body && critical < speed);
+        assert_eq!(critical_speed_rad_per_s(1, rest, 1.0), None);
+        assert_eq!(damped_onset_rad_per_s(n, rest, stiffening, 5.0), None);
+    }
+}

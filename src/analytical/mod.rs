@@ -1,0 +1,62 @@
+//! Closed forms of plate, membrane and rotor theory, each with its source.
+//!
+//! They are the independent answers that the tests hold the program against, and serve for
+//! estimates by hand. The module imports nothing of the crate: arguments and results are plain
+//! numbers in SI units, and no function panics. What has no answer gives `None`, an empty list,
+//! or a value that is not a number where the arguments are outside the validity stated.
+//!
+//! | question | module |
+//! |---|---|
+//! | natural frequencies of an annular plate at rest | [`annular_plate`] |
+//! | frequencies of a disk so fast that it is a membrane | [`spinning_membrane`] |
+//! | waves of an unguided blade: seen from space, critical speed, onset under damping | [`free_wave`] |
+//! | tilt of a blade under in-plane forces | [`tilt`] |
+//! | stress of a ring under pressure or torque | [`lame_ring`] |
+//! | stress of a rotating annulus | [`rotating_annulus`] |
+//! | stress of a heated annulus | [`heated_annulus`] |
+//! | stress of a disk between two forces | [`pressed_disk`] |
+//! | critical speeds and eigenvalues of a blade on equal, evenly spaced point springs | [`point_springs`] |
+//! | which waves such springs couple, and how fast they then grow | [`wave_coupling`] |
+//! | one degree of freedom in time | [`oscillator`] |
+//!
+//! Signs and symbols are those of the whole crate: a bore radius, b rim radius, r radius, θ angle
+//! in the direction of rotation, n nodal diameters, ν Poisson's ratio, ρ density, Ω rotation
+//! speed. Tension is positive.
+
+pub mod annular_plate;
+mod bessel;
+pub mod free_wave;
+pub mod heated_annulus;
+pub mod lame_ring;
+pub mod oscillator;
+pub mod point_springs;
+pub mod pressed_disk;
+pub mod rotating_annulus;
+pub mod spinning_membrane;
+pub mod tilt;
+pub mod wave_coupling;
+
+/// Stress that is the same all around, at one radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RadialAndHoop {
+    /// σ_rr, in Pa.
+    pub radial_pa: f64,
+    /// σ_θθ, in Pa.
+    pub hoop_pa: f64,
+}
+
+/// The root of a function that is negative towards `low` and positive towards `high`, by halving
+/// to the last digit. It is not evaluated at the ends, which may be poles.
+fn bisected(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high || middle.is_nan() {
+            return middle;
+        }
+        if function(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+}

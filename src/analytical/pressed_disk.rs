@@ -1,0 +1,34 @@
+//! Stress of a full disk that two opposite forces press.
+//!
+//! Each force gives the field of a force on a half-plane, −2P cos φ/πhs along the line from it to
+//! the point at the distance s, φ off the force's axis; together with a uniform tension P/πbh the
+//! rim is free.
+//!
+//! Source: S. P. Timoshenko & J. N. Goodier, *Theory of Elasticity*, 3rd ed. (1970), section 41.
+
+use std::f64::consts::PI;
+
+/// σ_rr, σ_θθ and σ_rθ in Pa at r, θ of a disk of radius b and thickness h under two forces P
+/// inwards at its rim, at θ = 0 and π.
+pub fn stress_pa(
+    rim_radius_m: f64,
+    thickness_m: f64,
+    force_n: f64,
+    radius_m: f64,
+    angle_rad: f64,
+) -> [f64; 3] {
+    let uniform = force_n / (PI * rim_radius_m * thickness_m);
+    let mut stress = [uniform, uniform, 0.0];
+    for place_rad in [0.0, PI] {
+        // From the force to the point, in the point's own radial and hoop directions.
+        let (sin, cos) = (place_rad - angle_rad).sin_cos();
+        let (x, y) = (radius_m - rim_radius_m * cos, -rim_radius_m * sin);
+        let distance = x.hypot(y);
+        let cos_off_axis = -(x * cos + y * sin) / distance;
+        let along = -2.0 * force_n * cos_off_axis / (PI * thickness_m * distance);
+        stress[0] += along * (x / distance).powi(2);
+        stress[1] += along * (y / distance).powi(2);
+        stress[2] += along * x * y / (distance * distance);
+    }
+    stress
+}

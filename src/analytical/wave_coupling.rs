@@ -1,0 +1,161 @@
+//! Which waves of a turning blade equal, evenly spaced springs couple, and what then happens
+//! where their frequencies in space meet: Chen's rules, and their first order in the stiffness.
+//!
+//! S springs couple waves whose signed wave numbers differ by a multiple of S. Others cross. Of
+//! two that are coupled, one of them reflected, the frequencies coalesce and the blade flutters;
+//! otherwise they veer. At its critical speed a backward wave meets its own complex conjugate,
+//! of the opposite wave number: the blade diverges if 2n is a multiple of S.
+//!
+//! Sources: J.-S. Chen, *Vibration and stability of a spinning disk in contact with evenly-spaced
+//! stationary load systems*; J.-S. Chen & D. B. Bogy, *Mathematical structure of modal
+//! interactions in a spinning disk–stationary load system*, J. Appl. Mech. 59 (1992), 390–397. The
+//! first orders follow from the two terms of [`super::point_springs::characteristic`] that are
+//! large near a meeting.
+
+use super::point_springs::{BodyWave, EvenSprings};
+
+/// A wave e^{i(ωt − pθ)} as seen from space with ω > 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SpaceWave {
+    /// p: n if it runs with the rotation, −n if against.
+    pub wave_number: i64,
+    /// Whether its energy in space is negative (Krein sign −1).
+    pub reflected: bool,
+}
+
+impl SpaceWave {
+    /// ω = ω_b + nΩ.
+    pub fn forward(nodal_diameters: usize) -> Self {
+        SpaceWave {
+            wave_number: nodal_diameters as i64,
+            reflected: false,
+        }
+    }
+
+    /// ω = ω_b − nΩ, below the critical speed.
+    pub fn backward(nodal_diameters: usize) -> Self {
+        SpaceWave {
+            wave_number: -(nodal_diameters as i64),
+            reflected: false,
+        }
+    }
+
+    /// ω = nΩ − ω_b, beyond the critical speed: the backward wave, carried forward.
+    pub fn reflected(nodal_diameters: usize) -> Self {
+        SpaceWave {
+            wave_number: nodal_diameters as i64,
+            reflected: true,
+        }
+    }
+}
+
+/// What two waves do where their frequencies in space would be equal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meeting {
+    /// They do not feel each other.
+    Crossing,
+    /// Their frequencies keep apart; nothing grows.
+    Veering,
+    /// Their frequencies become one, and both waves grow together: flutter.
+    Coalescence,
+}
+
+/// Chen's rule for two waves that meet.
+pub fn meeting(springs: EvenSprings, first: SpaceWave, second: SpaceWave) -> Meeting {
+    if !springs.couple(first.wave_number, second.wave_number) {
+        Meeting::Crossing
+    } else if first.reflected != second.reflected {
+        Meeting::Coalescence
+    } else {
+        Meeting::Veering
+    }
+}
+
+/// Chen's rule for a critical speed: whether the springs split the pair of waves of n nodal
+/// diameters, between whose critical speeds the blade then diverges.
+pub fn diverges(springs: EvenSprings, nodal_diameters: usize) -> bool {
+    let n = nodal_diameters as i64;
+    n > 0 && springs.couple(n, -n)
+}
+
+/// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth where two coupled waves
+/// coalesce, and half of the least distance of their frequencies where they veer.
+pub fn coupling_per_s(springs: EvenSprings, first: BodyWave, second: BodyWave) -> f64 {
+    let shares = (first.share_per_kg() * second.share_per_kg()).sqrt();
+    let frequencies = (first.frequency_rad_per_s * second.frequency_rad_per_s).sqrt();
+    0.5 * springs.sum_n_per_m() * shares / frequencies
+}
+
+/// ±S k g²/(2ω), in rad/s, to first order in k: by how much the springs raise the frequency in
+/// space of a wave; they lower that of a reflected one.
+pub fn frequency_shift_rad_per_s(springs: EvenSprings, wave: BodyWave, reflected: bool) -> f64 {
+    let shift = coupling_per_s(springs, wave, wave);
+    if reflected { -shift } else { shift }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::point_springs::eigenvalue_near;
+    use super::*;
+
+    fn springs(count: usize) -> EvenSprings {
+        EvenSprings {
+            count,
+            stiffness_n_per_m: 10.0,
+        }
+    }
+
+    #[test]
+    fn the_rules() {
+        let [forward, backward, reflected] = [
+            SpaceWave::forward,
+            SpaceWave::backward,
+            SpaceWave::reflected,
+        ];
+        use Meeting::{Coalescence, Crossing, Veering};
+        for (count, first, second, expected) in [
+            (3, reflected(4), forward(1), Coalescence),
+            (3, reflected(4), forward(2), Crossing),
+            (3, reflected(4), backward(2), Coalescence),
+            (3, reflected(4), reflected(7), Veering),
+            (3, backward(4), backward(1), Veering),
+            (4, reflected(3), forward(1), Crossing),
+            (4, reflected(3), backward(1), Coalescence),
+            (1, reflected(3), forward(0), Coalescence),
+        ] {
+            assert_eq!(meeting(springs(count), first, second), expected);
+        }
+        assert!(diverges(springs(4), 2) && !diverges(springs(4), 3) && diverges(springs(3), 3));
+        assert!(!diverges(springs(3), 0));
+    }
+
+    /// The exact equation of two waves, at the speed where first order says that they coalesce.
+    #[test]
+    fn the_first_order_is_that_of_the_exact_equation() {
+        let wave = |nodal_diameters, frequency_rad_per_s, amplitude_per_sqrt_kg| BodyWave {
+            nodal_diameters,
+            frequency_rad_per_s,
+            amplitude_per_sqrt_kg,
+        };
+        // ω = 4Ω − ω₁ = Ω + ω₂ at Ω = 100 1/s.
+        let (reflected, forward) = (wave(4, 250.0, 1.3), wave(1, 50.0, 0.8));
+        let off = |stiffness_n_per_m: f64| {
+            let springs = EvenSprings {
+                count: 3,
+                stiffness_n_per_m,
+            };
+            let shifts = [
+                frequency_shift_rad_per_s(springs, reflected, true),
+                frequency_shift_rad_per_s(springs, forward, false),
+            ];
+            let speed = 100.0 + (shifts[1] - shifts[0]) / 3.0;
+            let expected = coupling_per_s(springs, reflected, forward);
+            let start = [expected, speed + 50.0 + shifts[1]];
+            let waves = [reflected, forward];
+            let found = eigenvalue_near(springs, 1, &waves, speed, start).unwrap();
+            (found[0] / expected - 1.0).abs()
+        };
+        let (coarse, fine) = (off(20.0), off(2.0));
+        assert!(fine < 1e-2 && fine < 0.3 * coarse, "{coarse:e} {fine:e}");
+    }
+}
