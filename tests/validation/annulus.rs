@@ -2,9 +2,12 @@
 //!
 //! Source: tests/reference/annulus_exact.csv, roots of the Bessel determinant of the
 //! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
-//! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6.
+//! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6. Between
+//! them the same determinant in double precision, `sawflutter::analytical::annular_plate`.
 
 use crate::common::{AnnulusRoot, Worst, of_diameters, reference_model, relative_error};
+use proptest::prelude::*;
+use sawflutter::analytical::annular_plate::{Bore, frequency_rad_per_s, roots};
 use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::ModeKind;
 
@@ -89,5 +92,68 @@ fn clamped_annulus_without_and_with_one_nodal_circle() {
 fn third_root_of_either_annulus() {
     for bc in ["FF", "CF"] {
         worst_of(bc, 2).assert_at_most(&format!("{bc}, s = 2"), 1e-4);
+    }
+}
+
+fn bore(bc: &str) -> Bore {
+    match bc {
+        "FF" => Bore::Free,
+        "CF" => Bore::Clamped,
+        other => panic!("unknown condition {other}"),
+    }
+}
+
+/// The determinant in double precision against both tables: 16 digits, and fifty for rings so
+/// narrow, bores so small and n so large that its terms cancel.
+#[test]
+fn the_determinant_in_double_precision_has_the_roots_of_the_tables() {
+    for (name, count, tolerance) in [
+        ("annulus_exact.csv", 210, 1e-14),
+        ("annulus_extreme.csv", 46, 1e-10),
+    ] {
+        let mut worst = Worst::default();
+        for root in crate::common::table::<AnnulusRoot>(name) {
+            let found = roots(bore(&root.bc), root.ratio, root.nu, root.n, root.s + 1);
+            let found = found.get(root.s).copied().unwrap_or(f64::NAN);
+            worst.add(relative_error(found, root.lambda2), || format!("{root:?}"));
+        }
+        assert_eq!(worst.count, count, "{name}");
+        worst.assert_at_most(name, tolerance);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// Bores, Poisson's ratios and nodal diameters that no table has. The lowest two roots.
+    #[test]
+    fn a_drawn_annulus_has_the_roots_of_its_determinant(
+        bc in prop_oneof![Just("FF"), Just("CF")],
+        ratio in 0.12..0.85_f64,
+        nu in 0.0..0.45_f64,
+    ) {
+        let scene = annulus(bc, nu, ratio);
+        let model = reference_model(&scene, rad_per_s(1000.0));
+        let modes = model.all_modes(0.0).unwrap();
+        let blade = scene.blade();
+        for n in 0..=7 {
+            let elastic: Vec<f64> = of_diameters(&modes, n)
+                .filter(|mode| mode.kind != ModeKind::Rigid)
+                .map(|mode| mode.frequency_rad_per_s())
+                .collect();
+            let multiplicity = if n == 0 { 1 } else { 2 };
+            let expected = roots(bore(bc), ratio, nu, n, 2);
+            prop_assert_eq!(expected.len(), 2);
+            for (s, root) in expected.into_iter().enumerate() {
+                let expected = frequency_rad_per_s(
+                    root,
+                    blade.outer_radius_m,
+                    blade.flexural_rigidity_n_m(),
+                    blade.mass_per_area_kg_per_m2(),
+                );
+                let error = relative_error(elastic[multiplicity * s], expected);
+                prop_assert!(error < 1e-5, "{bc} a/b = {ratio}, n = {n}, s = {s}: {error:e}");
+            }
+        }
     }
 }

@@ -9,6 +9,7 @@ mod collar_saw;
 mod cutting;
 mod damping;
 mod edge_load;
+mod even_springs;
 mod floquet;
 mod heat_limits;
 mod membrane;

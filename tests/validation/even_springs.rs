@@ -1,0 +1,298 @@
+//! Goal: the verdict on a blade between equal, evenly spaced springs follows Chen's rules, band by
+//! band, with the growth of first-order theory and the eigenvalues of the exact equation.
+//!
+//! Source: `sawflutter::analytical::wave_coupling` and `point_springs`. The 400 mm blade between
+//! collars is swept past several critical speeds, with springs so weak that its bands lie apart
+//! and first order holds. From the program come the unguided waves, one radial eigenproblem for
+//! each n; which of them meet, and what they then do, is computed here.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use sawflutter::analytical::point_springs::{BodyWave, EvenSprings, eigenvalue_near};
+use sawflutter::analytical::wave_coupling::{
+    Meeting, SpaceWave, coupling_per_s, diverges, frequency_shift_rad_per_s, meeting,
+};
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{GuideFile, Scene};
+use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
+use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
+use sawflutter::system::GyroscopicSystem;
+
+use super::saws::collar;
+use crate::common::{Worst, relative_error};
+
+const RADIUS_M: f64 = 0.18;
+const RESOLUTION: Resolution = Resolution {
+    max_diameters: 6,
+    radial_functions: 5,
+};
+
+fn blade_on(springs: EvenSprings) -> Scene {
+    let spring = |k: usize| GuideFile {
+        radius_m: RADIUS_M,
+        angle_deg: 17.0 + 360.0 * k as f64 / springs.count as f64,
+        radial_length_m: 0.0,
+        tangential_length_m: 0.0,
+        stiffness_n_per_m: springs.stiffness_n_per_m,
+        damping_n_s_per_m: 0.0,
+    };
+    let scene = collar().edited(|file| {
+        file.sweep = None;
+        file.guides = (0..springs.count).map(spring).collect();
+    });
+    scene.unwrap()
+}
+
+/// The waves of one n of the unguided blade at a speed, by frequency on the blade.
+fn waves_of(plate: &Plate, n: usize, speed: f64) -> Vec<BodyWave> {
+    let block = &plate.harmonics[n];
+    let size = block.bending.nrows();
+    let inertia = DMatrix::identity(size, size) * (n * n) as f64;
+    let eigen = SymmetricEigen::new(&block.bending + (&block.spin + inertia) * (speed * speed));
+    let values = plate.functions_at(RADIUS_M, 0.0);
+    let values = DVector::from_row_slice(&values[plate.offset(n)..plate.offset(n) + size]);
+    let mut waves: Vec<BodyWave> = (0..size)
+        .map(|k| BodyWave {
+            nodal_diameters: n,
+            frequency_rad_per_s: eigen.eigenvalues[k].sqrt(),
+            amplitude_per_sqrt_kg: eigen.eigenvectors.column(k).dot(&values),
+        })
+        .collect();
+    waves.sort_by(|x, y| x.frequency_rad_per_s.total_cmp(&y.frequency_rad_per_s));
+    waves
+}
+
+fn all_waves(plate: &Plate, speed: f64) -> Vec<BodyWave> {
+    let waves = (0..=plate.max_diameters()).flat_map(|n| waves_of(plate, n, speed));
+    waves.collect()
+}
+
+/// One of the two waves of a mode as seen from space; `circle` counts the modes of one n.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    circle: usize,
+    diameters: usize,
+    wave: SpaceWave,
+}
+
+impl Seen {
+    fn body(&self, plate: &Plate, speed: f64) -> BodyWave {
+        waves_of(plate, self.diameters, speed)[self.circle]
+    }
+
+    /// ω = pΩ + ω_b, or nΩ − ω_b of a reflected wave.
+    fn frequency(&self, plate: &Plate, speed: f64) -> f64 {
+        let on_blade = self.body(plate, speed).frequency_rad_per_s;
+        let carried = self.wave.wave_number as f64 * speed;
+        let sign = if self.wave.reflected { -1.0 } else { 1.0 };
+        carried + sign * on_blade
+    }
+}
+
+/// Two waves of the unguided blade whose frequencies in space are equal at a speed.
+#[derive(Debug, Clone, Copy)]
+struct Met {
+    pair: [Seen; 2],
+    speed: f64,
+}
+
+/// Every meeting of two waves below a speed, of the lowest two modes of each n.
+fn meetings(plate: &Plate, top: f64) -> Vec<Met> {
+    let mut seen = Vec::new();
+    for diameters in 0..=plate.max_diameters() {
+        for circle in 0..2 {
+            let mut kinds = vec![SpaceWave::forward(diameters)];
+            if diameters > 0 {
+                kinds.push(SpaceWave::backward(diameters));
+                kinds.push(SpaceWave::reflected(diameters));
+            }
+            seen.extend(kinds.into_iter().map(|wave| Seen {
+                circle,
+                diameters,
+                wave,
+            }));
+        }
+    }
+    let mut met = Vec::new();
+    for (k, first) in seen.iter().enumerate() {
+        for second in &seen[..k] {
+            met.extend(meetings_of([*first, *second], plate, top));
+        }
+    }
+    met
+}
+
+fn meetings_of(pair: [Seen; 2], plate: &Plate, top: f64) -> Vec<Met> {
+    let gap = |speed: f64| pair[0].frequency(plate, speed) - pair[1].frequency(plate, speed);
+    let steps = 40;
+    let at = |k: usize| top * k as f64 / steps as f64;
+    let changes = (0..steps).filter(|k| gap(at(*k)) * gap(at(k + 1)) < 0.0);
+    let speeds = changes.map(|k| {
+        let (mut low, mut high) = (at(k), at(k + 1));
+        let rises = gap(low) < 0.0;
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if (gap(middle) < 0.0) == rises {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    });
+    // Both waves are there: a backward one below its critical speed, a reflected one beyond.
+    let there = |speed: &f64| pair.iter().all(|s| s.frequency(plate, *speed) > 1.0);
+    speeds
+        .filter(there)
+        .map(|speed| Met { pair, speed })
+        .collect()
+}
+
+impl Met {
+    fn what(&self, springs: EvenSprings) -> Meeting {
+        meeting(springs, self.pair[0].wave, self.pair[1].wave)
+    }
+
+    /// Speed of the meeting on springs, to first order.
+    fn shifted(&self, plate: &Plate, springs: EvenSprings) -> f64 {
+        let shift = |s: &Seen| {
+            frequency_shift_rad_per_s(springs, s.body(plate, self.speed), s.wave.reflected)
+        };
+        let [first, second] = &self.pair;
+        let gap = |speed: f64| first.frequency(plate, speed) - second.frequency(plate, speed);
+        let step = 1e-4 * self.speed;
+        let slope = (gap(self.speed + step) - gap(self.speed - step)) / (2.0 * step);
+        self.speed - (shift(first) - shift(second)) / slope
+    }
+
+    fn coupling_per_s(&self, plate: &Plate, springs: EvenSprings) -> f64 {
+        let [first, second] = self.pair.map(|s| s.body(plate, self.speed));
+        coupling_per_s(springs, first, second)
+    }
+}
+
+/// Relative distance of a band's largest growth from the exact equation of a class.
+fn off_the_exact_equation(
+    plate: &Plate,
+    springs: EvenSprings,
+    class: i64,
+    band: &Instability,
+) -> f64 {
+    let waves = all_waves(plate, band.peak);
+    let start = [band.peak_growth_per_s, band.frequency];
+    match eigenvalue_near(springs, class, &waves, band.peak, start) {
+        Some([growth, _]) => relative_error(band.peak_growth_per_s, growth),
+        None => f64::NAN,
+    }
+}
+
+/// The bands of the blade on springs up to a speed, of one kind.
+fn bands_of(springs: EvenSprings, top: f64) -> [Vec<Instability>; 2] {
+    let plate = Plate::new(&blade_on(springs), RESOLUTION);
+    let model = SpectralModel::new(plate, (0.0, top), Strategy::Reduced).unwrap();
+    let (bands, certificate) = undamped_bands(&model, (0.0, top), 41).unwrap();
+    assert_eq!(certificate.violations, Vec::<f64>::new());
+    let (flutter, divergence) = bands
+        .into_iter()
+        .partition(|band| band.kind == InstabilityKind::Flutter);
+    [flutter, divergence]
+}
+
+/// The unguided blade, the speed up to which it is looked at, and S springs of 300 N/m in all.
+fn cases() -> (Plate, f64, [EvenSprings; 5]) {
+    let unguided = collar().edited(|file| file.guides.clear()).unwrap();
+    let free = Plate::new(&unguided, RESOLUTION);
+    let critical = SpectralModel::critical_speeds(&free).unwrap();
+    let springs = [1, 2, 3, 4, 5].map(|count| EvenSprings {
+        count,
+        stiffness_n_per_m: 300.0 / count as f64,
+    });
+    (free, 1.5 * critical[0].speed_rad_per_s, springs)
+}
+
+/// As many bands as the rules say, each where they say, with the growth of first order and of the
+/// exact equation.
+#[test]
+fn verdicts_between_evenly_spaced_springs_follow_chens_rules() {
+    let (free, top, cases) = cases();
+    let critical = SpectralModel::critical_speeds(&free).unwrap();
+    let met = meetings(&free, top);
+    let (mut first_order, mut exact) = (Worst::default(), Worst::default());
+    let mut crossed = 0;
+    for springs in cases {
+        let [flutter, divergence] = bands_of(springs, top);
+        let mut coalescing: Vec<&Met> = Vec::new();
+        for met in &met {
+            match met.what(springs) {
+                Meeting::Coalescence => coalescing.push(met),
+                Meeting::Crossing if met.pair.iter().any(|s| s.wave.reflected) => crossed += 1,
+                _ => (),
+            }
+        }
+        coalescing.sort_by(|x, y| x.speed.total_cmp(&y.speed));
+        assert_eq!(flutter.len(), coalescing.len(), "{} springs", springs.count);
+        for (band, met) in flutter.iter().zip(coalescing) {
+            let place = || format!("{} springs, {met:?}", springs.count);
+            let speed = met.shifted(&free, springs);
+            assert!(band.from < speed && speed < band.to, "{}", place());
+            let growth = met.coupling_per_s(&free, springs);
+            first_order.add(relative_error(band.peak_growth_per_s, growth), place);
+            let class = met.pair[0].wave.wave_number;
+            let error = off_the_exact_equation(&free, springs, class, band);
+            exact.add(error, place);
+        }
+
+        let mut split: Vec<_> = critical
+            .iter()
+            .filter(|c| c.speed_rad_per_s < top && diverges(springs, c.diameters))
+            .collect();
+        // Each speed stands there for both waves.
+        split.dedup_by_key(|c| (c.diameters, c.circles));
+        assert_eq!(divergence.len(), split.len(), "{} springs", springs.count);
+        for (band, critical) in divergence.iter().zip(split) {
+            let (n, speed) = (critical.diameters, critical.speed_rad_per_s);
+            let place = || format!("{} springs, {n} diameters diverge", springs.count);
+            // The wave with its nodes at the springs does not feel them.
+            let edge = relative_error(band.from, speed);
+            assert!(edge < 1e-9, "{}: {edge:e}", place());
+            let wave = waves_of(&free, n, speed)[0];
+            let growth = coupling_per_s(springs, wave, wave);
+            first_order.add(relative_error(band.peak_growth_per_s, growth), place);
+            let error = off_the_exact_equation(&free, springs, n as i64, band);
+            exact.add(error, place);
+        }
+    }
+    first_order.assert_at_most("growth, against first order", 2e-2);
+    exact.assert_at_most("growth, against the exact equation", 1e-5);
+    assert!(first_order.count > 30 && crossed > 20, "{crossed}");
+}
+
+/// Coupled waves of one sign keep apart by twice their coupling; bands they have none, as the test
+/// above counts.
+#[test]
+fn coupled_waves_of_one_sign_veer_as_far_as_first_order_says() {
+    let (free, top, cases) = cases();
+    let met = meetings(&free, top);
+    let mut worst = Worst::default();
+    for springs in cases {
+        let system = GyroscopicSystem::of_plate(&Plate::new(&blade_on(springs), RESOLUTION));
+        for met in met.iter().filter(|m| m.what(springs) == Meeting::Veering) {
+            let speed = met.shifted(&free, springs);
+            let [first, second] = met.pair;
+            let middle = 0.5 * (first.frequency(&free, speed) + second.frequency(&free, speed));
+            let expected = 2.0 * met.coupling_per_s(&free, springs);
+            let pairs = companion_eigenpairs(&system, speed).unwrap();
+            let mut near: Vec<f64> = pairs.iter().map(|(l, _)| l.im - middle).collect();
+            near.sort_by(|x, y| x.abs().total_cmp(&y.abs()));
+            // Where a third wave is near, or two circles weaken the coupling to the second order
+            // of others, first order does not say enough.
+            if near[2].abs() < 20.0 * expected || expected < 0.1 {
+                continue;
+            }
+            worst.add(relative_error((near[0] - near[1]).abs(), expected), || {
+                format!("{} springs, {met:?}", springs.count)
+            });
+        }
+    }
+    assert!(worst.count > 20, "{}", worst.count);
+    worst.assert_at_most("distance of veering waves", 2e-2);
+}
