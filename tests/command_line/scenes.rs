@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use sawflutter::scene::{Scene, SceneFile, json_schema};
 use sawflutter::study::{self, Study, StudyFile, StudyReport};
 
-/// Every file in `scenes/`, by name.
+/// Every file in `scenes/` and in its gallery, by name.
 fn scene_paths() -> Vec<PathBuf> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder)
-        .expect("scenes/ is a folder")
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut paths: Vec<PathBuf> = [scenes.join("gallery"), scenes]
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(folder).expect("a folder of scenes"))
         .map(|entry| entry.expect("a readable entry").path())
         .filter(|path| path.is_file())
         .collect();
