@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from ._entry import BoolArray, Entry, FloatArray, IntArray
-from ._methods import BranchMethods, CertificateMethods, ModeMethods, RestModeMethods
+from ._methods import BranchMethods, ModeMethods, RestModeMethods
 from ._scene_types import SceneDict, StudyDict
 
 InstabilityKind: TypeAlias = Literal["divergence", "flutter"]
@@ -318,8 +318,12 @@ class Mismatch(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Certificate(CertificateMethods):
-    """The Krein index held against the spectrum, see [crate::stability]."""
+class Certificate(Entry):
+    """The Krein index and the list of bands held against the spectrum, see
+    [crate::stability]."""
+
+    statement: str
+    """What was found, in a sentence."""
 
     speeds_checked: int
     """Speeds at which the index was compared; for damped scenes, which have none, speeds at
@@ -334,6 +338,9 @@ class Certificate(CertificateMethods):
     mismatches: tuple[Mismatch, ...]
     """Where the list of bands contradicts the eigenvalues that the search or the chart found;
     expected none."""
+
+    gave_up: bool
+    """Whether the search for bands ended at its limit of work, so that bands may be missing."""
 
     max_backward_error: float
     """Largest backward error of any mode shown."""
