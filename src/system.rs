@@ -1,6 +1,6 @@
 //! The equation of motion at a rotation speed.
 //!
-//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ] q = 0, mass matrix one,
+//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ + K_n] q = 0, mass matrix one,
 //! K₀ = K_b + K_m + K_g + K_e. Terms that the scene does not name are absent.
 
 use faer::{Col, Mat, MatRef, Scale};
@@ -21,6 +21,8 @@ pub struct GyroscopicSystem {
     pub damping: Option<Mat<f64>>,
     /// K_circ = η K_b G, in 1/s: material damping turns with the blade.
     pub circulatory: Option<Mat<f64>>,
+    /// K_n, in 1/s², of no symmetry: contact forces that have no potential.
+    pub nonconservative: Option<Mat<f64>>,
     /// Rigid motions z that nothing holds, orthonormal: K(Ω) z = 0 at every speed.
     pub free_rigid: Vec<Col<f64>>,
     /// What free rigid motions add to K_σ − N for a wave that stands still, see
@@ -32,16 +34,17 @@ impl GyroscopicSystem {
     /// The whole plate.
     pub fn of_plate(plate: &Plate) -> Self {
         let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
-        let fixed_in_space = [&plate.guide_stiffness, &plate.edge_stiffness];
+        let fixed_in_space = [plate.contact.stiffness(), plate.edge_stiffness.as_ref()];
         for term in fixed_in_space.into_iter().flatten() {
             system.stiffness += term;
         }
-        if let Some(guides) = &plate.guide_damping {
+        if let Some(contact) = plate.contact.damping() {
             system.damping = Some(match system.damping.take() {
-                Some(damping) => damping + guides,
-                None => guides.clone(),
+                Some(damping) => damping + contact,
+                None => contact.clone(),
             });
         }
+        system.nonconservative = plate.contact.nonconservative_stiffness().cloned();
         system.find_free_rigid_motions(plate, 0);
         system
     }
@@ -82,6 +85,7 @@ impl GyroscopicSystem {
             gyroscopic,
             damping: None,
             circulatory: None,
+            nonconservative: None,
             free_rigid: Vec::new(),
             drift: None,
         };
@@ -115,7 +119,9 @@ impl GyroscopicSystem {
     /// Heave and tilt without stiffness. `first` is the index of the first unknown in the
     /// basis of the plate.
     fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
-        if !plate.basis.has_rigid_motions() {
+        // A force without potential does work on a rigid motion that nothing else resists: its
+        // momentum changes.
+        if !plate.basis.has_rigid_motions() || self.nonconservative.is_some() {
             return;
         }
         let tilt = plate.offset(1);
@@ -196,14 +202,15 @@ impl GyroscopicSystem {
 
     /// Whether eigenvalues come in quadruples and modes have Krein signs.
     pub fn is_conservative(&self) -> bool {
-        self.damping.is_none() && self.circulatory.is_none()
+        self.damping.is_none() && self.circulatory.is_none() && self.nonconservative.is_none()
     }
 
-    /// The same without damping of any kind.
-    pub fn undamped(&self) -> Self {
+    /// The terms that have a potential, and those of rotation.
+    pub fn conservative(&self) -> Self {
         GyroscopicSystem {
             damping: None,
             circulatory: None,
+            nonconservative: None,
             ..self.clone()
         }
     }
@@ -213,6 +220,9 @@ impl GyroscopicSystem {
         let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;
         if let Some(circulatory) = &self.circulatory {
             stiffness += Scale(speed_rad_per_s) * circulatory;
+        }
+        if let Some(nonconservative) = &self.nonconservative {
+            stiffness += nonconservative;
         }
         stiffness
     }
@@ -242,6 +252,7 @@ impl GyroscopicSystem {
             gyroscopic: times(&self.gyroscopic),
             damping: self.damping.as_ref().map(times),
             circulatory: self.circulatory.as_ref().map(times),
+            nonconservative: self.nonconservative.as_ref().map(times),
             free_rigid: self.free_rigid.clone(),
             drift: self.drift.as_ref().map(times),
         }
@@ -256,6 +267,7 @@ impl GyroscopicSystem {
             gyroscopic: skew(onto(&self.gyroscopic)),
             damping: self.damping.as_ref().map(|c| symmetric(onto(c))),
             circulatory: self.circulatory.as_ref().map(onto),
+            nonconservative: self.nonconservative.as_ref().map(onto),
             free_rigid: self
                 .free_rigid
                 .iter()
@@ -284,6 +296,7 @@ impl GyroscopicSystem {
             gyroscopic: sum(|s| Some(&s.gyroscopic))?,
             damping: sum(|s| s.damping.as_ref()),
             circulatory: sum(|s| s.circulatory.as_ref()),
+            nonconservative: sum(|s| s.nonconservative.as_ref()),
             free_rigid: Vec::new(),
             drift: sum(|s| s.drift.as_ref()),
         })

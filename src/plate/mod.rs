@@ -4,14 +4,15 @@
 //! mass matrix is the identity. Order of the unknowns: n = 0: J cosines; then for
 //! each n ≥ 1: J cosines, J sines.
 
+mod contact;
 mod edge_load;
 mod harmonic;
 mod membrane;
-mod pad;
 mod quadrature;
 mod radial;
 mod stress;
 
+pub use contact::{Contact, ContactTerms};
 pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use membrane::{Eigenstrain, MembraneSource, MembraneStress, PlaneStress, membrane_stiffness};
@@ -20,7 +21,7 @@ pub use stress::CentrifugalStress;
 
 use faer::Mat;
 
-use crate::scene::{Accuracy, Blade, Damping, Guide, Scene};
+use crate::scene::{Accuracy, Blade, Damping, Scene};
 
 /// How many functions describe the deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,10 +63,8 @@ pub struct Plate {
     pub basis: RadialBasis,
     /// K_b, K_m and K_σ − N of n = 0 … n_max.
     pub harmonics: Vec<HarmonicBlock>,
-    /// K_g, in 1/s², when a guide has a stiffness.
-    pub guide_stiffness: Option<Mat<f64>>,
-    /// Damping of the guides, in 1/s, when a guide has one.
-    pub guide_damping: Option<Mat<f64>>,
+    /// Terms of what touches the blade: guides, and what [`Plate::with_contact`] adds.
+    pub contact: ContactTerms,
     /// K_e, in 1/s², once [`Plate::with_edge_loads`] has put forces on the rim.
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
@@ -109,32 +108,25 @@ impl Plate {
             resolution,
             basis,
             harmonics,
-            guide_stiffness: None,
-            guide_damping: None,
+            contact: ContactTerms::default(),
             edge_stiffness: None,
             damping: scene.damping(),
             membrane,
             samples,
         };
+        let mut contact = ContactTerms::default();
         for guide in scene.guides() {
-            plate.add_guide(guide);
+            guide.add_to(&plate, &mut contact);
         }
+        plate.contact = contact;
         plate
     }
 
-    fn add_guide(&mut self, guide: &Guide) {
-        let coupling = pad::coupling(&self.blade, &self.basis, self, guide);
-        let add = |sum: &mut Option<Mat<f64>>, factor: f64| {
-            if factor > 0.0 {
-                let term = faer::Scale(factor) * &coupling;
-                *sum = Some(match sum.take() {
-                    Some(sum) => sum + term,
-                    None => term,
-                });
-            }
-        };
-        add(&mut self.guide_stiffness, guide.stiffness_n_per_m);
-        add(&mut self.guide_damping, guide.damping_n_s_per_m);
+    /// The same plate, touched by something more.
+    pub fn with_contact(&self, more: &impl Contact) -> Self {
+        let mut plate = self.clone();
+        more.add_to(self, &mut plate.contact);
+        plate
     }
 
     /// The same plate under dead forces at its rim.
@@ -161,10 +153,10 @@ impl Plate {
         plate
     }
 
-    /// The same plate without any damping.
-    pub fn undamped(&self) -> Self {
+    /// The same plate without damping, and without contact forces that have no potential.
+    pub fn conservative(&self) -> Self {
         Plate {
-            guide_damping: None,
+            contact: self.contact.conservative(),
             damping: None,
             ..self.clone()
         }
@@ -194,9 +186,13 @@ impl Plate {
 
     /// Whether anything fixed in space couples the harmonics.
     pub fn is_axisymmetric(&self) -> bool {
-        self.guide_stiffness.is_none()
-            && self.guide_damping.is_none()
-            && self.edge_stiffness.is_none()
+        self.contact.is_empty() && self.edge_stiffness.is_none()
+    }
+
+    /// Whether nothing is there that has no potential: then eigenvalues come in quadruples and
+    /// modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.damping.is_none() && self.contact.is_conservative()
     }
 
     /// The radial functions of n nodal diameters at radii evenly spread from edge to edge.
@@ -272,7 +268,7 @@ mod tests {
                 }
             }
         }
-        let distance = relative_distance(plate.guide_stiffness.as_ref().unwrap(), &sum);
+        let distance = relative_distance(plate.contact.stiffness().unwrap(), &sum);
         // The rim cuts cells: the midpoint sum itself is good to about one cell in 400².
         assert!(distance < 2e-4, "{distance}");
     }
@@ -291,7 +287,7 @@ mod tests {
         let per_mass = 1.0e6 / plate.blade.mass_per_area_kg_per_m2();
         let bed = faer::Scale(per_mass)
             * Mat::<f64>::identity(plate.degrees_of_freedom(), plate.degrees_of_freedom());
-        let distance = relative_distance(plate.guide_stiffness.as_ref().unwrap(), &bed);
+        let distance = relative_distance(plate.contact.stiffness().unwrap(), &bed);
         assert!(distance < 1e-12, "{distance}");
     }
 
@@ -305,9 +301,13 @@ mod tests {
             stiffness_n_per_m: 1.0e6,
             damping_n_s_per_m: 0.0,
         };
-        let point = plate_with(&[pad(0.0)]).guide_stiffness.unwrap();
-        let distance =
-            |size| relative_distance(&plate_with(&[pad(size)]).guide_stiffness.unwrap(), &point);
+        let point = plate_with(&[pad(0.0)]).contact.stiffness().unwrap().clone();
+        let distance = |size| {
+            relative_distance(
+                plate_with(&[pad(size)]).contact.stiffness().unwrap(),
+                &point,
+            )
+        };
         let (coarse, fine) = (distance(0.02), distance(0.01));
         let order = (coarse / fine).log2();
         assert!(
@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn what_the_scene_does_not_name_is_not_assembled() {
         let plate = plate_with(&[]);
-        assert!(plate.is_axisymmetric() && plate.damping.is_none());
+        assert!(plate.is_axisymmetric() && plate.is_conservative());
         assert_eq!(Scene::paper().file().blade.teeth, Some(42));
     }
 }

@@ -37,8 +37,11 @@ pub fn terms(plate: &Plate) -> Vec<String> {
         let membrane = plate.membrane.as_ref();
         add(membrane.is_some_and(|stress| stress.has(source)), name);
     }
-    add(plate.guide_stiffness.is_some(), "guide stiffness K_g");
-    add(plate.guide_damping.is_some(), "guide damping C");
+    let contact = &plate.contact;
+    add(contact.stiffness().is_some(), "guide stiffness K_g");
+    add(contact.damping().is_some(), "guide damping C");
+    let without_potential = contact.nonconservative_stiffness().is_some();
+    add(without_potential, "contact forces without potential K_n");
     let damping = plate.damping.as_ref();
     add(
         damping.is_some_and(|d| d.air_n_s_per_m3 > 0.0),

@@ -312,6 +312,7 @@ mod tests {
             gyroscopic: zero(),
             damping: None,
             circulatory: None,
+            nonconservative: None,
             free_rigid: Vec::new(),
             drift: None,
         };

@@ -215,7 +215,7 @@ impl<'a> Builder<'a> {
             return Ok((0.0, None));
         }
         let is_damped = !self.system.is_conservative();
-        let twin = is_damped.then(|| self.system.undamped());
+        let twin = is_damped.then(|| self.system.conservative());
         let system = twin.as_ref().unwrap_or(self.system);
         let mut count = CHART_MODES + index;
         loop {

@@ -16,8 +16,8 @@ pub struct Lifted {
 /// ‖D‖ and ‖K‖ at any speed, from the products of their terms: for residuals.
 #[derive(Debug)]
 pub struct MatrixNorms {
-    /// Products of K₀, K_σ − N and K_circ, which K(Ω) has with 1, Ω² and Ω.
-    stiffness: [[f64; 3]; 3],
+    /// Products of K₀, K_σ − N, K_circ and K_n, which K(Ω) has with 1, Ω², Ω and 1.
+    stiffness: [[f64; 4]; 4],
     /// Products of G and C, which D(Ω) has with 2Ω and 1.
     velocity: [[f64; 2]; 2],
 }
@@ -29,6 +29,7 @@ impl MatrixNorms {
             Some(&system.stiffness),
             Some(&system.spin),
             system.circulatory.as_ref(),
+            system.nonconservative.as_ref(),
         ];
         let velocity = [Some(&system.gyroscopic), system.damping.as_ref()];
         MatrixNorms {
@@ -41,7 +42,7 @@ impl MatrixNorms {
     /// that would make the pair exact (Tisseur, Linear Algebra Appl. 309, 2000).
     pub fn backward_error(&self, speed_rad_per_s: f64, lambda: c64, lifted: &Lifted) -> f64 {
         let speed = speed_rad_per_s;
-        let stiffness = norm(&self.stiffness, [1.0, speed * speed, speed]);
+        let stiffness = norm(&self.stiffness, [1.0, speed * speed, speed, 1.0]);
         let velocity = norm(&self.velocity, [2.0 * speed, 1.0]);
         let size = lambda.norm_sqr() + lambda.norm() * velocity + stiffness;
         let denominator = size * lifted.shape.norm_l2();

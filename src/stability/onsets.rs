@@ -47,7 +47,7 @@ impl Onsets {
         let functions = plate.degrees_of_freedom();
         // Nothing couples the waves of a free blade, and nothing is reflected below the lowest
         // critical speed: then there are no bands to search for.
-        let is_damped = plate.damping.is_some() || plate.guide_damping.is_some();
+        let is_damped = !plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
         let (instabilities, certificate) = match plate.is_axisymmetric() || is_slow {
             true if !is_damped => Default::default(),
@@ -77,7 +77,7 @@ pub fn search_bands(
     critical: Vec<NamedCriticalSpeed>,
     range: (f64, f64),
 ) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
-    if plate.damping.is_none() && plate.guide_damping.is_none() {
+    if plate.is_conservative() {
         let model = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
         return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
     }

@@ -147,6 +147,7 @@ mod tests {
             gyroscopic: Mat::zeros(1, 1),
             damping: (damping > 0.0).then(|| mat![[damping]]),
             circulatory: None,
+            nonconservative: None,
             free_rigid: Vec::new(),
             drift: None,
         }

@@ -198,7 +198,7 @@ pub fn evenly_spaced_pads() -> Row {
             file.guides.push(pad);
         }
         let plate = Plate::new(&scene(&file), Resolution::of(Accuracy::Design));
-        let coupling = plate.guide_stiffness.as_ref().unwrap();
+        let coupling = plate.contact.stiffness().unwrap();
         let radial = plate.basis.count();
         // Blocks of cos and sin: 0, 1, 1, 2, 2, …
         let diameters = |i: usize| (i / radial).div_ceil(2);

@@ -18,7 +18,7 @@ fn dense(matrix: &faer::Mat<f64>) -> DMatrix<f64> {
 /// of fourth order with two Gauss points (Blanes et al., Phys. Rep. 470, 2009).
 fn monodromy(plate: &Plate, system: &GyroscopicSystem, speed: f64, steps: usize) -> DMatrix<f64> {
     let order = system.order();
-    let guides = dense(plate.guide_stiffness.as_ref().unwrap());
+    let guides = dense(plate.contact.stiffness().unwrap());
     let turn = dense(&system.gyroscopic);
     let axisymmetric = dense(&system.stiffness) - &guides;
     // N = GᵀG turns K_σ − N back into K_σ.

@@ -11,6 +11,7 @@ mod damping;
 mod edge_load;
 mod even_springs;
 mod floquet;
+mod follower;
 mod heat_limits;
 mod membrane;
 mod moving_loads;

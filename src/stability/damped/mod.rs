@@ -57,7 +57,7 @@ pub(super) fn charted(
 
 /// The bands of the blade without damping.
 fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instability>, SpectrumError> {
-    let plate = model.plate.undamped();
+    let plate = model.plate.conservative();
     if plate.is_axisymmetric() {
         return Ok(Vec::new());
     }

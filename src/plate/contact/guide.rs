@@ -4,13 +4,15 @@
 //! cos kθ over those arcs are elementary, so only the radius needs quadrature,
 //! and a pad of any size, clipped to the blade, comes out to rounding.
 
+use faer::Scale;
 use nalgebra::DMatrix;
 
 use crate::scene::{Blade, Guide};
 
-use super::Plate;
-use super::quadrature;
-use super::radial::RadialBasis;
+use super::super::Plate;
+use super::super::quadrature;
+use super::super::radial::RadialBasis;
+use super::{Contact, ContactTerms};
 
 /// ∫ φᵢ φⱼ dA / (pad area) as one J × J matrix for each k = |n ± m|:
 /// Q_k = ∫ R_j R_l (∫ cos kψ dψ) r dr, ψ from the pad's centre line.
@@ -19,9 +21,21 @@ struct PadHarmonics {
     by_order: Vec<DMatrix<f64>>,
 }
 
+impl Contact for Guide {
+    fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
+        let coupling = coupling(&plate.blade, &plate.basis, plate, self);
+        if self.stiffness_n_per_m > 0.0 {
+            terms.add_stiffness(&(Scale(self.stiffness_n_per_m) * &coupling));
+        }
+        if self.damping_n_s_per_m > 0.0 {
+            terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
+        }
+    }
+}
+
 /// Mean of φᵢφⱼ over a pad, in 1/kg: times the pad's stiffness it is K_g,
 /// times its damping C. N × N, symmetric, positive semidefinite.
-pub fn coupling(blade: &Blade, basis: &RadialBasis, plate: &Plate, pad: &Guide) -> faer::Mat<f64> {
+fn coupling(blade: &Blade, basis: &RadialBasis, plate: &Plate, pad: &Guide) -> faer::Mat<f64> {
     let max_diameters = plate.max_diameters();
     let harmonics = PadHarmonics::new(blade, basis, pad, 2 * max_diameters);
     let size = basis.count();
