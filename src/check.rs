@@ -131,7 +131,7 @@ impl Check {
         Ok(Check {
             criteria: limits.criteria(
                 lowest_critical,
-                analysis.flutter_speed,
+                analysis.flutter_speed_rad_per_s,
                 &analysis.chart.instabilities,
                 scene.flutter_threshold_per_s(),
             ),

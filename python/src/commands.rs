@@ -41,7 +41,9 @@ pub fn analyze(
         let analysis = Analysis::with_options(&scene, options)?;
         let mut report = analysis.report()?;
         if sensitivity {
-            let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
+            let at = scene
+                .operating_rad_per_s()
+                .unwrap_or(analysis.range_rad_per_s.0);
             let found = sensitivities(&analysis, at)?;
             report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
         }
@@ -61,7 +63,7 @@ pub fn modes(
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |_| {
         let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
-        let (from, to) = chosen.range;
+        let (from, to) = chosen.range_rad_per_s;
         let speed = rad_per_s(at_rpm);
         // The end of a sweep is not told from its value in rpm.
         if !(from <= speed * (1.0 + 1e-12) && speed <= to * (1.0 + 1e-12)) {

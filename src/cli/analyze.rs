@@ -95,7 +95,9 @@ fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
         report.whirl = Some(WhirlEntry::new(&analysis, rad_per_s(speed))?);
     }
     if arguments.sensitivity {
-        let at = scene.operating_rad_per_s().unwrap_or(analysis.range.0);
+        let at = scene
+            .operating_rad_per_s()
+            .unwrap_or(analysis.range_rad_per_s.0);
         let found = sensitivities(&analysis, at)?;
         report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
     }

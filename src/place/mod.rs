@@ -207,7 +207,7 @@ impl Placement {
         let mut question = Question {
             goal: demands.goal,
             min_critical_rad_per_s: demands.min_critical_rad_per_s,
-            range: chosen.range,
+            range: chosen.range_rad_per_s,
             resolution: options.resolution.unwrap_or(chosen.plate.resolution),
         };
         let (freed, without_effect) = effective(scene, freed, &question, &evaluations);
@@ -336,7 +336,10 @@ fn effective(
     let speeds = |shares: &[f64]| -> Option<[f64; 3]> {
         let outcome = search.outcome(shares)?;
         let critical = outcome.critical_rad_per_s.unwrap_or(0.0);
-        let first = outcome.bands.first().map_or(0.0, |band| band.from);
+        let first = outcome
+            .bands
+            .first()
+            .map_or(0.0, |band| band.from_rad_per_s);
         Some([outcome.value_rad_per_s, critical, first])
     };
     let moves = |k: &usize| -> bool {

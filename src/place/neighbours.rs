@@ -144,7 +144,7 @@ fn almost(best: &Outcome, threshold_per_s: f64) -> Vec<Instability> {
     let before = best.flutter_rad_per_s.unwrap_or(f64::INFINITY);
     let near = |b: &&Instability| {
         b.kind == InstabilityKind::Flutter
-            && b.from < before
+            && b.from_rad_per_s < before
             && b.peak_growth_per_s >= NEAR * threshold_per_s
     };
     best.bands.iter().filter(near).cloned().collect()

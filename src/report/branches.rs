@@ -82,11 +82,11 @@ impl<'a> Numbered<'a> {
 
     /// The growing branch of a band and its mirror image, read off the speed of its peak.
     pub fn of_band(&self, band: &Instability) -> Vec<usize> {
-        let Some(index) = self.nearest_sample(band.peak) else {
+        let Some(index) = self.nearest_sample(band.peak_rad_per_s) else {
             return Vec::new();
         };
         let sample = &self.campbell().samples[index];
-        let wanted = c64::new(band.peak_growth_per_s, band.frequency);
+        let wanted = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
         let kinds = match band.kind {
             InstabilityKind::Divergence => vec![ModeKind::Divergent],
             InstabilityKind::Flutter => vec![ModeKind::Flutter, ModeKind::Decaying],

@@ -52,8 +52,8 @@ impl Analysis {
             modes_at_rest: rest_modes(analysis, &at_rest, &branches),
             critical_speeds: critical_speeds(analysis, &branches),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
-            flutter_speed_rpm: analysis.flutter_speed.map(rpm),
-            first_merge_rpm: analysis.first_merge.map(rpm),
+            flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
+            first_merge_rpm: analysis.first_merge_rad_per_s.map(rpm),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             operating: scene
                 .operating_rad_per_s()
@@ -75,8 +75,8 @@ impl Analysis {
             warnings: warnings(scene, analysis, &certificate, &at_rest),
             certificate,
             campbell: CampbellEntry {
-                from_rpm: rpm(analysis.range.0),
-                to_rpm: rpm(analysis.range.1),
+                from_rpm: rpm(analysis.range_rad_per_s.0),
+                to_rpm: rpm(analysis.range_rad_per_s.1),
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
                 branches: branches.entries(),
             },
@@ -89,12 +89,14 @@ impl Analysis {
 
 fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEntry> {
     let loci = analysis.root_loci.as_ref()?;
-    let onset = analysis.flutter_speed.or(analysis.first_merge)?;
+    let onset = analysis
+        .flutter_speed_rad_per_s
+        .or(analysis.first_merge_rad_per_s)?;
     let band = analysis
         .chart
         .instabilities
         .iter()
-        .find(|b| b.from == onset)?;
+        .find(|b| b.from_rad_per_s == onset)?;
     let names = branches.of_band(band).into_iter();
     let names = names.map(|number| branches.name(number));
     let names = names.chain(std::iter::repeat(String::new()));
@@ -106,7 +108,7 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
     });
     Some(RootLociEntry {
         onset_rpm: rpm(onset),
-        end_rpm: rpm(band.to),
+        end_rpm: rpm(band.to_rad_per_s),
         rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
         paths: paths.collect(),
     })
@@ -252,7 +254,7 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
     let estimates = analysis.estimates.as_ref();
     let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
     for (index, critical) in analysis.model.critical.iter().enumerate() {
-        if critical.speed_rad_per_s > analysis.range.1 {
+        if critical.speed_rad_per_s > analysis.range_rad_per_s.1 {
             break;
         }
         let speed = rpm(critical.speed_rad_per_s);
@@ -282,12 +284,12 @@ impl InstabilityEntry {
         let counted = band.counted(threshold_per_s).into_iter();
         InstabilityEntry {
             kind: band.kind,
-            from_rpm: rpm(band.from),
-            to_rpm: rpm(band.to),
+            from_rpm: rpm(band.from_rad_per_s),
+            to_rpm: rpm(band.to_rad_per_s),
             closed: band.closed,
-            peak_rpm: rpm(band.peak),
+            peak_rpm: rpm(band.peak_rad_per_s),
             peak_growth_per_s: band.peak_growth_per_s,
-            frequency_hz: band.frequency / TAU,
+            frequency_hz: band.frequency_rad_per_s / TAU,
             branches: Vec::new(),
             modes: Vec::new(),
             counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),

@@ -55,8 +55,12 @@ impl CertificateEntry {
         CertificateEntry {
             statement: statement(certificate, is_undamped),
             speeds_checked: certificate.speeds_checked,
-            krein_violations: certificate.violations.len(),
-            violating_rpm: certificate.violations.iter().map(|s| rpm(*s)).collect(),
+            krein_violations: certificate.violations_rad_per_s.len(),
+            violating_rpm: certificate
+                .violations_rad_per_s
+                .iter()
+                .map(|s| rpm(*s))
+                .collect(),
             mismatches: certificate.mismatches.iter().map(Into::into).collect(),
             gave_up: certificate.gave_up,
             max_backward_error,
@@ -95,7 +99,7 @@ fn statement(certificate: &Certificate, is_undamped: bool) -> String {
     let contradicted = certificate.mismatches.iter().map(|m| m.speed_rad_per_s);
     let mut wrong = Vec::new();
     for (what, speeds) in [
-        (differs, certificate.violations.clone()),
+        (differs, certificate.violations_rad_per_s.clone()),
         (
             "the list of bands contradicts the eigenvalues",
             contradicted.collect(),
@@ -152,7 +156,7 @@ mod tests {
             "growing modes match the bands at 567 of 567 speeds"
         );
         let wrong = Certificate {
-            violations: [1200.0, 1300.0].map(rad_per_s).to_vec(),
+            violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),
             mismatches: vec![Mismatch {
                 speed_rad_per_s: rad_per_s(1400.0),
                 kind: InstabilityKind::Flutter,

@@ -63,7 +63,7 @@ impl CheckReport {
     /// Reports a check.
     pub fn new(scene: &Scene, limits: &Limits, check: &Check) -> Self {
         let analysis = &check.analysis;
-        let to_rad_per_s = analysis.range.1;
+        let to_rad_per_s = analysis.range_rad_per_s.1;
         let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
         let bands = analysis.chart.instabilities.iter();
         let branches = Numbered::new(analysis);

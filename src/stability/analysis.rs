@@ -46,14 +46,14 @@ pub struct Analysis {
     /// Modes at any speed of the range.
     pub model: SpectralModel,
     /// Range of speeds, in rad/s.
-    pub range: (f64, f64),
+    pub range_rad_per_s: (f64, f64),
     /// Branches, bands and certificate.
     pub chart: StabilityChart,
     /// Flutter speed: the lowest speed at which flutter counts, in rad/s, see
     /// [`Instability::counted`].
-    pub flutter_speed: Option<f64>,
+    pub flutter_speed_rad_per_s: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
-    pub first_merge: Option<f64>,
+    pub first_merge_rad_per_s: Option<f64>,
     /// The eigenvalues of the band at the flutter speed, or of the first of all.
     pub root_loci: Option<RootLoci>,
     /// Estimated relative error of the critical speeds within the range, extrapolated from
@@ -86,7 +86,7 @@ impl Analysis {
         let ChosenBasis {
             plate,
             critical,
-            range,
+            range_rad_per_s: range,
             estimated_relative_error,
             estimated_resting_error,
             larger,
@@ -102,8 +102,9 @@ impl Analysis {
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
         let loci = model.is_conservative() && detail == Detail::Full;
         let onset = flutter_speed.or(first_merge).filter(|_| loci);
-        let begins =
-            |band: &&Instability| band.kind == InstabilityKind::Flutter && Some(band.from) == onset;
+        let begins = |band: &&Instability| {
+            band.kind == InstabilityKind::Flutter && Some(band.from_rad_per_s) == onset
+        };
         let root_loci = match chart.instabilities.iter().find(begins) {
             Some(band) => RootLoci::new(&model, band, range)?,
             None => None,
@@ -113,10 +114,10 @@ impl Analysis {
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
             model,
-            range,
+            range_rad_per_s: range,
             chart,
-            flutter_speed,
-            first_merge,
+            flutter_speed_rad_per_s: flutter_speed,
+            first_merge_rad_per_s: first_merge,
             root_loci,
         })
     }
@@ -127,7 +128,7 @@ impl Analysis {
         verdict(
             bands,
             self.scene.flutter_threshold_per_s(),
-            self.range,
+            self.range_rad_per_s,
             speed_rad_per_s,
         )
     }
@@ -138,7 +139,7 @@ impl Analysis {
         safe_window(
             bands,
             self.scene.flutter_threshold_per_s(),
-            self.range,
+            self.range_rad_per_s,
             speed_rad_per_s,
         )
     }

@@ -19,18 +19,18 @@ pub enum InstabilityKind {
 pub struct Instability {
     /// Divergence or flutter.
     pub kind: InstabilityKind,
-    /// Onset, in rad/s.
-    pub from: f64,
+    /// Onset.
+    pub from_rad_per_s: f64,
     /// End, or the end of the range.
-    pub to: f64,
+    pub to_rad_per_s: f64,
     /// False when the range begins or ends inside the band.
     pub closed: bool,
     /// Speed of largest growth.
-    pub peak: f64,
+    pub peak_rad_per_s: f64,
     /// Largest growth rate.
     pub peak_growth_per_s: f64,
-    /// Frequency at the peak, in rad/s.
-    pub frequency: f64,
+    /// Frequency at the peak.
+    pub frequency_rad_per_s: f64,
     /// The modes that meet.
     pub modes: Vec<String>,
     /// The eigenvalue from the first to the last speed of a band of a damped blade, close

@@ -59,7 +59,7 @@ pub struct ChosenBasis {
     /// Every critical speed, ascending.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Speeds of the chart.
-    pub range: (f64, f64),
+    pub range_rad_per_s: (f64, f64),
     /// Estimated relative error of the critical speeds within the range.
     pub estimated_relative_error: f64,
     /// Estimated relative error of the lowest frequencies at rest.
@@ -115,7 +115,7 @@ impl ChosenBasis {
                     return Ok(ChosenBasis {
                         plate,
                         critical,
-                        range,
+                        range_rad_per_s: range,
                         estimated_relative_error: estimated,
                         estimated_resting_error: resting,
                         larger,
@@ -302,7 +302,7 @@ mod tests {
         });
         let scene = thick.unwrap();
         let chosen = ChosenBasis::new(&scene, 1e-2).unwrap();
-        assert_eq!(chosen.range.1, fastest_rad_per_s(scene.blade()));
-        assert!(chosen.critical[0].speed_rad_per_s > chosen.range.1);
+        assert_eq!(chosen.range_rad_per_s.1, fastest_rad_per_s(scene.blade()));
+        assert!(chosen.critical[0].speed_rad_per_s > chosen.range_rad_per_s.1);
     }
 }

@@ -9,7 +9,7 @@ pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.
     pub speeds_checked: usize,
     /// Speeds at which it did not match, not even on the full model, in rad/s.
-    pub violations: Vec<f64>,
+    pub violations_rad_per_s: Vec<f64>,
     /// Speeds at which the list of bands contradicts the eigenvalues found there.
     pub mismatches: Vec<Mismatch>,
     /// Whether the search ran out of its allowance of speeds.
@@ -19,7 +19,7 @@ pub struct Certificate {
 impl Certificate {
     /// Whether every check agrees.
     pub fn is_clean(&self) -> bool {
-        self.violations.is_empty() && self.mismatches.is_empty() && !self.gave_up
+        self.violations_rad_per_s.is_empty() && self.mismatches.is_empty() && !self.gave_up
     }
 }
 
@@ -53,7 +53,10 @@ const PEAK_TOLERANCE: f64 = 0.03;
 pub fn mismatches(bands: &[Instability], signature: &Signature, floor_per_s: f64) -> Vec<Mismatch> {
     let speed = signature.speed_rad_per_s;
     let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;
-    if bands.iter().any(|band| near(band.from) || near(band.to)) {
+    if bands
+        .iter()
+        .any(|band| near(band.from_rad_per_s) || near(band.to_rad_per_s))
+    {
         return Vec::new();
     }
     let flutter = signature.quadruples.iter().map(|mode| mode.lambda.re);
@@ -78,7 +81,8 @@ fn mismatch(
     mut growth: Vec<f64>,
     floor_per_s: f64,
 ) -> Option<Mismatch> {
-    let covers = |b: &&Instability| b.kind == kind && (b.from..=b.to).contains(&speed);
+    let covers =
+        |b: &&Instability| b.kind == kind && (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed);
     let mut peaks: Vec<f64> = bands
         .iter()
         .filter(covers)
@@ -115,12 +119,12 @@ mod tests {
     fn band(kind: InstabilityKind, from: f64, to: f64, peak_growth_per_s: f64) -> Instability {
         Instability {
             kind,
-            from,
-            to,
+            from_rad_per_s: from,
+            to_rad_per_s: to,
             closed: true,
-            peak: 0.5 * (from + to),
+            peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s,
-            frequency: 1.0,
+            frequency_rad_per_s: 1.0,
             modes: Vec::new(),
             curve: Vec::new(),
         }

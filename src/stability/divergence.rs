@@ -76,12 +76,12 @@ fn band(
     let found = maximise(samples, at)?;
     Ok(Instability {
         kind: InstabilityKind::Divergence,
-        from,
-        to,
+        from_rad_per_s: from,
+        to_rad_per_s: to,
         closed: begins != Edge::Range && ends != Edge::Range,
-        peak: found.map_or(from, |sample| sample.at),
+        peak_rad_per_s: found.map_or(from, |sample| sample.at),
         peak_growth_per_s: found.map_or(0.0, |sample| sample.value.sqrt()),
-        frequency: 0.0,
+        frequency_rad_per_s: 0.0,
         modes: standing_waves(model, from, to),
         curve: Vec::new(),
     })
@@ -107,12 +107,12 @@ pub(super) fn close_pairs(
         let peak = 0.5 * (pair[0] + pair[1]);
         bands.push(Instability {
             kind: InstabilityKind::Divergence,
-            from: pair[0],
-            to: pair[1],
+            from_rad_per_s: pair[0],
+            to_rad_per_s: pair[1],
             closed: true,
-            peak,
+            peak_rad_per_s: peak,
             peak_growth_per_s: evaluator.divergence(peak)?,
-            frequency: 0.0,
+            frequency_rad_per_s: 0.0,
             modes: standing_waves(model, pair[0], pair[1]),
             curve: Vec::new(),
         });

@@ -45,7 +45,7 @@ impl BandError {
             .growth
             .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical);
         // A band may begin at rest, never end there.
-        let width = (band.to - band.from) / band.to;
+        let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
         let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
         BandError {
             speed: Some(REMAINDER * self.speed.unwrap_or(0.0) + critical + by_growth),
@@ -100,7 +100,9 @@ impl Estimates {
             .instabilities
             .par_iter()
             .map(|band| {
-                let at_peak = samples.iter().find(|s| s.speed_rad_per_s == band.peak);
+                let at_peak = samples
+                    .iter()
+                    .find(|s| s.speed_rad_per_s == band.peak_rad_per_s);
                 let told = match at_peak {
                     Some(sample) => estimates.band(model, band, sample)?,
                     None => BandError::default(),
@@ -146,7 +148,9 @@ impl Estimates {
         let basis = orthonormal(full.order(), &halves, INDEPENDENT);
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
-        larger.stiffness -= self.larger.softening(component, band.peak, &basis);
+        larger.stiffness -= self
+            .larger
+            .softening(component, band.peak_rad_per_s, &basis);
         match (band.kind, model.is_conservative()) {
             (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
             (InstabilityKind::Flutter, true) => {
@@ -155,7 +159,7 @@ impl Estimates {
                     let (re, im) = (basis.transpose() * re, basis.transpose() * im);
                     let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
                     let lambda = [growing, partner][k].mode.lambda;
-                    State::new(&found, band.peak, (lambda, q))
+                    State::new(&found, band.peak_rad_per_s, (lambda, q))
                 };
                 let states = [inward(0), inward(1)];
                 Ok(merged([&found, &larger], &states, band))
@@ -182,14 +186,16 @@ impl Estimates {
         let full = &model.components[component].full;
         let ends = model.critical.iter().filter(|c| {
             let is_end = |end: f64| (c.speed_rad_per_s / end - 1.0).abs() < SAME_SPEED;
-            c.component == component && (is_end(band.from) || is_end(band.to))
+            c.component == component && (is_end(band.from_rad_per_s) || is_end(band.to_rad_per_s))
         });
         let (re, im) = split(&model.components[component].coordinates(&growing.shape));
         let shapes = ends.map(|c| c.shape.clone()).chain([re, im]);
         let basis = orthonormal(full.order(), &shapes.collect::<Vec<_>>(), INDEPENDENT);
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
-        larger.stiffness -= self.larger.softening(component, band.peak, &basis);
+        larger.stiffness -= self
+            .larger
+            .softening(component, band.peak_rad_per_s, &basis);
         let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
         let [Some(before), Some(after)] = [before, after] else {
             return Ok(BandError::default());
@@ -217,8 +223,9 @@ impl Lean {
     fn new(system: &GyroscopicSystem, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let critical = critical_speeds(system)?;
         let speeds: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
-        let middle =
-            |pair: &&[f64]| (0.5 * (pair[0] + pair[1]) - 0.5 * (band.from + band.to)).abs();
+        let middle = |pair: &&[f64]| {
+            (0.5 * (pair[0] + pair[1]) - 0.5 * (band.from_rad_per_s + band.to_rad_per_s)).abs()
+        };
         let pairs = speeds.windows(2);
         let Some(&[from, to]) = pairs.min_by(|x, y| middle(x).total_cmp(&middle(y))) else {
             return Ok(None);
@@ -243,7 +250,8 @@ const INDEPENDENT: f64 = 1e-6;
 
 /// The growing mode of a band and the one that it has merged with, or next to it.
 fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a DescribedMode; 2]> {
-    let distance = |m: &&DescribedMode| (m.mode.frequency_rad_per_s() - band.frequency).abs();
+    let distance =
+        |m: &&DescribedMode| (m.mode.frequency_rad_per_s() - band.frequency_rad_per_s).abs();
     let nearest = |modes: &mut dyn Iterator<Item = &'a DescribedMode>| {
         modes.min_by(|x, y| distance(x).total_cmp(&distance(y)))
     };
@@ -268,7 +276,7 @@ fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a D
 /// Flutter of two merged modes: the discriminant of the pair is nearly a parabola of the speed.
 fn merged(systems: [&GyroscopicSystem; 2], states: &[State; 2], band: &Instability) -> BandError {
     let humps = systems.map(|system| {
-        let model = HamiltonianReduction::new(system, band.frequency, states)?;
+        let model = HamiltonianReduction::new(system, band.frequency_rad_per_s, states)?;
         (model.order() == 4).then_some(())?;
         Hump::new(band, |speed| {
             let (sum, product) = model.pair_invariants(speed);
@@ -279,7 +287,7 @@ fn merged(systems: [&GyroscopicSystem; 2], states: &[State; 2], band: &Instabili
         return BandError::default();
     };
     BandError {
-        speed: told((after.onset() - before.onset()) / band.from),
+        speed: told((after.onset() - before.onset()) / band.from_rad_per_s),
         growth: told(after.growth() / before.growth() - 1.0),
     }
 }
@@ -295,8 +303,8 @@ struct Hump {
 
 impl Hump {
     fn new(band: &Instability, square: impl Fn(f64) -> f64) -> Option<Self> {
-        let mut top = band.peak;
-        let step = 0.25 * (band.to - band.from).max(1e-9 * band.peak);
+        let mut top = band.peak_rad_per_s;
+        let step = 0.25 * (band.to_rad_per_s - band.from_rad_per_s).max(1e-9 * band.peak_rad_per_s);
         let mut hump = None;
         for _ in 0..8 {
             let [left, middle, right] = [top - step, top, top + step].map(&square);
@@ -311,13 +319,14 @@ impl Hump {
                 curvature,
                 at_peak: None,
             });
-            top += offset.clamp(-0.02 * band.peak, 0.02 * band.peak);
+            top += offset.clamp(-0.02 * band.peak_rad_per_s, 0.02 * band.peak_rad_per_s);
             if offset.abs() < 1e-3 * step {
                 break;
             }
         }
-        let at_end = band.peak == band.from || band.peak == band.to;
-        let at_peak = at_end.then(|| square(band.peak));
+        let at_end =
+            band.peak_rad_per_s == band.from_rad_per_s || band.peak_rad_per_s == band.to_rad_per_s;
+        let at_peak = at_end.then(|| square(band.peak_rad_per_s));
         hump.map(|hump| Hump { at_peak, ..hump })
     }
 
@@ -337,7 +346,7 @@ fn grown(
     band: &Instability,
 ) -> Result<f64, SpectrumError> {
     let lambda = mode.mode.lambda;
-    let pairs = companion_eigenpairs(system, band.peak)?;
+    let pairs = companion_eigenpairs(system, band.peak_rad_per_s)?;
     let distance = |value: &c64| (value - lambda).norm();
     let values = pairs.into_iter().map(|(value, _)| value);
     let nearest = values.min_by(|x, y| distance(x).total_cmp(&distance(y)));

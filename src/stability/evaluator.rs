@@ -81,7 +81,7 @@ impl<'a> SignatureEvaluator<'a> {
         violations.sort_by(f64::total_cmp);
         Certificate {
             speeds_checked: self.tally.checked.load(Ordering::Relaxed),
-            violations,
+            violations_rad_per_s: violations,
             mismatches: Vec::new(),
             gave_up: self.is_exhausted(),
         }

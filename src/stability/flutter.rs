@@ -130,12 +130,12 @@ pub(super) fn flutter(
 fn narrow_band(model: &SpectralModel, band: NarrowBand) -> Result<Instability, SpectrumError> {
     Ok(Instability {
         kind: InstabilityKind::Flutter,
-        from: band.from_rad_per_s,
-        to: band.to_rad_per_s,
+        from_rad_per_s: band.from_rad_per_s,
+        to_rad_per_s: band.to_rad_per_s,
         closed: true,
-        peak: band.peak_rad_per_s,
+        peak_rad_per_s: band.peak_rad_per_s,
         peak_growth_per_s: band.growth_per_s,
-        frequency: band.frequency_rad_per_s,
+        frequency_rad_per_s: band.frequency_rad_per_s,
         modes: meeting_modes(model, band.from_rad_per_s, band.frequency_rad_per_s)?,
         curve: Vec::new(),
     })
@@ -155,12 +155,12 @@ fn band(
     let is_open = |end: &End| matches!(end, End::Range(_));
     Ok(Instability {
         kind: InstabilityKind::Flutter,
-        from,
-        to,
+        from_rad_per_s: from,
+        to_rad_per_s: to,
         closed: !is_open(&quadruple.begin) && !is_open(&quadruple.end),
-        peak,
+        peak_rad_per_s: peak,
         peak_growth_per_s: fastest.0,
-        frequency: fastest.1,
+        frequency_rad_per_s: fastest.1,
         modes: meeting_modes(model, from, onset_frequency)?,
         curve: Vec::new(),
     })

@@ -34,10 +34,10 @@ impl RootLoci {
         let Some(low) = model.reflected_model() else {
             return Ok(None);
         };
-        let width = band.to - band.from;
+        let width = band.to_rad_per_s - band.from_rad_per_s;
         let (from, to) = (
-            (band.from - width).max(range.0),
-            (band.to + width).min(range.1),
+            (band.from_rad_per_s - width).max(range.0),
+            (band.to_rad_per_s + width).min(range.1),
         );
         let low = if to - from <= NARROW * to {
             low.between([&low.modes(from)?, &low.modes(to)?])
@@ -47,12 +47,13 @@ impl RootLoci {
         let Some(peak) = Pair::at_peak(&low, band)? else {
             return Ok(None);
         };
-        let outwards =
-            |edge: f64, end: f64| denser_at_ends(band.peak, edge).chain(denser_at_ends(edge, end));
-        let mut rows = peak.followed(&low, band, outwards(band.from, from))?;
+        let outwards = |edge: f64, end: f64| {
+            denser_at_ends(band.peak_rad_per_s, edge).chain(denser_at_ends(edge, end))
+        };
+        let mut rows = peak.followed(&low, band, outwards(band.from_rad_per_s, from))?;
         rows.reverse();
         rows.push(peak.row());
-        rows.extend(peak.followed(&low, band, outwards(band.to, to))?);
+        rows.extend(peak.followed(&low, band, outwards(band.to_rad_per_s, to))?);
         let path = |k: usize| rows.iter().map(|row| row.1[k]).collect();
         Ok(Some(RootLoci {
             speeds: rows.iter().map(|row| row.0).collect(),
@@ -97,9 +98,9 @@ impl Pair {
         low: &ReflectedModel<'_>,
         band: &Instability,
     ) -> Result<Option<Self>, SpectrumError> {
-        let modes = lowest_modes(low, band.peak)?;
+        let modes = lowest_modes(low, band.peak_rad_per_s)?;
         let nearest = |kind: ModeKind, growth: f64| {
-            let wanted = c64::new(growth, band.frequency);
+            let wanted = c64::new(growth, band.frequency_rad_per_s);
             let off = |i: &usize| (modes[*i].lambda - wanted).norm();
             let same = (0..modes.len()).filter(|i| modes[*i].kind == kind);
             same.min_by(|x, y| off(x).total_cmp(&off(y)))
@@ -108,7 +109,7 @@ impl Pair {
         let growing = nearest(ModeKind::Flutter, growth);
         let decaying = nearest(ModeKind::Decaying, -growth);
         Ok(growing.zip(decaying).map(|(growing, decaying)| Pair {
-            speed: band.peak,
+            speed: band.peak_rad_per_s,
             modes,
             chosen: [growing, decaying],
         }))
@@ -134,7 +135,7 @@ impl Pair {
             let Some(next) = last.to(low, speed)? else {
                 break;
             };
-            let inside = (band.from..=band.to).contains(&speed);
+            let inside = (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
             let signs = next.row().1.map(|(_, sign)| sign);
             if signs != if inside { [0, 0] } else { [1, -1] } {
                 break;

@@ -15,13 +15,13 @@ use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 #[derive(Debug)]
 pub struct Onsets {
     /// Lowest critical speed, in rad/s.
-    pub lowest_critical: Option<f64>,
+    pub lowest_critical_rad_per_s: Option<f64>,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
     /// Lowest speed at which flutter counts, in rad/s, see [`Instability::counted`].
-    pub flutter_speed: Option<f64>,
+    pub flutter_speed_rad_per_s: Option<f64>,
     /// Onset of the first flutter band of all, in rad/s.
-    pub first_merge: Option<f64>,
+    pub first_merge_rad_per_s: Option<f64>,
     /// Proof that no band is missing; nothing was compared in damped scenes.
     pub certificate: Certificate,
     /// Functions of the basis.
@@ -39,7 +39,7 @@ impl Onsets {
         let ChosenBasis {
             plate,
             critical,
-            range,
+            range_rad_per_s: range,
             estimated_relative_error,
             ..
         } = ChosenBasis::new(scene, scene.tolerance())?;
@@ -56,9 +56,9 @@ impl Onsets {
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);
         Ok(Onsets {
-            lowest_critical,
-            flutter_speed,
-            first_merge,
+            lowest_critical_rad_per_s: lowest_critical,
+            flutter_speed_rad_per_s: flutter_speed,
+            first_merge_rad_per_s: first_merge,
             instabilities,
             certificate,
             functions,

@@ -81,7 +81,7 @@ pub fn sensitivities(
         let critical = analysis.model.critical.iter();
         all.push(Sensitivity {
             critical_speeds: critical
-                .take_while(|c| c.speed_rad_per_s <= analysis.range.1)
+                .take_while(|c| c.speed_rad_per_s <= analysis.range_rad_per_s.1)
                 .map(|c| relative(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
                 .collect(),
             onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
@@ -243,14 +243,14 @@ impl Merging {
     /// The onset of a band; `None` where the range begins inside it.
     fn new(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let model = &analysis.model;
-        if band.from <= analysis.range.0 {
+        if band.from_rad_per_s <= analysis.range_rad_per_s.0 {
             return Ok(None);
         }
         if !model.is_conservative() {
             return Self::damped(analysis, band);
         }
         if band.kind == InstabilityKind::Divergence {
-            let distance = |speed: f64| (speed - band.from).abs();
+            let distance = |speed: f64| (speed - band.from_rad_per_s).abs();
             let nearest = model
                 .critical
                 .iter()
@@ -258,7 +258,7 @@ impl Merging {
             return Ok(nearest.map(|c| Self::standing(c.component, c.speed_rad_per_s, &c.shape)));
         }
         // Just below the onset the two vectors are x ± εu: their mean is x up to ε².
-        let before = band.from * (1.0 - 1e-8);
+        let before = band.from_rad_per_s * (1.0 - 1e-8);
         let modes = model.modes(before)?;
         let pair = closest_opposite(&modes);
         let Some((first, second)) = pair else {
@@ -272,7 +272,7 @@ impl Merging {
         let mean = faer::Scale(c64::new(0.5, 0.0)) * (x + faer::Scale(turn) * y);
         Ok(Some(Merging {
             component: first.component,
-            speed: band.from,
+            speed: band.from_rad_per_s,
             lambda: (first.lambda + second.lambda) * 0.5,
             x: mean,
             damped: false,
@@ -289,16 +289,17 @@ impl Merging {
         if onset.re.abs() > ONSET * band.peak_growth_per_s {
             return Ok(None);
         }
-        let modes = analysis.model.modes(band.from)?;
+        let modes = analysis.model.modes(band.from_rad_per_s)?;
         let distance = |m: &&Mode| (m.lambda - onset).norm();
         let nearest = modes
             .iter()
             .min_by(|x, y| distance(x).total_cmp(&distance(y)));
         Ok(nearest.map(|mode| Merging {
             component: mode.component,
-            speed: band.from,
+            speed: band.from_rad_per_s,
             lambda: mode.lambda,
-            x: analysis.model.components[mode.component].lifted(band.from, &mode.coordinates),
+            x: analysis.model.components[mode.component]
+                .lifted(band.from_rad_per_s, &mode.coordinates),
             damped: true,
         }))
     }

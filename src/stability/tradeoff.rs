@@ -79,7 +79,7 @@ struct Events {
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
 pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, AnalysisError> {
-    let range = ChosenBasis::new(scene, 1e-3)?.range;
+    let range = ChosenBasis::new(scene, 1e-3)?.range_rad_per_s;
     let mut runs: Vec<(Method, (usize, usize), usize)> = Vec::new();
     let mut add = |method: Method, sizes: &[(usize, usize)], speeds: usize| {
         runs.extend(sizes.iter().map(|size| (method, *size, speeds)));
@@ -198,7 +198,7 @@ fn events(
         .filter(|band| band.kind == InstabilityKind::Flutter);
     Ok(Some(Events {
         critical: below(&model.critical),
-        onsets: flutter.map(|band| band.from).collect(),
+        onsets: flutter.map(|band| band.from_rad_per_s).collect(),
     }))
 }
 

@@ -85,7 +85,7 @@ fn bands(
         instabilities.extend(divergence(model, &evaluator, &path)?);
         instabilities.extend(close_pairs(model, &evaluator, speeds)?);
         instabilities.extend(flutter(model, &evaluator, &path)?);
-        instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+        instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
         checked = path.signatures;
     }
     let mut certificate = evaluator.certificate();
@@ -204,9 +204,11 @@ fn inside(
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {
-            let at = |share: f64| band.from + share * (band.to - band.from);
+            let at = |share: f64| {
+                band.from_rad_per_s + share * (band.to_rad_per_s - band.from_rad_per_s)
+            };
             let shares = shares.iter().copied();
-            shares.map(at).chain([band.peak])
+            shares.map(at).chain([band.peak_rad_per_s])
         })
         .collect();
     speeds.retain(|s| (range.0..=range.1).contains(s));

@@ -107,7 +107,7 @@ pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f6
     let first = |speeds: &mut dyn Iterator<Item = f64>| speeds.reduce(f64::min);
     [
         first(&mut counted.map(|(from, _)| from)),
-        first(&mut flutter.map(|b| b.from)),
+        first(&mut flutter.map(|b| b.from_rad_per_s)),
     ]
 }
 
@@ -118,11 +118,15 @@ impl Instability {
             return Vec::new();
         }
         if self.kind == InstabilityKind::Divergence || self.curve.is_empty() {
-            return vec![(self.from, self.to)];
+            return vec![(self.from_rad_per_s, self.to_rad_per_s)];
         }
         let strong = |p: &CurvePoint| p.lambda.re >= threshold_per_s;
         let mut stretches = Vec::new();
-        let mut begun = self.curve.first().filter(|p| strong(p)).map(|_| self.from);
+        let mut begun = self
+            .curve
+            .first()
+            .filter(|p| strong(p))
+            .map(|_| self.from_rad_per_s);
         for pair in self.curve.windows(2) {
             match (strong(&pair[0]), strong(&pair[1])) {
                 (false, true) => begun = Some(crossing(pair, threshold_per_s)),
@@ -133,7 +137,7 @@ impl Instability {
                 _ => {}
             }
         }
-        stretches.extend(begun.map(|from| (from, self.to)));
+        stretches.extend(begun.map(|from| (from, self.to_rad_per_s)));
         stretches
     }
 
@@ -197,12 +201,12 @@ mod tests {
     fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64) -> Instability {
         Instability {
             kind,
-            from,
-            to,
+            from_rad_per_s: from,
+            to_rad_per_s: to,
             closed: true,
-            peak: 0.5 * (from + to),
+            peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s: growth,
-            frequency: 10.0,
+            frequency_rad_per_s: 10.0,
             modes: Vec::new(),
             curve: Vec::new(),
         }

@@ -71,7 +71,11 @@ impl Study {
         let end = match (file.to_rpm, scene.sweep()) {
             (Some(rpm), _) => rad_per_s(speed("to_rpm", rpm)?),
             (None, Some(sweep)) => sweep.to_rad_per_s,
-            (None, None) => ChosenBasis::new(&scene, scene.tolerance())?.range.1,
+            (None, None) => {
+                ChosenBasis::new(&scene, scene.tolerance())?
+                    .range_rad_per_s
+                    .1
+            }
         };
         let reach = limits.map_or(0.0, |limits| limits.reach_rad_per_s());
         Ok(Study {

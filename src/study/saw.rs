@@ -90,20 +90,20 @@ impl Study {
         let onsets = Onsets::new(scene)?;
         let criteria = self.limits().map(|limits| {
             limits.criteria(
-                onsets.lowest_critical,
-                onsets.flutter_speed,
+                onsets.lowest_critical_rad_per_s,
+                onsets.flutter_speed_rad_per_s,
                 &onsets.instabilities,
                 scene.flutter_threshold_per_s(),
             )
         });
         Ok(Found {
-            lowest_critical_rpm: onsets.lowest_critical.map(rpm),
-            flutter_rpm: onsets.flutter_speed.map(rpm),
-            first_merge_rpm: onsets.first_merge.map(rpm),
+            lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
+            flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
+            first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),
             kept: criteria.iter().flatten().map(|c| c.passed).collect(),
             functions: onsets.functions,
             estimated_relative_error: onsets.estimated_relative_error,
-            krein_violations: onsets.certificate.violations.len()
+            krein_violations: onsets.certificate.violations_rad_per_s.len()
                 + onsets.certificate.mismatches.len(),
         })
     }

@@ -172,11 +172,11 @@ pub fn band_growths(
     bands
         .par_iter()
         .map(|band| {
-            let half = 0.5 * (band.to - band.from);
+            let half = 0.5 * (band.to_rad_per_s - band.from_rad_per_s);
             let mut sum = 0.0;
             for k in 1..=BAND_POINTS {
                 let (sin, cos) = (weight * k as f64).sin_cos();
-                let speed = band.from + half * (1.0 - cos);
+                let speed = band.from_rad_per_s + half * (1.0 - cos);
                 let modes = model.modes(speed)?;
                 let growth = modes.iter().map(Mode::growth_per_s).fold(0.0, f64::max);
                 sum += weight * sin * growth;

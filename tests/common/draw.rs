@@ -171,14 +171,14 @@ pub fn survives_chart(scene: &Scene) {
     };
     for band in &chart.instabilities {
         let numbers = [
-            band.from,
-            band.to,
-            band.peak,
+            band.from_rad_per_s,
+            band.to_rad_per_s,
+            band.peak_rad_per_s,
             band.peak_growth_per_s,
-            band.frequency,
+            band.frequency_rad_per_s,
         ];
         assert!(
-            numbers.iter().all(|x| x.is_finite()) && band.from <= band.to,
+            numbers.iter().all(|x| x.is_finite()) && band.from_rad_per_s <= band.to_rad_per_s,
             "{band:?}"
         );
     }

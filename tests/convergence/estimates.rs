@@ -104,7 +104,7 @@ impl Truth {
         let lowest = LowestModes::new(&plate);
         let named = SpectralModel::critical_speeds(&plate).unwrap();
         let critical = named.iter().map(|c| c.speed_rad_per_s).collect();
-        let range = ChosenBasis::new(scene, 1e-3).unwrap().range;
+        let range = ChosenBasis::new(scene, 1e-3).unwrap().range_rad_per_s;
         Truth {
             at_rest: lowest.at(0.0, 30).unwrap(),
             critical,
@@ -164,18 +164,20 @@ fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
         let place = || {
             what(format!(
                 "{:?} at {:.2} rad/s, {:.3} 1/s, off by {off:.1e}, estimated {growth:.1e}",
-                found.kind, found.from, found.peak_growth_per_s
+                found.kind, found.from_rad_per_s, found.peak_growth_per_s
             ))
         };
         println!("{}", place());
         // What the search for the peak misses no larger basis tells: other tests hold it.
-        let share = |b: &Instability| (b.peak - b.from) / (b.to - b.from);
+        let share = |b: &Instability| {
+            (b.peak_rad_per_s - b.from_rad_per_s) / (b.to_rad_per_s - b.from_rad_per_s)
+        };
         if (share(found) - share(truth)).abs() > 0.1 {
             println!("another peak: {}", place());
             continue;
         }
         ratios.growth.add(off / (growth + ROUNDING), place);
-        let error = (found.from / truth.from - 1.0).abs();
+        let error = (found.from_rad_per_s / truth.from_rad_per_s - 1.0).abs();
         ratios.onsets.add(error / (speed + ROUNDING), place);
     }
 }

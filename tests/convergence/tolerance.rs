@@ -113,7 +113,7 @@ fn assert_promises(saws: &[Saw], reached: usize) {
                 let within = chosen
                     .critical
                     .iter()
-                    .filter(|c| c.speed_rad_per_s <= chosen.range.1);
+                    .filter(|c| c.speed_rad_per_s <= chosen.range_rad_per_s.1);
                 let errors = within
                     .zip(&truth)
                     .map(|(c, t)| (c.speed_rad_per_s / t.speed_rad_per_s - 1.0).abs());
@@ -162,7 +162,7 @@ fn onsets_keep_the_tolerance() {
         let bands = analysis.chart.instabilities.into_iter();
         bands
             .filter(|b| b.kind == InstabilityKind::Flutter)
-            .map(|b| b.from)
+            .map(|b| b.from_rad_per_s)
             .collect()
     };
     let truth = onsets(1e-5);

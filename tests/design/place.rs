@@ -57,7 +57,7 @@ fn flutter_rpm(scene: &Scene) -> f64 {
     bands(scene)
         .iter()
         .find(strong)
-        .map_or(TOP_RPM, |b| rpm(b.from))
+        .map_or(TOP_RPM, |b| rpm(b.from_rad_per_s))
 }
 
 /// What `place` relies on where it holds an angle: nothing but the guides stands in space.
@@ -72,15 +72,16 @@ fn guides_that_turn_together_are_the_same_saw() {
     ] {
         let saw = swept(name);
         let (here, there) = (bands(&saw), bands(&with(&saw, &turned)));
-        let onsets =
-            |bands: &[Instability]| -> Vec<f64> { bands.iter().map(|b| rpm(b.from)).collect() };
+        let onsets = |bands: &[Instability]| -> Vec<f64> {
+            bands.iter().map(|b| rpm(b.from_rad_per_s)).collect()
+        };
         let (before, after) = (onsets(&here), onsets(&there));
         assert!(
             !before.is_empty() && before.len() == after.len(),
             "{name}: {before:?} {after:?}"
         );
         for (x, y) in here.iter().zip(&there) {
-            assert_close("onset", y.from, x.from, 1e-9);
+            assert_close("onset", y.from_rad_per_s, x.from_rad_per_s, 1e-9);
             assert_close("growth", y.peak_growth_per_s, x.peak_growth_per_s, 1e-5);
         }
     }
@@ -217,7 +218,10 @@ fn the_window_is_free_of_bands_and_wider_than_before() {
     for band in &found.best.bands {
         let counts =
             band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold;
-        assert!(!counts || band.to <= from || band.from >= to, "{band:?}");
+        assert!(
+            !counts || band.to_rad_per_s <= from || band.from_rad_per_s >= to,
+            "{band:?}"
+        );
     }
 }
 
@@ -272,7 +276,7 @@ fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
 fn the_answer_is_never_below_the_start() {
     let saw = draft("paper");
     let found = one_radius(&saw, &Demands::default());
-    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed.unwrap();
+    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed_rad_per_s.unwrap();
     let (before, after) = (flutter(&saw), flutter(&found.scene));
     println!("{} -> {} rpm", rpm(before), rpm(after));
     assert!(after >= before);
@@ -296,10 +300,13 @@ fn the_window_is_never_narrower_than_before() {
         let threshold = saw.flutter_threshold_per_s();
         let bands = Onsets::new(saw).unwrap().instabilities;
         let counting = || bands.iter().filter(|band| band.counts(threshold));
-        let below = counting().filter(|band| band.to < around_rad_per_s);
-        let above = counting().filter(|band| band.from > around_rad_per_s);
-        let from = below.map(|band| band.to).fold(0.0, f64::max);
-        above.map(|band| band.from).fold(f64::INFINITY, f64::min) - from
+        let below = counting().filter(|band| band.to_rad_per_s < around_rad_per_s);
+        let above = counting().filter(|band| band.from_rad_per_s > around_rad_per_s);
+        let from = below.map(|band| band.to_rad_per_s).fold(0.0, f64::max);
+        above
+            .map(|band| band.from_rad_per_s)
+            .fold(f64::INFINITY, f64::min)
+            - from
     };
     let (before, after) = (window(&saw), window(&found.scene));
     assert!(after >= before, "{} {}", rpm(before), rpm(after));

@@ -29,7 +29,7 @@ fn nominal_critical_rpm() -> f64 {
     let nominal = free_blade().edited(|saw| saw.sweep.as_mut().unwrap().to_rpm = 1000.0);
     rpm(Onsets::new(&nominal.unwrap())
         .unwrap()
-        .lowest_critical
+        .lowest_critical_rad_per_s
         .unwrap())
 }
 
@@ -118,11 +118,11 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
         assert_eq!(found.kept, passed);
         let own = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
         let analysis = Analysis::new(&own.unwrap()).unwrap();
-        assert!(analysis.flutter_speed.is_some());
+        assert!(analysis.flutter_speed_rad_per_s.is_some());
         // Bands are searched on fewer modes than are charted, each right to 1e-8.
         for (one, other) in [
-            (found.flutter_rpm, analysis.flutter_speed),
-            (found.first_merge_rpm, analysis.first_merge),
+            (found.flutter_rpm, analysis.flutter_speed_rad_per_s),
+            (found.first_merge_rpm, analysis.first_merge_rad_per_s),
         ] {
             assert_close("onset", one.unwrap(), rpm(other.unwrap()), 1e-7);
         }

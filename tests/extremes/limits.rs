@@ -32,7 +32,7 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
         );
         // It speaks of the critical speeds within the sweep.
         let errors = chosen.zip(&finer);
-        let within = errors.take_while(|(speed, _)| *speed <= analysis.range.1);
+        let within = errors.take_while(|(speed, _)| *speed <= analysis.range_rad_per_s.1);
         let error = within.fold(0.0_f64, |top, (x, y)| top.max(relative_error(x, *y)));
         assert!(error > 0.0);
         println!("{stiffness:e} N/m: draft is off by {error:.1e}, says {estimated:.1e}");

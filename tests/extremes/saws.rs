@@ -46,11 +46,11 @@ pub fn signature(file: &SceneFile) -> Vec<f64> {
     let range = (0.0, 1.6 * first);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
-    assert_eq!(certificate.violations, Vec::<f64>::new());
+    assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
     assert!(bands.len() >= 3, "{bands:?}");
     let edges = bands
         .iter()
-        .flat_map(|b| [b.from, b.to, b.peak_growth_per_s]);
+        .flat_map(|b| [b.from_rad_per_s, b.to_rad_per_s, b.peak_growth_per_s]);
     let critical = model.critical.iter().take(6).map(|c| c.speed_rad_per_s);
     edges.chain(critical).collect()
 }

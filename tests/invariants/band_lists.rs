@@ -106,7 +106,10 @@ fn all_eigenvalues(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> 
 
 /// Speeds at which a list is held against the spectrum.
 fn speeds(bands: &[Instability], critical: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
-    let mut marks: Vec<f64> = bands.iter().flat_map(|b| [b.from, b.to]).collect();
+    let mut marks: Vec<f64> = bands
+        .iter()
+        .flat_map(|b| [b.from_rad_per_s, b.to_rad_per_s])
+        .collect();
     marks.extend(critical);
     marks.extend([from, to]);
     marks.retain(|speed| (from..=to).contains(speed));
@@ -130,7 +133,9 @@ fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<St
         let mut growth: Vec<f64> = spectrum.iter().filter(is_kind).map(|v| v.re).collect();
         growth.retain(|growth| *growth > POSSIBLE_PER_S);
         growth.sort_by(|x, y| y.total_cmp(x));
-        let covers = |b: &&Instability| b.kind == kind && (b.from..=b.to).contains(&speed);
+        let covers = |b: &&Instability| {
+            b.kind == kind && (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed)
+        };
         let mut peaks: Vec<f64> = bands
             .iter()
             .filter(covers)
@@ -171,7 +176,7 @@ fn wrong_bands(file: &SceneFile) -> Vec<String> {
     let bands = &analysis.chart.instabilities;
     let model = &analysis.model;
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    let mut wrong: Vec<String> = speeds(bands, &critical, analysis.range)
+    let mut wrong: Vec<String> = speeds(bands, &critical, analysis.range_rad_per_s)
         .into_par_iter()
         .flat_map_iter(|speed| {
             let spectrum = all_eigenvalues(&model.components[0].full, speed);
@@ -192,12 +197,12 @@ fn list(file: &SceneFile) -> String {
         format!(
             "    {:?} {:.5}-{:.5} closed {} peak {:.4} at {:.4}, {:.3} rad/s",
             b.kind,
-            rpm(b.from),
-            rpm(b.to),
+            rpm(b.from_rad_per_s),
+            rpm(b.to_rad_per_s),
             b.closed,
             b.peak_growth_per_s,
-            rpm(b.peak),
-            b.frequency
+            rpm(b.peak_rad_per_s),
+            b.frequency_rad_per_s
         )
     });
     lines.collect::<Vec<_>>().join("\n")

@@ -17,7 +17,11 @@ fn bands_of(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<Insta
     let speeds = even_speeds(range, count);
     let above = speeds.iter().filter(|speed| **speed > lowest).count();
     assert!(certificate.speeds_checked >= above);
-    assert_eq!(certificate.violations, Vec::<f64>::new(), "Krein index");
+    assert_eq!(
+        certificate.violations_rad_per_s,
+        Vec::<f64>::new(),
+        "Krein index"
+    );
     bands
 }
 
@@ -28,8 +32,8 @@ fn assert_same(left: &[Instability], right: &[Instability], what: &str) {
             format!(
                 "{:?} {}-{} {:.2e}",
                 b.kind,
-                rpm(b.from),
-                rpm(b.to),
+                rpm(b.from_rad_per_s),
+                rpm(b.to_rad_per_s),
                 b.peak_growth_per_s
             )
         };
@@ -44,7 +48,10 @@ fn assert_same(left: &[Instability], right: &[Instability], what: &str) {
     );
     for (x, y) in left.iter().zip(right) {
         assert_eq!(x.kind, y.kind, "{what}");
-        for (a, b) in [(x.from, y.from), (x.to, y.to)] {
+        for (a, b) in [
+            (x.from_rad_per_s, y.from_rad_per_s),
+            (x.to_rad_per_s, y.to_rad_per_s),
+        ] {
             let same = (a / b - 1.0).abs() < 1e-9;
             assert!(same, "{what}: {:#?} {:#?}", list(left), list(right));
         }
@@ -74,9 +81,9 @@ fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
     ] {
         let found = reference.iter().find(|b| {
             b.kind == InstabilityKind::Flutter
-                && (rpm(b.from) - 9.0..=rpm(b.to) + 9.0).contains(&near)
+                && (rpm(b.from_rad_per_s) - 9.0..=rpm(b.to_rad_per_s) + 9.0).contains(&near)
         });
-        let width = found.map(|b| rpm(b.to - b.from));
+        let width = found.map(|b| rpm(b.to_rad_per_s - b.from_rad_per_s));
         assert!(
             width.is_some_and(|w| w > narrowest && w < widest),
             "{near}: {width:?}"
@@ -126,7 +133,7 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
         assert_same(&coarse, &fine, &format!("saw {saw}: {draw:?}"));
         for band in &fine {
             assert!(
-                band.from >= first * (1.0 - 1e-9),
+                band.from_rad_per_s >= first * (1.0 - 1e-9),
                 "unstable below the first critical speed"
             );
             match band.kind {
@@ -157,7 +164,10 @@ fn onsets_of_the_projection_are_those_of_the_whole_basis() {
     let dense = bands_of(&model(Strategy::Dense), range, 40);
     assert_eq!(reduced.len(), dense.len());
     for (x, y) in reduced.iter().zip(&dense) {
-        assert!((x.from / y.from - 1.0).abs() < 1e-6 && (x.to / y.to - 1.0).abs() < 1e-6);
+        assert!(
+            (x.from_rad_per_s / y.from_rad_per_s - 1.0).abs() < 1e-6
+                && (x.to_rad_per_s / y.to_rad_per_s - 1.0).abs() < 1e-6
+        );
         assert!((x.peak_growth_per_s / y.peak_growth_per_s - 1.0).abs() < 1e-4);
     }
 }

@@ -43,7 +43,7 @@ prop_compose! {
 fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), String> {
     let covering: Vec<&Instability> = bands
         .iter()
-        .filter(|b| b.from < speed && speed < b.to)
+        .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s)
         .collect();
     let mut growing: Vec<c64> = all.iter().copied().filter(|l| l.re > 0.0).collect();
     growing.sort_by(|x, y| y.re.total_cmp(&x.re));
@@ -56,8 +56,8 @@ fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), String> {
                 format!(
                     "{:?} {}–{}, {}",
                     b.kind,
-                    rpm(b.from),
-                    rpm(b.to),
+                    rpm(b.from_rad_per_s),
+                    rpm(b.to_rad_per_s),
                     b.peak_growth_per_s
                 )
             })
@@ -101,27 +101,39 @@ fn every_band_is_found(cases: u32) {
         let model = model.unwrap();
         let chart = chart(&model, range, 31, &|_, _| ()).unwrap();
         let bands = &chart.instabilities;
-        prop_assert_eq!(&chart.certificate.violations, &Vec::<f64>::new());
+        prop_assert_eq!(&chart.certificate.violations_rad_per_s, &Vec::<f64>::new());
         for band in bands {
             prop_assert!(
-                band.to > band.from && band.peak_growth_per_s > 0.0,
+                band.to_rad_per_s > band.from_rad_per_s && band.peak_growth_per_s > 0.0,
                 "{:?}",
                 band
             );
-            prop_assert!((band.from..=band.to).contains(&band.peak), "{:?}", band);
-            prop_assert!(band.closed || band.to == range.1 || band.from == range.0);
+            prop_assert!(
+                (band.from_rad_per_s..=band.to_rad_per_s).contains(&band.peak_rad_per_s),
+                "{:?}",
+                band
+            );
+            prop_assert!(
+                band.closed || band.to_rad_per_s == range.1 || band.from_rad_per_s == range.0
+            );
         }
         let growth = bands
             .iter()
             .map(|b| b.peak_growth_per_s)
             .fold(0.0, f64::max);
         let near_an_edge = |speed: f64| {
-            let mut edges = bands.iter().flat_map(|b| [b.from, b.to]);
+            let mut edges = bands
+                .iter()
+                .flat_map(|b| [b.from_rad_per_s, b.to_rad_per_s]);
             edges.any(|edge| (edge / speed - 1.0).abs() < 1e-5)
         };
         let mut speeds = even_speeds(range, 24);
-        speeds.extend(bands.iter().map(|b| 0.5 * (b.from + b.to)));
-        speeds.extend(bands.iter().map(|b| b.peak));
+        speeds.extend(
+            bands
+                .iter()
+                .map(|b| 0.5 * (b.from_rad_per_s + b.to_rad_per_s)),
+        );
+        speeds.extend(bands.iter().map(|b| b.peak_rad_per_s));
         speeds.retain(|speed| *speed > 0.0 && !near_an_edge(*speed));
         for speed in &speeds {
             let held = holds(bands, &eigenvalues(&file, *speed), *speed);

@@ -65,13 +65,13 @@ fn air_destabilises_exactly_the_reflected_waves() {
         .map(|c| c.speed_rad_per_s)
         .collect();
     critical.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
-    critical.retain(|c| *c < analysis.range.1);
+    critical.retain(|c| *c < analysis.range_rad_per_s.1);
     assert_eq!(bands.len(), critical.len());
     for (band, critical) in bands.iter().zip(critical) {
         assert!(
-            (band.from / critical - 1.0).abs() < 1e-7,
+            (band.from_rad_per_s / critical - 1.0).abs() < 1e-7,
             "{} {}",
-            rpm(band.from),
+            rpm(band.from_rad_per_s),
             rpm(critical)
         );
         assert!(!band.closed, "a reflected wave stays unstable");
@@ -108,14 +108,14 @@ fn with_both_the_onset_agrees_with_its_closed_form() {
     let first = &analysis.chart.instabilities[0];
     // The closed form is of first order in damping ratios of 1e-4.
     assert!(
-        (first.from / expected - 1.0).abs() < 1e-6,
+        (first.from_rad_per_s / expected - 1.0).abs() < 1e-6,
         "{} {}",
-        rpm(first.from),
+        rpm(first.from_rad_per_s),
         rpm(expected)
     );
     let critical = analysis.model.critical[0].speed_rad_per_s;
     assert!(
-        first.from > 1.02 * critical,
+        first.from_rad_per_s > 1.02 * critical,
         "material damping holds on past the critical speed"
     );
 }
@@ -162,17 +162,17 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     let undamped = undamped.unwrap();
     let undamped = Analysis::new(&undamped).unwrap();
     let (found, expected) = (
-        analysis.flutter_speed.unwrap(),
-        undamped.flutter_speed.unwrap(),
+        analysis.flutter_speed_rad_per_s.unwrap(),
+        undamped.flutter_speed_rad_per_s.unwrap(),
     );
     // Growth reaches 0.25 1/s within the band that the two modes merge in without damping.
     let band = undamped
         .chart
         .instabilities
         .iter()
-        .find(|b| b.from == expected);
+        .find(|b| b.from_rad_per_s == expected);
     assert!(
-        (expected..band.unwrap().peak).contains(&found),
+        (expected..band.unwrap().peak_rad_per_s).contains(&found),
         "{} {}",
         rpm(found),
         rpm(expected)
@@ -201,14 +201,14 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
 
     for band in bands {
         assert!(
-            band.to > band.from * (1.0 + 1e-9),
+            band.to_rad_per_s > band.from_rad_per_s * (1.0 + 1e-9),
             "no band of zero width: {band:?}"
         );
         assert!(
-            band.closed || band.to == analysis.range.1,
+            band.closed || band.to_rad_per_s == analysis.range_rad_per_s.1,
             "{} {}",
-            rpm(band.from),
-            rpm(band.to)
+            rpm(band.from_rad_per_s),
+            rpm(band.to_rad_per_s)
         );
         let real = band.curve.iter().filter(|p| p.lambda.im == 0.0).count();
         let is_divergence = band.kind == InstabilityKind::Divergence;
@@ -224,14 +224,14 @@ fn growth_of_a_damped_band_is_drawn_as_it_is() {
     let analysis = Analysis::new(&damped_pad()).unwrap();
     let samples = &analysis.chart.campbell.samples;
     for band in &analysis.chart.instabilities {
-        let inside = |speed: f64| (band.from..=band.to).contains(&speed);
+        let inside = |speed: f64| (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
         let drawn: Vec<f64> = samples
             .iter()
             .map(|s| s.speed_rad_per_s)
             .filter(|s| inside(*s))
             .collect();
         assert!(
-            drawn.contains(&band.peak),
+            drawn.contains(&band.peak_rad_per_s),
             "the dot of a peak lies on its curve"
         );
         for pair in drawn.windows(2) {

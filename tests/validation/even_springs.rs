@@ -178,9 +178,9 @@ fn off_the_exact_equation(
     class: i64,
     band: &Instability,
 ) -> [f64; 2] {
-    let waves = all_waves(plate, band.peak);
-    let start = [band.peak_growth_per_s, band.frequency];
-    let growth = match eigenvalue_near(springs, class, &waves, band.peak, start) {
+    let waves = all_waves(plate, band.peak_rad_per_s);
+    let start = [band.peak_growth_per_s, band.frequency_rad_per_s];
+    let growth = match eigenvalue_near(springs, class, &waves, band.peak_rad_per_s, start) {
         Some([growth, _]) => growth,
         None => f64::NAN,
     };
@@ -193,7 +193,7 @@ fn bands_of(springs: EvenSprings, top: f64, strategy: Strategy) -> [Vec<Instabil
     let plate = Plate::new(&blade_on(springs), RESOLUTION);
     let model = SpectralModel::new(plate, (0.0, top), strategy).unwrap();
     let (bands, certificate) = undamped_bands(&model, (0.0, top), 41).unwrap();
-    assert_eq!(certificate.violations, Vec::<f64>::new());
+    assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
     let (flutter, divergence) = bands
         .into_iter()
         .partition(|band| band.kind == InstabilityKind::Flutter);
@@ -236,7 +236,7 @@ impl Compared {
         let place = || {
             format!(
                 "{} springs, {:?} at {}",
-                springs.count, band.kind, band.peak
+                springs.count, band.kind, band.peak_rad_per_s
             )
         };
         let [exact, of_frequency] = off_the_exact_equation(free, springs, class, band);
@@ -264,7 +264,10 @@ impl Compared {
         assert_eq!(bands.len(), coalescing.len(), "{} springs", springs.count);
         for (band, met) in bands.iter().zip(coalescing) {
             let speed = met.shifted(free, springs);
-            assert!(band.from < speed && speed < band.to, "{springs:?} {met:?}");
+            assert!(
+                band.from_rad_per_s < speed && speed < band.to_rad_per_s,
+                "{springs:?} {met:?}"
+            );
             let growth = met.coupling_per_s(free, springs);
             let class = met.pair[0].wave.wave_number;
             self.add_band(free, springs, class, (band, growth));
@@ -284,7 +287,7 @@ impl Compared {
         assert_eq!(bands.len(), split.len(), "{} springs", springs.count);
         for (band, &&(n, speed)) in bands.iter().zip(&split) {
             // The wave with its nodes at the springs does not feel them.
-            let edge = relative_error(band.from, speed);
+            let edge = relative_error(band.from_rad_per_s, speed);
             assert!(edge < 1e-9, "{springs:?}, {n} diameters: {edge:e}");
             let wave = waves_of(free, n, speed)[0];
             let growth = coupling_per_s(springs, wave, wave);

@@ -156,17 +156,22 @@ fn rigid_motions_of_the_free_spinning_blade() {
 #[test]
 fn the_free_blade_is_never_unstable() {
     let analysis = Analysis::new(&scene("free-blade")).unwrap();
-    assert_close("end of the sweep", rpm(analysis.range.1), 4000.0, 1e-12);
+    assert_close(
+        "end of the sweep",
+        rpm(analysis.range_rad_per_s.1),
+        4000.0,
+        1e-12,
+    );
     let chart = &analysis.chart;
     assert!(chart.instabilities.is_empty(), "{:?}", chart.instabilities);
-    assert_eq!(analysis.first_merge, None);
-    assert_eq!(analysis.flutter_speed, None);
+    assert_eq!(analysis.first_merge_rad_per_s, None);
+    assert_eq!(analysis.flutter_speed_rad_per_s, None);
     // Both sides of every critical speed, each of which is a pair, and speeds between.
-    let end = analysis.range.1;
+    let end = analysis.range_rad_per_s.1;
     let critical = &analysis.model.critical;
     let within = critical.iter().filter(|c| c.speed_rad_per_s < end).count();
     assert!(within >= 8 && chart.certificate.speeds_checked > within);
-    assert_eq!(chart.certificate.violations, Vec::<f64>::new());
+    assert_eq!(chart.certificate.violations_rad_per_s, Vec::<f64>::new());
     let modes = chart.campbell.samples.iter().flat_map(|s| &s.modes);
     let mut reflected = 0;
     for mode in modes {
@@ -287,7 +292,7 @@ fn divergence_bands() {
     let found: Vec<(f64, f64)> = bands
         .iter()
         .filter(|b| b.kind == InstabilityKind::Divergence)
-        .map(|b| (rpm(b.from), rpm(b.to)))
+        .map(|b| (rpm(b.from_rad_per_s), rpm(b.to_rad_per_s)))
         .collect();
     let expected = [(1531.0, 1552.0), (2091.0, 2130.0), (2560.0, 2608.0)];
     assert_eq!(found.len(), expected.len(), "{found:?}");
@@ -313,10 +318,10 @@ fn flutter_bands() {
     for b in &bands {
         println!(
             "{:.2} to {:.2} rpm, peak {:.3} 1/s at {:.2} Hz, {:?}",
-            rpm(b.from),
-            rpm(b.to),
+            rpm(b.from_rad_per_s),
+            rpm(b.to_rad_per_s),
             b.peak_growth_per_s,
-            b.frequency / TAU,
+            b.frequency_rad_per_s / TAU,
             b.modes
         );
     }
@@ -333,14 +338,14 @@ fn flutter_bands() {
         let speed = rad_per_s(speed_rpm);
         let place = bands
             .iter()
-            .position(|b| (b.from..=b.to).contains(&speed))
+            .position(|b| (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed))
             .unwrap_or_else(|| panic!("no merging at {speed_rpm} rpm"));
         places.push(place);
         if let Some((growth, frequency_hz)) = quoted {
             let off = (bands[place].peak_growth_per_s - growth).abs();
             assert!(off <= 0.1, "{speed_rpm} rpm: growth off by {off} 1/s");
             if let Some(hz) = frequency_hz {
-                let off = (bands[place].frequency / TAU - hz).abs();
+                let off = (bands[place].frequency_rad_per_s / TAU - hz).abs();
                 assert!(off <= 0.1, "{speed_rpm} rpm: frequency off by {off} Hz");
             }
         }
@@ -349,13 +354,22 @@ fn flutter_bands() {
     assert_eq!(places.len(), expected.len(), "bands of their own");
     // The first band of all is narrow: a grid of 50 rpm steps over it.
     let first = bands[0];
-    assert_eq!(analysis.first_merge, Some(first.from));
-    assert!((1903.0..1905.0).contains(&rpm(first.from)), "{first:?}");
-    let width = rpm(first.to - first.from);
+    assert_eq!(analysis.first_merge_rad_per_s, Some(first.from_rad_per_s));
+    assert!(
+        (1903.0..1905.0).contains(&rpm(first.from_rad_per_s)),
+        "{first:?}"
+    );
+    let width = rpm(first.to_rad_per_s - first.from_rad_per_s);
     assert!(0.0 < width && width < 4.0, "{width} rpm wide");
     // The first that grows by the default threshold, 0.25 1/s, is the second.
-    assert_eq!(analysis.flutter_speed, Some(bands[1].from));
-    assert_eq!(analysis.chart.certificate.violations, Vec::<f64>::new());
+    assert_eq!(
+        analysis.flutter_speed_rad_per_s,
+        Some(bands[1].from_rad_per_s)
+    );
+    assert_eq!(
+        analysis.chart.certificate.violations_rad_per_s,
+        Vec::<f64>::new()
+    );
 }
 
 /// K(Ω) > 0 below the first critical speed: every mode is a wave of positive energy.

@@ -65,10 +65,10 @@ pub fn dense_analysis(
     let chart = chart(&model, range, speeds, &|_, _| ()).unwrap();
     Analysis {
         model,
-        range,
+        range_rad_per_s: range,
         chart,
-        flutter_speed: None,
-        first_merge: None,
+        flutter_speed_rad_per_s: None,
+        first_merge_rad_per_s: None,
         scene: scene.clone(),
         root_loci: None,
         estimated_relative_error: None,

@@ -78,7 +78,7 @@ fn assert_central_differences(scene: &Scene) -> usize {
             close(*value, difference(&of), "critical speed");
         }
         for (k, value) in sensitivity.onsets.iter().enumerate() {
-            let of = |a: &Analysis| a.chart.instabilities[k].from;
+            let of = |a: &Analysis| a.chart.instabilities[k].from_rad_per_s;
             close(value.unwrap(), difference(&of), "onset");
         }
         for (k, value) in sensitivity.eigenvalues.iter().enumerate() {

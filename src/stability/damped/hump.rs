@@ -227,7 +227,10 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
     });
     humps
         .flatten()
-        .filter(|band| band.peak_growth_per_s > noise && band.to - band.from > LEAST_BAND * band.to)
+        .filter(|band| {
+            band.peak_growth_per_s > noise
+                && band.to_rad_per_s - band.from_rad_per_s > LEAST_BAND * band.to_rad_per_s
+        })
         .collect()
 }
 
@@ -275,12 +278,12 @@ fn band(curve: &[CurvePoint], cut: [bool; 2]) -> Option<Instability> {
     };
     Some(Instability {
         kind,
-        from: first.speed_rad_per_s,
-        to: last.speed_rad_per_s,
+        from_rad_per_s: first.speed_rad_per_s,
+        to_rad_per_s: last.speed_rad_per_s,
         closed: !cut[0] && !cut[1],
-        peak: peak.speed_rad_per_s,
+        peak_rad_per_s: peak.speed_rad_per_s,
         peak_growth_per_s: peak.lambda.re,
-        frequency: peak.lambda.im.abs(),
+        frequency_rad_per_s: peak.lambda.im.abs(),
         modes: Vec::new(),
         curve: curve.to_vec(),
     })

@@ -42,7 +42,10 @@ pub(super) fn charted(
     let twin = twin_bands(model, range)?;
     let mut speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    speeds.extend(twin.iter().flat_map(|band| [band.from, band.peak, band.to]));
+    speeds.extend(
+        twin.iter()
+            .flat_map(|band| [band.from_rad_per_s, band.peak_rad_per_s, band.to_rad_per_s]),
+    );
     speeds.extend(middles(model, range));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
@@ -96,10 +99,10 @@ fn bands(
         })
         .collect();
     let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
-    instabilities.sort_by(|x, y| x.from.total_cmp(&y.from));
+    instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
     let certificate = Certificate {
         speeds_checked: spectra.len(),
-        violations: mismatches(&solver, &spectra, &instabilities),
+        violations_rad_per_s: mismatches(&solver, &spectra, &instabilities),
         mismatches: Vec::new(),
         gave_up: solver.is_exhausted(),
     };
@@ -112,8 +115,12 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
     let at_edge = |speed: f64, edge: f64| (speed - edge).abs() <= EDGE * speed;
     let differs = |spectrum: &&Spectrum| {
         let speed = spectrum.speed;
-        let mut ends = bands.iter().flat_map(|band| [band.from, band.to]);
-        let covering = bands.iter().filter(|b| b.from < speed && speed < b.to);
+        let mut ends = bands
+            .iter()
+            .flat_map(|band| [band.from_rad_per_s, band.to_rad_per_s]);
+        let covering = bands
+            .iter()
+            .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s);
         // Within rounding of zero a mode may be on either side.
         let growing = |least: f64| {
             let values = spectrum.values.iter().map(|v| v.lambda);
@@ -137,25 +144,26 @@ fn modes(
     band: &Instability,
     twin: &[Instability],
 ) -> Result<Vec<String>, SpectrumError> {
-    let off = |t: &&Instability| (t.frequency - band.frequency).abs();
+    let off = |t: &&Instability| (t.frequency_rad_per_s - band.frequency_rad_per_s).abs();
     let same = |t: &&Instability| {
-        let overlaps = t.from <= band.to && band.from <= t.to;
-        let is_near =
-            (t.from..=t.to).contains(&band.peak) || (band.from..=band.to).contains(&t.peak);
-        let tolerance = SAME_FREQUENCY * band.frequency;
+        let overlaps =
+            t.from_rad_per_s <= band.to_rad_per_s && band.from_rad_per_s <= t.to_rad_per_s;
+        let is_near = (t.from_rad_per_s..=t.to_rad_per_s).contains(&band.peak_rad_per_s)
+            || (band.from_rad_per_s..=band.to_rad_per_s).contains(&t.peak_rad_per_s);
+        let tolerance = SAME_FREQUENCY * band.frequency_rad_per_s;
         t.kind == band.kind && overlaps && is_near && off(t) <= tolerance
     };
     let met = twin.iter().filter(same);
     if let Some(met) = met.min_by(|x, y| off(x).total_cmp(&off(y))) {
         return Ok(met.modes.clone());
     }
-    let lambda = c64::new(band.peak_growth_per_s, band.frequency);
+    let lambda = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
     let distance = |m: &Mode| (m.lambda - lambda).norm();
-    let found = model.modes(band.peak)?;
+    let found = model.modes(band.peak_rad_per_s)?;
     let found = found
         .into_iter()
         .min_by(|x, y| distance(x).total_cmp(&distance(y)));
-    let described = model.describe(band.peak, found.into_iter().collect());
+    let described = model.describe(band.peak_rad_per_s, found.into_iter().collect());
     let name = |name: &ModeName| match band.kind {
         InstabilityKind::Divergence => in_words(name.diameters, name.circles, Direction::Standing),
         InstabilityKind::Flutter => in_words(name.diameters, name.circles, name.direction),
@@ -177,7 +185,7 @@ fn drawn_speeds(band: &Instability) -> Vec<f64> {
             (p.lambda.re.max(0.0).sqrt() - straight.max(0.0).sqrt()).abs() <= tolerance
         })
     };
-    let is_peak = |p: &CurvePoint| p.speed_rad_per_s == band.peak;
+    let is_peak = |p: &CurvePoint| p.speed_rad_per_s == band.peak_rad_per_s;
     let mut drawn = vec![0];
     for k in 1..curve.len() {
         let from = drawn[drawn.len() - 1];
