@@ -78,12 +78,12 @@ impl Jobs {
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
 
     use super::*;
     use crate::scene::{Accuracy, Scene};
     use crate::spectrum::SpectrumError;
-    use crate::stability::{Analysis, AnalysisError};
+    use crate::stability::{Analysis, AnalysisError, AnalysisOptions};
 
     fn runtime() -> tokio::runtime::Runtime {
         let mut builder = tokio::runtime::Builder::new_current_thread();
@@ -127,39 +127,39 @@ mod tests {
         assert_eq!(jobs.counts(), [1, 0]);
     }
 
-    /// An analysis looks at the flag in every stage: wherever it is asked, it ends with the
-    /// error of its own and not with a chart.
+    /// Cancelled before it begins, or by the progress that it reports itself, after the first, the
+    /// middle or the last speed: an analysis ends with the error of its own and not with a chart.
     #[test]
-    fn an_analysis_that_is_cancelled_to_stop_does_not_finish() {
+    fn a_cancelled_analysis_does_not_finish() {
         let paper = Scene::paper();
         let scene = paper
             .edited(|file| file.accuracy = Accuracy::Draft)
             .unwrap();
-        let started = Instant::now();
-        Analysis::new(&scene).unwrap();
-        let whole = started.elapsed();
-        for share in [0.0, 0.1, 0.4, 0.7] {
-            let stop = Cancellation::default();
-            let asked = stop.clone();
-            let pause = whole.mul_f64(share);
-            let asker = std::thread::spawn(move || {
-                std::thread::sleep(pause);
-                asked.cancel();
-            });
+        let cancelled_after = |share: f64| {
+            let flag = Cancellation::default();
+            let asked = flag.clone();
+            let progress = move |done: usize, all: usize| {
+                if done as f64 >= share * all as f64 {
+                    asked.cancel();
+                }
+            };
             if share == 0.0 {
-                stop.cancel();
+                flag.cancel();
             }
-            let result = stop.watched(|| Analysis::new(&scene)).unwrap();
-            asker.join().unwrap();
-            // On a machine that has got faster meanwhile a late wish may come too late.
-            if share < 0.5 {
-                let cancelled = AnalysisError::Spectrum(SpectrumError::Cancelled);
-                assert_eq!(
-                    result.err().map(|e| e.to_string()),
-                    Some(cancelled.to_string()),
-                    "{share}"
-                );
-            }
+            let analysis = || {
+                let options = AnalysisOptions {
+                    progress: &progress,
+                    ..AnalysisOptions::default()
+                };
+                Analysis::with_options(&scene, options).map(drop)
+            };
+            flag.watched(analysis).unwrap()
+        };
+        let cancelled = AnalysisError::Spectrum(SpectrumError::Cancelled).to_string();
+        for share in [0.0, 1e-3, 0.5, 1.0] {
+            let error = cancelled_after(share).expect_err("a chart");
+            assert_eq!(error.to_string(), cancelled, "{share}");
         }
+        assert!(cancelled_after(2.0).is_ok());
     }
 }

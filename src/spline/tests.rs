@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::analytical::tilt;
 use crate::plate::{EdgeStress, Plate, Resolution, edge_stiffness};
 use crate::scene::{SplineFile, rad_per_s};
 
@@ -232,24 +233,19 @@ fn tilts_feel_the_virial_of_cut_and_contacts() {
     let stiffness = edge_stiffness(&plate, &stress);
     let blade = &plate.blade;
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let rim = cut().map(|f| (b, f.angle_rad, f.radial_n, f.tangential_n));
+    let force = |radius_m, angle_rad, radial_n, tangential_n| tilt::PlaneForce {
+        radius_m,
+        angle_rad,
+        radial_n,
+        tangential_n,
+    };
+    let rim = cut().map(|f| force(b, f.angle_rad, f.radial_n, f.tangential_n));
     let bore = stations
         .iter()
-        .map(|f| (a, f.angle_rad, f.radial_n, f.tangential_n));
-    let mut virial = [0.0; 3];
-    for (r, angle, radial, tangential) in rim.into_iter().chain(bore) {
-        let (sin, cos) = angle.sin_cos();
-        let (x, y) = (r * cos, r * sin);
-        let (fx, fy) = (
-            radial * cos - tangential * sin,
-            radial * sin + tangential * cos,
-        );
-        virial[0] += x * fx;
-        virial[1] += y * fy;
-        virial[2] += 0.5 * (x * fy + y * fx);
-    }
-    let inertia =
-        blade.mass_per_area_kg_per_m2() * std::f64::consts::FRAC_PI_4 * (b.powi(4) - a.powi(4));
+        .map(|f| force(a, f.angle_rad, f.radial_n, f.tangential_n));
+    let forces: Vec<tilt::PlaneForce> = rim.into_iter().chain(bore).collect();
+    let virial = tilt::stiffness_of_forces_n_m(&forces);
+    let inertia = tilt::inertia_kg_m2(a, b, blade.mass_per_area_kg_per_m2());
     let [i, j] = [plate.offset(1), plate.offset(1) + 5];
     let found = [stiffness[(i, i)], stiffness[(j, j)], stiffness[(i, j)]];
     let scale = virial.iter().fold(0.0, |max: f64, v| max.max(v.abs())) / inertia;

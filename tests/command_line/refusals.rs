@@ -5,7 +5,7 @@
 
 use std::fs::File;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use assert_cmd::Command;
 use sawflutter::scene::Scene;
@@ -176,17 +176,19 @@ fn a_directory_and_a_missing_file_are_refused_by_name() {
     assert!(message.contains("no-such-scene.json"), "{message}");
 }
 
-/// A sparse file of 1 GB of zeros, read in a process that may not hold half of it.
+/// A sparse file of 1 TB of zeros, which nobody reads to its end, in a process that may not hold
+/// half a gigabyte.
 #[test]
-fn a_huge_file_is_refused_fast_and_in_little_memory() {
+fn a_huge_file_is_refused_unread_and_in_little_memory() {
     let folder = TempDir::new().unwrap();
     let huge = folder.path().join("huge.json");
-    File::create(&huge).unwrap().set_len(1_000_000_000).unwrap();
-    let begun = Instant::now();
+    let file = File::create(&huge).unwrap();
+    // A file system that has no files so large gets one that still does not fit.
+    file.set_len(1 << 40)
+        .or_else(|_| file.set_len(1_000_000_000))
+        .unwrap();
     let message = refused(&huge);
     assert!(message.contains("larger than"), "{message}");
-    let took = begun.elapsed();
-    assert!(took < Duration::from_secs(5), "{took:?}");
 
     #[cfg(target_os = "linux")]
     {
@@ -202,9 +204,10 @@ fn a_huge_file_is_refused_fast_and_in_little_memory() {
     }
 }
 
-/// Refused before the computation, not after it.
+/// Refused before the computation, not after it: the analysis of this saw, whose rim is so hot that
+/// the blade buckles, would end with another message.
 #[test]
-fn an_output_folder_that_cannot_be_written_is_refused_at_once() {
+fn an_output_folder_that_cannot_be_written_is_refused_before_the_computation() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("file");
     std::fs::write(&file, "mine").unwrap();
@@ -223,20 +226,28 @@ fn an_output_folder_that_cannot_be_written_is_refused_at_once() {
         places.push(locked.clone());
         places.push(locked.join("below"));
     }
+    let scene = folder.path().join("scene.json");
+    let mut hot = crate::common::scene("collar-400mm-tensioned")
+        .file()
+        .clone();
+    let membrane = hot.membrane.as_mut().unwrap();
+    membrane.temperature.as_mut().unwrap().rim_rise_k = Some(400.0);
+    std::fs::write(&scene, serde_json::to_string(&hot).unwrap()).unwrap();
+    let analyze = |place: &Path| {
+        let mut command = sawflutter();
+        command.arg("analyze").arg(&scene).arg("--out").arg(place);
+        command.output().unwrap()
+    };
+    let computed = analyze(&folder.path().join("writable"));
+    assert!(text(&computed.stderr).contains("buckles"));
     for place in places {
-        let begun = Instant::now();
-        let output = sawflutter()
-            .args(["analyze", "--accuracy", "reference", "--out"])
-            .arg(&place)
-            .output()
-            .unwrap();
+        let output = analyze(&place);
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert_eq!(message.lines().count(), 1, "{message}");
         assert!(message.contains(place.to_str().unwrap()), "{message}");
+        assert!(!message.contains("buckles"), "{message}");
         assert_eq!(text(&output.stdout), "");
-        let took = begun.elapsed();
-        assert!(took < Duration::from_secs(2), "{place:?}: {took:?}");
     }
     assert_eq!(std::fs::read(&file).unwrap(), b"mine");
 }

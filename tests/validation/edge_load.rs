@@ -1,7 +1,6 @@
 //! K_e of forces at the rim against identities, brute force and the paper's cut.
 
 use std::f64::consts::TAU;
-use std::time::Instant;
 
 use faer::{Col, Mat, Side};
 use sawflutter::analytical::tilt;
@@ -210,23 +209,27 @@ fn the_papers_cut_flutters_at_2800_and_not_at_1800() {
     assert!((hertz - 4.53).abs() < 0.01, "{hertz}");
 }
 
-/// Both rows of Table 3 on two bases, and the time that the largest K_e takes.
+/// The growth in the paper's cut converges slowly, for the loads are points: what the documentation
+/// says of it, for both rows of Table 3 at 2800 rpm. At 1800 rpm the saw is stable on every basis.
 #[test]
-#[ignore = "prints figures; run it in release"]
-fn print_the_papers_cut() {
-    for (max_diameters, radial_functions) in [(10, 6), (16, 8), (20, 10), (24, 12)] {
+#[cfg_attr(
+    debug_assertions,
+    ignore = "dense solves of order 840: run it in release"
+)]
+fn growth_in_the_papers_cut_on_three_bases() {
+    for (max_diameters, radial_functions, expected) in [
+        (10, 6, [3.066, 5.448]),
+        (16, 8, [4.025, 6.002]),
+        (20, 10, [4.088, 6.043]),
+    ] {
         let plate = paper_plate(max_diameters, radial_functions);
-        for row in [[1064.0, 75.0], [1240.0, 88.0]] {
-            for rpm in [1800.0, 2800.0] {
-                let (growth, hertz) = fastest_in_the_cut(&plate, row, rpm);
-                println!(
-                    "({max_diameters}, {radial_functions}) {row:?} N, {rpm} rpm: {growth:.6e} 1/s, {hertz:.5} Hz"
-                );
-            }
+        for (row, expected) in [[1064.0, 75.0], [1240.0, 88.0]].into_iter().zip(expected) {
+            let (quiet, _) = fastest_in_the_cut(&plate, row, 1800.0);
+            assert!(quiet < 1e-6, "{quiet}");
+            let (growth, hertz) = fastest_in_the_cut(&plate, row, 2800.0);
+            let place = format!("({max_diameters}, {radial_functions}) {row:?} N");
+            assert!((growth - expected).abs() < 1e-3, "{place}: {growth}");
+            assert!((4.5..4.6).contains(&hertz), "{place}: {hertz}");
         }
     }
-    let plate = paper_plate(24, 12);
-    let start = Instant::now();
-    let (_, edge) = stiffness_under(&plate, &paper_cut([1240.0, 88.0]));
-    println!("K_e of order {} in {:?}", edge.nrows(), start.elapsed());
 }
