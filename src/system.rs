@@ -1,7 +1,18 @@
 //! The equation of motion at a rotation speed.
 //!
+//! In goes a [`Plate`]; out comes a [`GyroscopicSystem`], its matrices put together, and from that
+//! K(Ω) and the factor of q̇ at any speed:
+//!
 //! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ + K_n] q = 0, mass matrix one,
 //! K₀ = K_b + K_m + K_g + K_e. Terms that the scene does not name are absent.
+//!
+//! It is the plate's equation ρh D²w/Dt² + … = 0 with the convective derivative D/Dt = ∂t + Ω∂θ:
+//! D² gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the
+//! strain rate of the turning blade, η K_b Dq/Dt, hence its part η K_b in C and K_circ = η K_b G.
+//!
+//! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster,
+//! *Strongly stable gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for the signs
+//! that symmetry and skewness give.
 
 use faer::{Col, Mat, MatRef, Scale};
 
@@ -11,11 +22,12 @@ use crate::plate::{HarmonicBlock, Plate};
 /// gives a system of the same kind.
 #[derive(Debug, Clone)]
 pub struct GyroscopicSystem {
-    /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric.
+    /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric: bending, membrane stress, guides, edge loads.
     pub stiffness: Mat<f64>,
-    /// K_σ − N, dimensionless, symmetric.
+    /// K_σ − N, dimensionless, symmetric: centrifugal tension less what the convective derivative
+    /// takes, N = n² for the waves of n nodal diameters.
     pub spin: Mat<f64>,
-    /// G, dimensionless, skew.
+    /// G = ∂θ in the basis, dimensionless, skew: n between the sines and cosines of n.
     pub gyroscopic: Mat<f64>,
     /// C, in 1/s, symmetric: pads, air and material.
     pub damping: Option<Mat<f64>>,
@@ -31,7 +43,7 @@ pub struct GyroscopicSystem {
 }
 
 impl GyroscopicSystem {
-    /// The whole plate.
+    /// The whole plate, N × N.
     pub fn of_plate(plate: &Plate) -> Self {
         let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
         let fixed_in_space = [plate.contact.stiffness(), plate.edge_stiffness.as_ref()];
@@ -215,7 +227,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// K(Ω), in 1/s².
+    /// K(Ω) = K₀ + Ω²(K_σ − N) + Ω K_circ, in 1/s²; symmetric without K_circ.
     pub fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
         let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;
         if let Some(circulatory) = &self.circulatory {

@@ -7,8 +7,8 @@
 //! value with the lowest ω₀ and the lowest κ, and not above that of any one shape.
 //!
 //! Sources: R. V. Southwell, Proc. R. Soc. Lond. A 101 (1922), 133–153; W. D. Iwan & K. J.
-//! Stahl, J. Appl. Mech. 40 (1973), 445–451; S. C. Huang & S. H. Crandall, J. Appl. Mech. 41
-//! (1974), for the two dampings.
+//! Stahl, J. Appl. Mech. 40 (1973), 445–451; Huang & Crandall, J. Appl. Mech. 41 (1974), for
+//! the two dampings.
 
 /// ω_b = √(ω₀² + κΩ²), in rad/s.
 pub fn body_frequency_rad_per_s(

@@ -1,8 +1,18 @@
 //! The physics of the spinning plate: each file builds one named matrix.
 //!
-//! Deflection w = Σ qᵢ φᵢ(r, θ), φ = R_nj(r)·{cos nθ, sin nθ}, scaled so that the
-//! mass matrix is the identity. Order of the unknowns: n = 0: J cosines; then for
-//! each n ≥ 1: J cosines, J sines.
+//! In goes a [`Scene`] and the size of the basis, a [`Resolution`]; out comes a [`Plate`], the
+//! matrices of the scene in that basis. Nothing here solves for eigenvalues.
+//!
+//! Deflection w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) of a Kirchhoff plate on a < r < b, in the frame fixed
+//! in space, with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh π(1+δ_n0)) in 1/√kg, so that the mass matrix
+//! ρh ∫ φᵢφⱼ dA is the identity; q is in √kg·m. Order of the N = J(2 n_max + 1) unknowns: n = 0: J
+//! cosines; then for each n ≥ 1: J cosines, J sines. With M = 1 every stiffness is in 1/s² and every
+//! damping in 1/s.
+//!
+//! References: Timoshenko & Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed., chapters 3
+//! and 9, for the plate; C. D. Mote, *Free vibration of initially stressed circular disks*, J. Eng.
+//! Ind. 87 (1965), 258–264, for stress in its plane; W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43
+//! (1976), 485–490, for what is fixed in space.
 
 mod contact;
 mod edge_load;
@@ -65,7 +75,7 @@ pub struct Plate {
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of what touches the blade: guides, and what [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
-    /// K_e, in 1/s², once [`Plate::with_edge_loads`] has put forces on the rim.
+    /// K_e, in 1/s², N × N, symmetric, once [`Plate::with_edge_loads`] has put forces on the rim.
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
     pub damping: Option<Damping>,
@@ -84,7 +94,8 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
 }
 
 impl Plate {
-    /// Assembles the matrices that the scene asks for.
+    /// Assembles the matrices that the scene asks for. Every scene that is valid has them; a
+    /// resolution of fewer than two radial functions is not one, see [`RadialBasis::new`].
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let mut harmonics: Vec<HarmonicBlock> = (0..=resolution.max_diameters)
@@ -129,13 +140,13 @@ impl Plate {
         plate
     }
 
-    /// The same plate under dead forces at its rim.
+    /// The same plate under dead forces at its rim, reacted at the bore as [`EdgeStress`] says.
     pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
         let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
         self.with_edge_stiffness(edge_stiffness(self, &stress))
     }
 
-    /// The same plate with a given K_e, in 1/s².
+    /// The same plate with a given K_e, in 1/s², N × N.
     pub fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
         Plate {
             edge_stiffness: Some(edge_stiffness),
@@ -195,17 +206,19 @@ impl Plate {
         self.damping.is_none() && self.contact.is_conservative()
     }
 
-    /// The radial functions of n nodal diameters at radii evenly spread from edge to edge.
+    /// R_nj of n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values a
+    /// radius.
     pub fn sampled_functions(&self, n: usize) -> &[Vec<f64>] {
         &self.samples[usize::from(n == 1)]
     }
 
-    /// Radii of [`Plate::sampled_functions`].
+    /// 41 radii, evenly spread from edge to edge, in m.
     pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
         sampled_radii(&self.blade)
     }
 
-    /// Every basis function at a point of the blade, in 1/√kg.
+    /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the
+    /// unknowns. A point force F there is F φ on the right side of the equation of motion.
     pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.degrees_of_freedom());
         for n in 0..=self.max_diameters() {

@@ -157,7 +157,7 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
         // There was something not to merge: waves of different classes and signs that have
         // crossed. Above the lowest critical speed, at which the first is reflected.
         let first = model.critical[0].speed_rad_per_s;
-        let spectra: Vec<Vec<Class>> = even_speeds((first, range.1), 25)
+        let spectra: Vec<Vec<Class>> = even_speeds((first, range.1), 101)
             .into_iter()
             .map(|speed| classes(&model, speed, count))
             .collect();
