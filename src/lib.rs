@@ -1,22 +1,33 @@
 //! Stability of thin, fast, guided circular saws in the frequency domain.
 //!
-//! The rooms of this crate stand in the order in which a saw goes through them, and
-//! each imports only from those before it: [`scene`] → [`plate`] → [`system`] →
+//! ```
+//! use sawflutter::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = std::env::temp_dir().join(format!("sawflutter-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder)?;
+//! # let paper = Scene::paper().edited(|s| s.accuracy = Accuracy::Draft)?;
+//! # std::fs::write(folder.join("saw.json"), serde_json::to_string(paper.file())?)?;
+//! # std::env::set_current_dir(&folder)?;
+//! let saw = Scene::from_path("saw.json")?.edited(|s| s.guides[0].radius_m = 0.22)?;
+//! let analysis = Analysis::new(&saw)?;
+//! for band in analysis.bands() {
+//!     println!("{band}");
+//! }
+//! std::fs::write("campbell.svg", analysis.report()?.campbell_svg()?)?;
+//! # assert!((1400.0..1600.0).contains(&analysis.lowest_critical_rpm().unwrap()));
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The modules stand in the order in which a saw goes through them, and each imports only from
+//! those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
 //! [`report`] → [`figure`] → `explore`. [`check`], [`fit`] and [`place`] stand after [`stability`],
 //! [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone. [`analytical`] imports nothing: closed forms with their sources, which the
 //! tests hold the rest against.
-//!
-//! ```
-//! use sawflutter::{scene::{Accuracy, Scene, rpm}, stability::Analysis};
-//!
-//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
-//! let analysis = Analysis::new(&scene)?;
-//! let lowest = rpm(analysis.model.critical[0].speed_rad_per_s);
-//! assert!(1500.0 < lowest && lowest < 1600.0);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -45,3 +56,13 @@ pub mod study;
 pub mod system;
 pub mod text;
 pub mod transient;
+
+/// What most programs that use the library need.
+pub mod prelude {
+    pub use crate::check::{Check, Limits};
+    pub use crate::report::Report;
+    pub use crate::scene::{Accuracy, Scene, SceneError};
+    pub use crate::stability::{
+        Analysis, AnalysisError, AnalysisOptions, Instability, InstabilityKind, StabilityState,
+    };
+}

@@ -58,8 +58,28 @@ pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
 pub use study::{study_png, study_svg};
 pub use tradeoff::tradeoff_png;
 
+use crate::report::Report;
+
+impl Report {
+    /// The Campbell diagram as SVG, see [`campbell_svg`].
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn campbell_svg(&self) -> Result<String, FigureError> {
+        campbell_svg(self)
+    }
+
+    /// The Campbell diagram as PNG, see [`campbell_png`].
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
+        campbell_png(self)
+    }
+}
+
 /// Whether any term of the equation of motion takes energy out of the saw.
-fn is_damped(report: &crate::report::Report) -> bool {
+fn is_damped(report: &Report) -> bool {
     report.terms.iter().any(|term| term.contains("damping"))
 }
 

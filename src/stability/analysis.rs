@@ -8,7 +8,7 @@ use super::estimate::Estimates;
 use super::loci::RootLoci;
 use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
-use crate::scene::Scene;
+use crate::scene::{Scene, rpm};
 use crate::spectrum::{SpectralModel, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
@@ -120,6 +120,24 @@ impl Analysis {
             first_merge_rad_per_s: first_merge,
             root_loci,
         })
+    }
+
+    /// Every band of instability within the range of speeds, by onset.
+    pub fn bands(&self) -> &[Instability] {
+        &self.chart.instabilities
+    }
+
+    /// Lowest critical speed, at which a wave stands still in space; `None` where the blade has
+    /// none, or none within the range that a blade bears.
+    pub fn lowest_critical_rpm(&self) -> Option<f64> {
+        let lowest = self.model.critical.first()?;
+        Some(rpm(lowest.speed_rad_per_s))
+    }
+
+    /// Lowest speed at which flutter counts: that grows as fast as the scene's
+    /// `flutter_threshold_per_s`.
+    pub fn flutter_speed_rpm(&self) -> Option<f64> {
+        self.flutter_speed_rad_per_s.map(rpm)
     }
 
     /// What becomes of the saw at a speed.

@@ -1,8 +1,13 @@
 //! Bands of unstable speeds.
 
+use std::f64::consts::TAU;
+use std::fmt;
+
 use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::scene::rpm;
 
 /// Kind of an instability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -16,6 +21,7 @@ pub enum InstabilityKind {
 
 /// A band of unstable speeds.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Instability {
     /// Divergence or flutter.
     pub kind: InstabilityKind,
@@ -31,11 +37,30 @@ pub struct Instability {
     pub peak_growth_per_s: f64,
     /// Frequency at the peak.
     pub frequency_rad_per_s: f64,
-    /// The modes that meet.
-    pub modes: Vec<String>,
     /// The eigenvalue from the first to the last speed of a band of a damped blade, close
     /// enough for cubics between the points; empty for an undamped blade.
     pub curve: Vec<CurvePoint>,
+}
+
+/// "flutter 2255.9 to 2266.1 rpm, up to 0.487 1/s at 6.01 Hz".
+impl fmt::Display for Instability {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (from, to) = (rpm(self.from_rad_per_s), rpm(self.to_rad_per_s));
+        let growth = self.peak_growth_per_s;
+        match self.kind {
+            InstabilityKind::Divergence => {
+                write!(
+                    f,
+                    "divergence {from:.1} to {to:.1} rpm, up to {growth:.3} 1/s"
+                )
+            }
+            InstabilityKind::Flutter => write!(
+                f,
+                "flutter {from:.1} to {to:.1} rpm, up to {growth:.3} 1/s at {:.2} Hz",
+                self.frequency_rad_per_s / TAU
+            ),
+        }
+    }
 }
 
 /// An eigenvalue at one speed of a band.

@@ -125,7 +125,6 @@ mod tests {
             peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s,
             frequency_rad_per_s: 1.0,
-            modes: Vec::new(),
             curve: Vec::new(),
         }
     }

@@ -1,12 +1,12 @@
 //! Divergence: a real λ > 0, from one critical speed to the next.
 
 use super::band::{Instability, InstabilityKind};
-use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
+use super::evaluator::{CRITICAL_GROUP, SignatureEvaluator};
 use super::maximum::{Sample, maximise};
 use super::pair_continuation::Coalescence;
 use super::search::{Event, Path};
 use super::signature::Signature;
-use crate::spectrum::{Direction, SpectralModel, SpectrumError, in_words};
+use crate::spectrum::{SpectralModel, SpectrumError};
 
 /// Stretches of speed with a real λ > 0. They begin and end at critical speeds, or where
 /// two real λ coalesce and go on as flutter.
@@ -30,12 +30,7 @@ pub(super) fn divergence(
                 (next < signatures.len()).then_some(next),
                 index,
             );
-            bands.push(band(
-                model,
-                evaluator,
-                &signatures[first..next],
-                [begins, ends],
-            )?);
+            bands.push(band(evaluator, &signatures[first..next], [begins, ends])?);
             start = None;
         }
     }
@@ -46,7 +41,6 @@ pub(super) fn divergence(
 const PARTS: usize = 8;
 
 fn band(
-    model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
     [(from, begins), (to, ends)]: [(f64, Edge); 2],
@@ -60,8 +54,8 @@ fn band(
     };
     let mut samples: Vec<Sample> = signatures.iter().filter_map(of).collect();
     let at = |speed: f64| Ok(of(&evaluator.at(speed)?));
-    for component in 1..PARTS {
-        samples.extend(at(from + (to - from) * component as f64 / PARTS as f64)?);
+    for part in 1..PARTS {
+        samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
     }
     // λ² passes linearly through zero at a critical speed: the chord is its slope.
     let zero = |at: f64| Sample {
@@ -82,7 +76,6 @@ fn band(
         peak_rad_per_s: found.map_or(from, |sample| sample.at),
         peak_growth_per_s: found.map_or(0.0, |sample| sample.value.sqrt()),
         frequency_rad_per_s: 0.0,
-        modes: standing_waves(model, from, to),
         curve: Vec::new(),
     })
 }
@@ -113,7 +106,6 @@ pub(super) fn close_pairs(
             peak_rad_per_s: peak,
             peak_growth_per_s: evaluator.divergence(peak)?,
             frequency_rad_per_s: 0.0,
-            modes: standing_waves(model, pair[0], pair[1]),
             curve: Vec::new(),
         });
     }
@@ -153,17 +145,4 @@ fn edge(model: &SpectralModel, path: &Path, stable: Option<usize>, unstable: usi
         // The events between the two were too close to tell apart.
         _ => (inner, Edge::Coalescence),
     }
-}
-
-fn standing_waves(model: &SpectralModel, from: f64, to: f64) -> Vec<String> {
-    let mut names: Vec<String> = model
-        .critical
-        .iter()
-        .filter(|c| {
-            (from * (1.0 - CRITICAL_GAP)..=to * (1.0 + CRITICAL_GAP)).contains(&c.speed_rad_per_s)
-        })
-        .map(|c| in_words(c.diameters, c.circles, Direction::Standing))
-        .collect();
-    names.truncate(2);
-    names
 }

@@ -9,7 +9,7 @@ use super::maximum::{Sample, maximise};
 use super::pair_continuation::{Edge, NarrowBand, PairContinuation};
 use super::search::{Event, Path};
 use super::signature::SignedMode;
-use crate::spectrum::{Mode, SpectralModel, SpectrumError, in_words};
+use crate::spectrum::SpectrumError;
 
 /// Share of a band's width from its end at which a peak at the end is said to be.
 const BESIDE_END: f64 = 1e-3;
@@ -111,24 +111,23 @@ fn quadruples(path: &Path) -> Vec<Quadruple> {
 
 /// Bands in which a + and a − mode have coalesced.
 pub(super) fn flutter(
-    model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     path: &Path,
 ) -> Result<Vec<Instability>, SpectrumError> {
     let wide: Vec<Result<Instability, SpectrumError>> = quadruples(path)
         .into_par_iter()
-        .map(|quadruple| band(model, evaluator, &quadruple))
+        .map(|quadruple| band(evaluator, &quadruple))
         .collect();
     let narrow = path.steps.iter().filter_map(|step| match step.event {
         Some(Event::Band(band)) => Some(band),
         _ => None,
     });
-    let narrow = narrow.map(|band| narrow_band(model, band));
+    let narrow = narrow.map(|band| Ok(narrow_band(band)));
     wide.into_iter().chain(narrow).collect()
 }
 
-fn narrow_band(model: &SpectralModel, band: NarrowBand) -> Result<Instability, SpectrumError> {
-    Ok(Instability {
+fn narrow_band(band: NarrowBand) -> Instability {
+    Instability {
         kind: InstabilityKind::Flutter,
         from_rad_per_s: band.from_rad_per_s,
         to_rad_per_s: band.to_rad_per_s,
@@ -136,22 +135,16 @@ fn narrow_band(model: &SpectralModel, band: NarrowBand) -> Result<Instability, S
         peak_rad_per_s: band.peak_rad_per_s,
         peak_growth_per_s: band.growth_per_s,
         frequency_rad_per_s: band.frequency_rad_per_s,
-        modes: meeting_modes(model, band.from_rad_per_s, band.frequency_rad_per_s)?,
         curve: Vec::new(),
-    })
+    }
 }
 
 fn band(
-    model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     quadruple: &Quadruple,
 ) -> Result<Instability, SpectrumError> {
     let (from, to) = (quadruple.begin.speed(), quadruple.end.speed());
     let (peak, fastest) = quadruple.fastest(evaluator)?;
-    let onset_frequency = match quadruple.begin {
-        End::Edge(edge) => edge.frequency_rad_per_s,
-        _ => quadruple.points[0].1.lambda.im,
-    };
     let is_open = |end: &End| matches!(end, End::Range(_));
     Ok(Instability {
         kind: InstabilityKind::Flutter,
@@ -161,7 +154,6 @@ fn band(
         peak_rad_per_s: peak,
         peak_growth_per_s: fastest.0,
         frequency_rad_per_s: fastest.1,
-        modes: meeting_modes(model, from, onset_frequency)?,
         curve: Vec::new(),
     })
 }
@@ -246,26 +238,4 @@ fn continued(
         [one] => Some(signature.quadruples[*one]),
         _ => None,
     })
-}
-
-/// Names of the + and the − mode next to a frequency just below an onset.
-pub(super) fn meeting_modes(
-    model: &SpectralModel,
-    onset: f64,
-    frequency: f64,
-) -> Result<Vec<String>, SpectrumError> {
-    let before = onset * (1.0 - 1e-5);
-    let mut modes = model.drawn_modes(before)?;
-    modes.retain(|m| m.krein_sign() != 0);
-    let distance = |m: &Mode| (m.frequency_rad_per_s() - frequency).abs();
-    modes.sort_by(|x, y| distance(x).total_cmp(&distance(y)));
-    let mut pair = Vec::new();
-    for sign in [1, -1] {
-        pair.extend(modes.iter().find(|m| m.krein_sign() == sign).cloned());
-    }
-    let described = model.describe(before, pair);
-    Ok(described
-        .iter()
-        .map(|m| in_words(m.name.diameters, m.name.circles, m.name.direction))
-        .collect())
 }

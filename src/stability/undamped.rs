@@ -84,7 +84,7 @@ fn bands(
         let path = Path::search(&evaluator, signatures)?;
         instabilities.extend(divergence(model, &evaluator, &path)?);
         instabilities.extend(close_pairs(model, &evaluator, speeds)?);
-        instabilities.extend(flutter(model, &evaluator, &path)?);
+        instabilities.extend(flutter(&evaluator, &path)?);
         instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
         checked = path.signatures;
     }

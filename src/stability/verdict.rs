@@ -207,7 +207,6 @@ mod tests {
             peak_rad_per_s: 0.5 * (from + to),
             peak_growth_per_s: growth,
             frequency_rad_per_s: 10.0,
-            modes: Vec::new(),
             curve: Vec::new(),
         }
     }

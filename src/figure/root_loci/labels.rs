@@ -76,7 +76,7 @@ fn ends_of_track(chart: &Chart, track: &Track) -> Option<Block> {
     let outer = samples.find(|s| s.rpm <= first || last <= s.rpm)?;
     let name = track.name.as_ref().filter(|_| outer.rpm <= first);
     let name = name.map(|name| match sign(track.look) {
-        Some(sign) => format!("Krein sign {sign}, {name}"),
+        Some(sign) => format!("({sign}) {name}"),
         None => name.clone(),
     });
     let way = match chart.loci.merge {

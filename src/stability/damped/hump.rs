@@ -284,7 +284,6 @@ fn band(curve: &[CurvePoint], cut: [bool; 2]) -> Option<Instability> {
         peak_rad_per_s: peak.speed_rad_per_s,
         peak_growth_per_s: peak.lambda.re,
         frequency_rad_per_s: peak.lambda.im.abs(),
-        modes: Vec::new(),
         curve: curve.to_vec(),
     })
 }

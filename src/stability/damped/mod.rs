@@ -12,25 +12,19 @@ mod link;
 mod spectrum;
 mod trace;
 
-use faer::c64;
 use rayon::prelude::*;
 
-use super::band::{CurvePoint, Instability, InstabilityKind};
+use super::band::{CurvePoint, Instability};
 use super::certificate::Certificate;
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
-use crate::spectrum::{
-    Direction, Mode, ModeName, SpectralModel, SpectrumError, Strategy, in_words,
-};
+use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 use spectrum::{Solver, Spectrum};
 
 /// Points of a band's curve that a straight line misses by more than this share of its peak
 /// are drawn, on a scale of square roots, which shows slow growth beside fast.
 const DRAWN: f64 = 0.02;
-/// A band of the undamped twin is the same as one of the damped blade where both overlap and
-/// their frequencies differ by less than this share.
-const SAME_FREQUENCY: f64 = 0.05;
 
 /// Modes at `count` even speeds and where bands need more, the bands, and what was checked of them.
 pub(super) fn charted(
@@ -49,7 +43,7 @@ pub(super) fn charted(
     speeds.extend(middles(model, range));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
-    let (instabilities, certificate) = bands(model, &speeds, &twin)?;
+    let (instabilities, certificate) = bands(model, &speeds)?;
     let mut drawn: Vec<f64> = instabilities.iter().flat_map(drawn_speeds).collect();
     drawn.sort_by(f64::total_cmp);
     drawn.dedup();
@@ -81,7 +75,6 @@ fn middles(model: &SpectralModel, range: (f64, f64)) -> Vec<f64> {
 fn bands(
     model: &SpectralModel,
     speeds: &[f64],
-    twin: &[Instability],
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let solver = Solver::new(model);
     let given: Result<Vec<Spectrum>, SpectrumError> =
@@ -90,13 +83,7 @@ fn bands(
     let paths = trace::paths(&solver, &spectra);
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = paths
         .par_iter()
-        .map(|path| {
-            let mut bands = hump::bands(&solver, &spectra, path)?;
-            for band in &mut bands {
-                band.modes = modes(model, band, twin)?;
-            }
-            Ok(bands)
-        })
+        .map(|path| hump::bands(&solver, &spectra, path))
         .collect();
     let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
     instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
@@ -135,40 +122,6 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
     };
     let differing = spectra.iter().filter(differs);
     differing.map(|spectrum| spectrum.speed).collect()
-}
-
-/// Names of the modes of a band: of those that meet in it without damping, or of the one that
-/// damping alone feeds.
-fn modes(
-    model: &SpectralModel,
-    band: &Instability,
-    twin: &[Instability],
-) -> Result<Vec<String>, SpectrumError> {
-    let off = |t: &&Instability| (t.frequency_rad_per_s - band.frequency_rad_per_s).abs();
-    let same = |t: &&Instability| {
-        let overlaps =
-            t.from_rad_per_s <= band.to_rad_per_s && band.from_rad_per_s <= t.to_rad_per_s;
-        let is_near = (t.from_rad_per_s..=t.to_rad_per_s).contains(&band.peak_rad_per_s)
-            || (band.from_rad_per_s..=band.to_rad_per_s).contains(&t.peak_rad_per_s);
-        let tolerance = SAME_FREQUENCY * band.frequency_rad_per_s;
-        t.kind == band.kind && overlaps && is_near && off(t) <= tolerance
-    };
-    let met = twin.iter().filter(same);
-    if let Some(met) = met.min_by(|x, y| off(x).total_cmp(&off(y))) {
-        return Ok(met.modes.clone());
-    }
-    let lambda = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
-    let distance = |m: &Mode| (m.lambda - lambda).norm();
-    let found = model.modes(band.peak_rad_per_s)?;
-    let found = found
-        .into_iter()
-        .min_by(|x, y| distance(x).total_cmp(&distance(y)));
-    let described = model.describe(band.peak_rad_per_s, found.into_iter().collect());
-    let name = |name: &ModeName| match band.kind {
-        InstabilityKind::Divergence => in_words(name.diameters, name.circles, Direction::Standing),
-        InstabilityKind::Flutter => in_words(name.diameters, name.circles, name.direction),
-    };
-    Ok(described.iter().map(|d| name(&d.name)).collect())
 }
 
 /// Speeds of a band at which its growth is drawn: its ends, its peak, and as many in between as
