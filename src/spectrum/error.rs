@@ -40,7 +40,7 @@ pub enum SpectrumError {
         /// Rotation speed.
         rpm: f64,
     },
-    /// Whoever asked for the spectrum does not want it any more, see [`Cancellation`].
+    /// The computation was cancelled, see [`Cancellation`](super::Cancellation).
     #[error("the computation was cancelled")]
     Cancelled,
 }

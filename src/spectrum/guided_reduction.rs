@@ -1,10 +1,11 @@
 //! Few vectors that span the low modes over a whole range of speeds.
 
 mod drawn;
+mod error;
 
 use std::sync::atomic::Ordering;
 
-use faer::{Col, Mat, Scale, c64};
+use faer::{Col, Mat, Scale};
 use rayon::prelude::*;
 
 use super::arnoldi::lowest_eigenpairs;
@@ -13,8 +14,7 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::mode::{ModeKind, classify};
 use super::projection::Projection;
-use super::residual::Lifted;
-use super::vectors::{Eigenpair, orthonormal, quadratic_form, split};
+use super::vectors::{Eigenpair, orthonormal, split};
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 
@@ -31,8 +31,6 @@ const DRAWN_TOLERANCE: f64 = 1e-7;
 const REFLECTED_MARGIN: f64 = 1.3;
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
 const SNAPSHOT_MARGIN: f64 = 1.5;
-/// Least slope, relative to the height, that a frequency's error is estimated with.
-const LEAST_SLOPE: f64 = 0.02;
 /// Length given to vectors of which no part may be left out.
 const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
@@ -377,95 +375,9 @@ impl<'a> Builder<'a> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         companion_eigenpairs(&projection.reduced, speed)
     }
-
-    /// Largest estimated error of a frequency among the modes below the window. With r the
-    /// residual on the whole basis, rᴴP⁻¹r is what the functions that were left out take off
-    /// qᴴL(ω)q; P, the diagonal of K₀, stands for L, for r lives in the high functions, which
-    /// stiffness rules. The frequency follows by [`frequency_shift`].
-    fn frequency_error(
-        &self,
-        projection: &Projection,
-        speed: f64,
-        height: f64,
-        pairs: &[Eigenpair],
-    ) -> f64 {
-        let low: Vec<(c64, &Col<c64>)> = pairs
-            .iter()
-            .filter(|(lambda, _)| lambda.im <= height && lambda.re >= -1e-6 * height)
-            .map(|(lambda, q)| (*lambda, q))
-            .collect();
-        let stiffness = &self.system.stiffness;
-        let lifted = projection.lifted(speed, &low);
-        let errors = low.iter().zip(&lifted).map(|((lambda, q), lifted)| {
-            let Lifted { residual, .. } = lifted;
-            let shift: f64 = (0..residual.nrows())
-                .map(|i| residual[i].norm_sqr() / (stiffness[(i, i)] + height.powi(2)))
-                .sum();
-            let gamma = quadratic_form(q, &projection.reduced.gyroscopic).im;
-            let slope = 2.0 * (lambda.im + speed * gamma).abs();
-            frequency_shift(shift, slope.max(2.0 * lambda.norm()), height)
-        });
-        errors.fold(0.0, f64::max)
-    }
-}
-
-/// Change of a frequency ω at which qᴴL(ω)q changes by `shift`, in 1/s², and has the slope
-/// |qᴴ(2ω − 2iΩG)q|; at rest that is 2ω. Where two modes are about to merge the slope vanishes,
-/// and where a wave stands still ω does too: there not the frequency but its square is what
-/// depends on the shift smoothly, and a slope of at least a share of the height stands for it. A
-/// slope above the height counts as the height: onsets of weak bands ask for more than their
-/// frequencies do.
-fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
-    shift / slope_per_s.clamp(LEAST_SLOPE * height_rad_per_s, height_rad_per_s)
 }
 
 /// Speeds of the first snapshots.
 fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
     [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Scene, rad_per_s};
-
-    /// On too small a basis the estimate is held against the frequencies of the whole one: of the
-    /// lowest mode of the paper's saw at rest, a tenth as high as the window, too.
-    #[test]
-    fn the_error_of_low_frequencies_is_not_estimated_too_small() {
-        let resolution = Resolution {
-            max_diameters: 8,
-            radial_functions: 5,
-        };
-        let plate = Plate::new(&Scene::paper(), resolution);
-        let system = GyroscopicSystem::of_plate(&plate);
-        let counters = WorkCounters::default();
-        let scale = super::super::frequency_scale(&plate);
-        let range = (0.0, rad_per_s(1200.0));
-        let mut builder = Builder::new(&system, range, scale, &[], &counters);
-        let (height, _) = builder.chart_height(0.0).unwrap();
-        builder.window = height;
-        let snapshots = [400.0, 1200.0].map(|rpm| builder.snapshot(rad_per_s(rpm)).unwrap());
-        let projection = Projection::new(&system, builder.basis(&snapshots, height), range.1);
-        let mut estimated = 0;
-        for speed in [1e-6, 700.0].map(rad_per_s) {
-            let exact = companion_eigenpairs(&system, speed).unwrap();
-            let found = builder.pairs(&projection, speed).unwrap();
-            for ((found, q), (exact, _)) in found.into_iter().zip(exact).take(8) {
-                let error = (found - exact).norm();
-                let estimate = builder.frequency_error(&projection, speed, height, &[(found, q)]);
-                println!("{exact}: error {error:.2e}, estimated {estimate:.2e}");
-                // Below, rounding of the dense solver takes part.
-                if error > 1e-8 {
-                    estimated += 1;
-                    assert!(
-                        error <= 2.0 * estimate && estimate <= 50.0 * error,
-                        "{exact}"
-                    );
-                }
-            }
-        }
-        assert!(estimated >= 8, "nothing to estimate");
-    }
 }

@@ -21,7 +21,7 @@ pub struct WorkCounters {
     pub cancellation: Cancellation,
 }
 
-/// A flag shared by a computation and whoever may lose interest in it. The computation looks
+/// A cancellation flag, shared by a computation and whoever may cancel it. The computation looks
 /// at it between two eigenproblems and then ends with [`SpectrumError::Cancelled`].
 #[derive(Debug, Clone, Default)]
 pub struct Cancellation(Arc<AtomicBool>);

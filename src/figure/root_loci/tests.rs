@@ -41,7 +41,7 @@ fn speeds_signs_and_modes_are_named() {
         "Root loci around the flutter onset at 2256 rpm",
         "Guided blade, 864 mm",
         "(+) 4 diameters, backward",
-        "\u{2212} : 4 diameters, reflected",
+        "(\u{2212}) 4 diameters, reflected",
         "onset 2256 rpm",
         "peak 2261 rpm",
         "end 2267 rpm",
