@@ -219,7 +219,8 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
         .mark(10.0, |sheet, [x, y]| {
             sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
         })
-        .word("the scene");
+        .word("the scene")
+        .word("colours: on the coarse model of the search");
     if map.kept.iter().flatten().any(|kept| !kept) {
         let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
             format!("lowest critical speed below {rpm:.0} rpm")

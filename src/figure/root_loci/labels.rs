@@ -170,14 +170,9 @@ fn label_peak(sheet: &mut Sheet, chart: &Chart) {
     let peak = chart.loci.peak;
     let [x, y] = plane::at(chart, &peak);
     let growth = format!("{} 1/s", two_digits(peak.growth));
-    let what = if chart.loci.merge {
-        "coalesced, growing"
-    } else {
-        "growing"
-    };
     let block = Block {
         lines: vec![
-            what.to_owned(),
+            "growing".to_owned(),
             format!("peak {} rpm", chart.rpm(peak.rpm)),
             growth,
         ],
@@ -188,10 +183,7 @@ fn label_peak(sheet: &mut Sheet, chart: &Chart) {
     write_block(sheet, &block, [block.x, y], Anchor::Start);
     if chart.loci.merge {
         let block = Block {
-            lines: vec![
-                "coalesced, decaying".to_owned(),
-                "(mirror image)".to_owned(),
-            ],
+            lines: vec!["decaying".to_owned(), "(mirror image)".to_owned()],
             colour: tint(FLUTTER, 0.75),
             x: 2.0 * chart.growth.at(0.0) - x - 12.0,
             centre: y,

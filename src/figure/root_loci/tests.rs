@@ -47,7 +47,7 @@ fn speeds_signs_and_modes_are_named() {
         "end 2267 rpm",
         "2240 rpm",
         "2282 rpm",
-        "coalesced, growing",
+        "growing",
         "0.53 1/s",
     ] {
         assert!(svg.contains(text), "{text}");
