@@ -1501,6 +1501,49 @@ class Refusal(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class ReliabilityPoint(Entry):
+    """The share of the saws that can be run at a speed."""
+
+    operating_rpm: float
+    """The speed."""
+
+    share: float
+    """The share of all saws."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Reliability(Entry):
+    """How many saws can be run, by the speed at which they are: up to that speed they keep the
+    margin to their lowest critical speed, and do not flutter. A saw that was refused or failed
+    cannot."""
+
+    margin: float
+    """Largest share of the lowest critical speed that the operating speed may be: that of the
+    limits, or the usual one."""
+
+    fastest: tuple[Quantile, ...]
+    """The highest speeds at which given shares of the saws can be run; null where it lies
+    beyond the speeds of the study, or fewer saws were analysed."""
+
+    curve: tuple[ReliabilityPoint, ...]
+    """Shares of the saws that can be run at even speeds."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstSaw(Entry):
+    """A saw with a low speed."""
+
+    saw: int
+    """Its number."""
+
+    rpm: float
+    """Its speed."""
+
+    values: FloatArray
+    """The numbers that vary, in the order of the study."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class StudyReport(Entry):
     """Quantiles and probabilities of a study, and what it was asked."""
 
@@ -1526,10 +1569,25 @@ class StudyReport(Entry):
     """All saws together."""
 
     groups: tuple[Group, ...]
-    """The saws drawn in each point of the grid, where there are both."""
+    """The saws drawn in each point of the grid, where there are both, and no more than 10 000
+    points."""
 
     not_analysed: tuple[Refusal, ...]
     """The first saws that were not analysed."""
+
+    reliability: Reliability | None
+    """How many saws can be run, by the speed at which they are; null where no saw has a
+    critical or a flutter speed."""
+
+    worst_lowest_critical: tuple[WorstSaw, ...]
+    """The saws with the lowest first critical speed, ascending."""
+
+    worst_flutter: tuple[WorstSaw, ...]
+    """The saws with the lowest flutter speed, ascending."""
+
+    processors: tuple[str, ...] | None = field(default=None)
+    """Kinds of processors that have computed the saws, where there are several: the last digits
+    of a speed may differ between them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -5,23 +5,21 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from concurrent.futures import Executor, as_completed
+from concurrent.futures import Executor
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from . import _native
+from . import _native, _tasks
 from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
 from .results import StudyResults
 from .scene import Scene, _json
 
-# Saws a task: few enough that little is lost with a worker, and enough that the task is worth its
-# way there.
-SAWS_A_TASK = 16
-
+if TYPE_CHECKING:
+    from distributed import Client
 
 class Study:
     """A scene and what varies in it.
@@ -79,7 +77,7 @@ class Study:
         self,
         folder: str | os.PathLike[str],
         *,
-        executor: Executor | None = None,
+        executor: Executor | Client | None = None,
         progress: Progress = None,
     ) -> StudyResults:
         """Analyses every saw and sums them up.
@@ -89,11 +87,19 @@ class Study:
         folder : path
             For the log, in which every finished saw is written down at once, and for the results,
             which are the files that the program writes. Run again after a stop, it goes on.
-        executor : concurrent.futures.Executor, optional
-            Where the saws are computed, by default on all cores of this machine. A range of saws is
-            a task; the log is written here.
+        executor : concurrent.futures.Executor or dask.distributed.Client, optional
+            Where the saws are computed, by default on all cores of this machine. A task is a range
+            of saws that takes about half a minute; the log is written here, and nowhere else. A
+            client of Dask goes on when workers are lost; a saw that ends every worker it is given
+            to is a row "failed", and the others are done.
         progress : bool or callable, optional
             True shows a bar, a callable is called with what is done and of how many.
+
+        Raises
+        ------
+        AnalysisError
+            Where a worker has another version of sawflutter, or the executor has stopped. What is
+            done is in the log: run again with another executor, the study goes on.
         """
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
@@ -102,28 +108,35 @@ class Study:
                 self._native.run(place, progress=told)
             else:
                 self._run_on(executor, place, told)
-        for name, content in self._native.files(place):
-            _write(place / name, content)
+        self._sum_up(place)
         result = StudyResults.from_json((place / "study.json").read_text(encoding="utf-8"))
         object.__setattr__(result, "_folder", place)
         return result
 
-    def _run_on(self, executor: Executor, folder: Path, told: Any) -> None:
-        missing = self._native.missing(folder)
-        done = self.count - len(missing)
+    def _run_on(self, executor: Executor | Client, folder: Path, told: Any) -> None:
+        text = _tasks.Text(self.scene.to_json(), self._text)
         log = self._native.log(folder)
-        parts = [missing[k : k + SAWS_A_TASK] for k in range(0, len(missing), SAWS_A_TASK)]
-        tasks = [executor.submit(_saws, self.scene.to_json(), self._text, part) for part in parts]
         try:
-            for task in as_completed(tasks):
-                saws = task.result()
-                log.append(saws)
-                done += len(saws)
-                if told is not None:
-                    told(done, self.count, "")
+            _tasks.Run(self._native, log, _tasks.place(executor, text))(told)
         finally:
-            for task in tasks:
-                task.cancel()
+            # An exception keeps what it has passed through, and other runs have to go on.
+            log.close()
+
+    def _sum_up(self, folder: Path) -> None:
+        """Writes the files of the program: all are on the disk before the first gets its name, and
+        while there is a report, every other file belongs to it."""
+        tables = [folder / f".{name}.part" for name in ("study.csv", "study.parquet")]
+        parts = list(tables)
+        try:
+            for name, content in self._native.sum_up(folder, *tables):
+                parts.append(folder / f".{name}.part")
+                parts[-1].write_bytes(content)
+            (folder / "study.json").unlink(missing_ok=True)
+            for part in parts:
+                part.replace(folder / part.name.removeprefix(".").removesuffix(".part"))
+        finally:
+            for part in parts:
+                part.unlink(missing_ok=True)
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
         return _study, (self.scene.to_json(), self._text)
@@ -144,15 +157,3 @@ def _study(scene: str, text: str) -> Study:
     study = Study.__new__(Study)
     study._setup(Scene.from_json(scene), text)
     return study
-
-
-def _saws(scene: str, study: str, saws: list[int]) -> list[str]:
-    """A task: some saws of a study, as the log takes them."""
-    return _native.Study(scene, study).saws(saws)
-
-
-def _write(path: Path, content: bytes) -> None:
-    """A whole file, or none."""
-    part = path.with_name(f".{path.name}.part")
-    part.write_bytes(content)
-    part.replace(path)

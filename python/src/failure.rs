@@ -182,7 +182,9 @@ impl From<LogError> for Failure {
     fn from(error: LogError) -> Self {
         let message = error.to_string();
         match error {
-            LogError::Io { source, .. } => Failure::Unreadable(source, message),
+            LogError::Io { source, .. } | LogError::Tables(source) => {
+                Failure::Unreadable(source, message)
+            }
             _ => Refusal::saying("StudyError", message, None),
         }
     }

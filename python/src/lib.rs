@@ -21,7 +21,7 @@ mod _native {
     #[pymodule_export]
     use super::matrices::matrices;
     #[pymodule_export]
-    use super::study::{Study, StudyLog};
+    use super::study::{Study, StudyLog, processor};
     #[pymodule_export]
     use super::{panic, paper, program, read_scene, read_text, scene, schema};
 }

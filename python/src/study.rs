@@ -1,17 +1,20 @@
 //! Many saws: computed here or on other machines, logged in a folder, summed up.
 
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use sawflutter::figure;
-use sawflutter::study::{self, Log, Saw, Shard, StudyFile, StudyReport, finished_in};
+use sawflutter::study::{
+    self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
+};
 
 use crate::arguments;
 use crate::failure::Failure;
-use crate::watch::compute;
+use crate::watch::{compute, lock};
 
 /// A study of a scene, both given as JSON.
 #[pyclass(frozen, module = "sawflutter._native")]
@@ -44,39 +47,56 @@ impl Study {
         Err(Failure::argument("index", index, allowed, remedy).into())
     }
 
-    /// Analyses saws; each as JSON, in their order.
-    #[pyo3(signature = (indices, *, progress=None))]
-    fn saws(
+    /// Analyses the saws of ranges on a thread of its own; their rows, as a log takes them.
+    #[pyo3(signature = (ranges, *, progress=None))]
+    fn rows<'py>(
         &self,
-        py: Python<'_>,
-        indices: Vec<usize>,
+        py: Python<'py>,
+        ranges: Vec<(usize, usize)>,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<Vec<String>> {
-        if let Some(last) = indices.iter().max() {
-            self.values(*last)?;
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        for (from, to) in &ranges {
+            if from >= to || *to > self.0.count() {
+                let allowed = format!("within 0 and {}", self.0.count());
+                let value = format!("from {from} up to {to}");
+                let remedy = "saws are numbered from 0, and the last of a range is not in it";
+                return Err(Failure::argument("ranges", value, allowed, remedy).into());
+            }
         }
         let study = self.0.clone();
-        compute(py, progress, move |meter| {
-            let found = Mutex::new(Vec::new());
-            study::run(&study, &indices, &|saw| {
-                let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
-                found.push(saw);
-                meter.show(found.len(), indices.len());
-                stopped()
+        let rows = compute(py, progress, move |meter| {
+            let of = ranges.iter().map(|(from, to)| to - from).sum();
+            let (indices, saws) = (
+                ranges.iter().flat_map(|(from, to)| *from..*to),
+                Mutex::default(),
+            );
+            study::run(&study, Some(1), indices, &|saw| {
+                // A saw that was stopped half-way is none.
+                stopped()?;
+                let mut saws: MutexGuard<'_, Vec<Saw>> = lock(&saws);
+                saws.push(saw);
+                meter.show(saws.len(), of);
+                Ok::<(), Failure>(())
             })?;
-            let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-            let place = |saw: &Saw| indices.iter().position(|index| *index == saw.index);
-            found.sort_by_key(place);
-            let lines = found.iter().map(serde_json::to_string);
-            Ok(lines.collect::<Result<_, _>>()?)
-        })
+            let saws = lock(&saws);
+            Ok(study::rows_of(&study, &saws))
+        })?;
+        Ok(PyBytes::new(py, &rows))
     }
 
-    /// Numbers of the saws that the logs of a folder do not have.
-    fn missing(&self, folder: PathBuf) -> PyResult<Vec<usize>> {
-        let finished = finished_in(&folder, &self.0).map_err(Failure::from)?;
-        let missing = finished.iter().enumerate().filter(|(_, saw)| saw.is_none());
-        Ok(missing.map(|(index, _)| index).collect())
+    /// The row of a saw that could not be analysed, for this reason.
+    fn failed<'py>(
+        &self,
+        py: Python<'py>,
+        index: usize,
+        reason: &str,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let saw = Saw {
+            index,
+            values: self.values(index)?,
+            outcome: Outcome::failed(reason),
+        };
+        Ok(PyBytes::new(py, &study::rows_of(&self.0, &[saw])))
     }
 
     /// Analyses the saws that a folder does not have, each logged there as soon as it is done.
@@ -87,41 +107,45 @@ impl Study {
         folder: PathBuf,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let missing = self.missing(folder.clone())?;
-        let path = folder.join(Log::name(Shard::WHOLE));
-        let (log, _) = Log::open(&path, &self.0).map_err(Failure::from)?;
         let study = self.0.clone();
         compute(py, progress, move |meter| {
-            let done = AtomicUsize::new(study.count() - missing.len());
+            let mut log = Log::open(&folder, Shard::WHOLE, &study)?;
+            if log.finished().done() == study.count() {
+                return Ok(());
+            }
+            log.append_processor(&study::processor())?;
+            let missing = log.finished().clone().into_missing();
             let log = Mutex::new(log);
-            study::run(&study, &missing, &|saw| {
+            study::run(&study, None, missing, &|saw| {
                 // A saw that was stopped half-way is none.
                 stopped()?;
-                let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+                let mut log = lock(&log);
                 log.append(&study, &saw)?;
-                meter.show(done.fetch_add(1, Ordering::Relaxed) + 1, study.count());
+                meter.show(log.finished().done(), study.count());
                 Ok(())
             })
         })
     }
 
-    /// The log of a folder, for saws that others have computed.
-    fn log(&self, folder: PathBuf) -> PyResult<StudyLog> {
-        let path = folder.join(Log::name(Shard::WHOLE));
-        let (log, _) = Log::open(&path, &self.0).map_err(Failure::from)?;
+    /// The log of a folder, for rows that others have computed.
+    fn log(&self, py: Python<'_>, folder: PathBuf) -> PyResult<StudyLog> {
+        let log = py.detach(|| Log::open(&folder, Shard::WHOLE, &self.0));
         Ok(StudyLog {
             study: self.0.clone(),
-            log: Mutex::new(log),
+            log: Mutex::new(Some(log.map_err(Failure::from)?)),
         })
     }
 
-    /// What the program writes of the saws in a folder, by the names of the files.
-    fn files<'py>(
+    /// Writes the tables of the saws in a folder to files, and gives the other files of the
+    /// program by their names, the report last.
+    fn sum_up<'py>(
         &self,
         py: Python<'py>,
         folder: PathBuf,
+        csv: PathBuf,
+        parquet: PathBuf,
     ) -> PyResult<Vec<(&'static str, Bound<'py, PyBytes>)>> {
-        let files = py.detach(|| self.summed_up(folder))?;
+        let files = py.detach(|| self.summed_up(&folder, &csv, &parquet))?;
         let files = files.into_iter();
         Ok(files
             .map(|(name, b)| (name, PyBytes::new(py, &b)))
@@ -130,29 +154,33 @@ impl Study {
 }
 
 impl Study {
-    fn summed_up(&self, folder: PathBuf) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
+    fn summed_up(
+        &self,
+        folder: &Path,
+        csv: &Path,
+        parquet: &Path,
+    ) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
         let study = &self.0;
-        let finished = finished_in(&folder, study)?;
-        let saws: Vec<Saw> = finished.into_iter().flatten().collect();
-        if saws.len() < study.count() {
-            let value = format!("{} of {} saws", saws.len(), study.count());
+        let rows = Rows::in_folder(study, folder)?;
+        let done = rows.finished().done();
+        if done < study.count() {
+            let value = format!("{done} of {} saws", study.count());
             let remedy = "run the study again, it goes on where it was";
             let allowed = "a folder with all of them".to_owned();
             return Err(Failure::argument("folder", value, allowed, remedy));
         }
-        let report = StudyReport::new(study, &saws);
-        let table = |error: &dyn std::error::Error| Failure::Failed(error.to_string());
+        let create = |path: &Path| File::create(path).map(BufWriter::new);
+        let tables = || -> std::io::Result<Vec<Box<dyn Table + '_>>> {
+            Ok(vec![
+                Box::new(CsvTable::new(study, create(csv)?)?),
+                Box::new(ParquetTable::new(study, create(parquet)?)?),
+            ])
+        };
+        let tables = tables().map_err(LogError::Tables)?;
+        let report = study::sum_up(&rows, folder, tables)?;
         Ok(vec![
             ("study.png", figure::study_png(&report)?),
             ("study.svg", figure::study_svg(&report)?.into_bytes()),
-            (
-                "study.parquet",
-                study::parquet(study, &saws).map_err(|e| table(&e))?,
-            ),
-            (
-                "study.csv",
-                study::csv(study, &saws).map_err(|e| table(&e))?,
-            ),
             (
                 "study.json",
                 serde_json::to_string_pretty(&report)?.into_bytes(),
@@ -161,23 +189,58 @@ impl Study {
     }
 }
 
-/// A log that saws are added to. No other run can write to it at the same time.
+/// The kind of processor of this machine.
+#[pyfunction]
+pub fn processor() -> String {
+    study::processor()
+}
+
+/// A log that rows are added to. No other run can write to it at the same time.
 #[pyclass(frozen, module = "sawflutter._native")]
 pub struct StudyLog {
     study: Arc<study::Study>,
-    log: Mutex<Log>,
+    /// None once it is closed.
+    log: Mutex<Option<Log>>,
 }
 
 #[pymethods]
 impl StudyLog {
-    /// Adds saws, each as the JSON that `Study.saws` gives.
-    fn append(&self, saws: Vec<String>) -> PyResult<()> {
-        let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
-        for saw in saws {
-            let saw: Saw = serde_json::from_str(&saw).map_err(Failure::from)?;
-            log.append(&self.study, &saw).map_err(Failure::from)?;
+    /// Number of saws that are finished.
+    #[getter]
+    fn done(&self) -> PyResult<usize> {
+        Ok(self.with(|log| Ok(log.finished().done()))?)
+    }
+
+    /// The first saws from a number on that are missing, at most so many; none after the last.
+    fn missing(&self, first: usize, most: usize) -> PyResult<Option<(usize, usize)>> {
+        let range = self.with(|log| Ok(log.finished().missing(first, most)))?;
+        Ok(range.map(|range| (range.start, range.end)))
+    }
+
+    /// Adds rows, as `Study.rows` gives them, but for those of saws that are finished; how many
+    /// are new.
+    fn append(&self, py: Python<'_>, rows: &[u8]) -> PyResult<usize> {
+        let append = |log: &mut Log| Ok(log.append_rows(&self.study, rows)?);
+        Ok(py.detach(|| self.with(append))?)
+    }
+
+    /// Notes the kind of processor that rows were computed by.
+    fn append_processor(&self, name: &str) -> PyResult<()> {
+        Ok(self.with(|log| Ok(log.append_processor(name)?))?)
+    }
+
+    /// Leaves it to other runs.
+    fn close(&self) {
+        lock(&self.log).take();
+    }
+}
+
+impl StudyLog {
+    fn with<T>(&self, work: impl FnOnce(&mut Log) -> Result<T, Failure>) -> Result<T, Failure> {
+        match lock(&self.log).as_mut() {
+            Some(log) => work(log),
+            None => Err(Failure::Failed("the log is closed".into())),
         }
-        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::output::OutputFolder;
+use super::output::{OutputFolder, Writing};
 use super::paint::Paint;
 
 /// The saw to look at, and how finely.
@@ -172,12 +172,25 @@ impl Output {
         json: &str,
         summary: impl FnOnce() -> String,
     ) -> anyhow::Result<()> {
-        folder.write_together(files, optional)?;
+        let writing = folder.staged(files)?;
+        self.print_written(folder, writing, optional, json, summary)
+    }
+
+    /// The same, of files that are on the disk.
+    pub fn print_written(
+        &self,
+        folder: &OutputFolder,
+        writing: Writing<'_>,
+        optional: &[&str],
+        json: &str,
+        summary: impl FnOnce() -> String,
+    ) -> anyhow::Result<()> {
+        let names = writing.names().join(", ");
+        writing.finish(optional)?;
         if self.json {
             say(&format!("{json}\n"))?;
         } else {
-            let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-            let (names, path) = (names.join(", "), folder.path().display());
+            let path = folder.path().display();
             say(&format!("{}\nWritten to {path}: {names}\n", summary()))?;
         }
         Ok(())

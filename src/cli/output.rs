@@ -30,31 +30,34 @@ impl OutputFolder {
         })
     }
 
-    /// Writes the files of one run together: all are on the disk before the first gets its
-    /// name, and what an earlier run has left under an `optional` name that this one does not
-    /// write is removed: it would be taken for this one's. The last file is the one to look for: while it is
-    /// there, every other belongs to it, whatever stopped a run and whoever else writes here.
+    /// Writes the files of one run together, see [`Writing`].
     pub fn write_together(
         &self,
-        files: &[(&str, Vec<u8>)],
+        files: &[(&'static str, Vec<u8>)],
         optional: &[&str],
     ) -> anyhow::Result<()> {
-        let _turn = self.wait_for_turn();
+        self.staged(files)?.finish(optional)
+    }
+
+    /// Files of one run, on the disk but without their names.
+    pub fn staged(&self, files: &[(&'static str, Vec<u8>)]) -> anyhow::Result<Writing<'_>> {
+        let mut writing = self.begin();
+        for (name, content) in files {
+            writing.stage_bytes(name, content)?;
+        }
+        Ok(writing)
+    }
+
+    /// Begins to write the files of one run together: all are on the disk before the first gets
+    /// its name.
+    pub fn begin(&self) -> Writing<'_> {
+        let turn = self.wait_for_turn();
         self.remove_leftovers();
-        let staged = files
-            .iter()
-            .map(|(name, content)| self.staged(name, content))
-            .collect::<anyhow::Result<Vec<_>>>()?;
-        let last = files.last().map(|(name, _)| *name);
-        let written = |name: &&&str| files.iter().any(|(own, _)| own == *name);
-        let stale = optional.iter().filter(|name| !written(name));
-        for name in last.iter().chain(stale) {
-            self.remove(name)?;
+        Writing {
+            folder: self,
+            _turn: turn,
+            staged: Vec::new(),
         }
-        for (file, (name, _)) in staged.into_iter().zip(files) {
-            self.persist(file, name)?;
-        }
-        Ok(())
     }
 
     /// Runs that write to the same folder take turns; the system ends the turn of one that is
@@ -75,19 +78,6 @@ impl OutputFolder {
                 let _ = std::fs::remove_file(entry.path());
             }
         }
-    }
-
-    /// A whole file under a passing name, on the disk.
-    fn staged(&self, name: &str, content: &[u8]) -> anyhow::Result<tempfile::NamedTempFile> {
-        let failed = || format!("cannot write {}", self.path.join(name).display());
-        let mut file = tempfile::Builder::new()
-            .prefix(STAGED)
-            .permissions_like_any_new_file()
-            .tempfile_in(&self.path)
-            .with_context(failed)?;
-        file.write_all(content).with_context(failed)?;
-        file.as_file().sync_all().with_context(failed)?;
-        Ok(file)
     }
 
     fn persist(&self, file: tempfile::NamedTempFile, name: &str) -> anyhow::Result<()> {
@@ -112,6 +102,69 @@ impl OutputFolder {
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+}
+
+/// Files of one run that have no names yet.
+pub struct Writing<'a> {
+    folder: &'a OutputFolder,
+    _turn: Option<std::fs::File>,
+    staged: Vec<(&'static str, tempfile::NamedTempFile)>,
+}
+
+impl Writing<'_> {
+    /// Names of the files.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.staged.iter().map(|(name, _)| *name).collect()
+    }
+
+    /// An empty file of this run.
+    pub fn create(&self, name: &str) -> anyhow::Result<tempfile::NamedTempFile> {
+        tempfile::Builder::new()
+            .prefix(STAGED)
+            .permissions_like_any_new_file()
+            .tempfile_in(&self.folder.path)
+            .with_context(|| self.failed(name))
+    }
+
+    /// Puts a file that was created here on the disk.
+    pub fn stage(
+        &mut self,
+        name: &'static str,
+        file: tempfile::NamedTempFile,
+    ) -> anyhow::Result<()> {
+        file.as_file()
+            .sync_all()
+            .with_context(|| self.failed(name))?;
+        self.staged.push((name, file));
+        Ok(())
+    }
+
+    /// Puts a file with this content on the disk.
+    pub fn stage_bytes(&mut self, name: &'static str, content: &[u8]) -> anyhow::Result<()> {
+        let mut file = self.create(name)?;
+        file.write_all(content).with_context(|| self.failed(name))?;
+        self.stage(name, file)
+    }
+
+    fn failed(&self, name: &str) -> String {
+        format!("cannot write {}", self.folder.path.join(name).display())
+    }
+
+    /// Names the files; what an earlier run has left under an `optional` name that this one does
+    /// not write is removed: it would be taken for this one's. The last file is the one to look
+    /// for: while it is there, every other belongs to it, whatever stopped a run and whoever else
+    /// writes here.
+    pub fn finish(self, optional: &[&str]) -> anyhow::Result<()> {
+        let names = self.names();
+        let stale = optional.iter().filter(|name| !names.contains(name));
+        for name in names.last().into_iter().chain(stale) {
+            self.folder.remove(name)?;
+        }
+        for (name, file) in self.staged {
+            self.folder.persist(file, name)?;
+        }
+        Ok(())
     }
 }
 

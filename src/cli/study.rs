@@ -1,20 +1,19 @@
 //! `sawflutter study`.
 
-use std::io::IsTerminal;
+use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::figure;
 use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
-    self, Log, LogError, Saw, Shard, Study, StudyFile, StudyReport, finished_in, keep, read_inputs,
-    read_log,
+    self, CsvTable, Log, Rows, Shard, Study, StudyFile, Table, read_inputs, sum_up,
 };
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::common::{Finely, NamedFile, Output, read_scene, read_text, refused, say};
+use super::common::{Finely, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
 use super::study_summary::summary;
 
@@ -81,17 +80,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let study = Study::new(scene, study).context("the study was refused")?;
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    // Whoever computes everything takes what parts have computed; a part keeps to itself, for
-    // the others may be at work.
-    let mut finished = match shard == Shard::WHOLE {
-        true => finished_in(folder.path(), &study)?,
-        false => vec![None; study.count()],
-    };
-    compute(&study, shard, &folder, &mut finished)?;
+    compute(&study, shard, &folder)?;
     if shard != Shard::WHOLE {
         return print_part(arguments, &study, shard, &folder);
     }
-    print(&arguments.output, &study, &folder, finished)
+    let rows = Rows::in_folder(&study, folder.path())?;
+    print(&arguments.output, &folder, &rows)
 }
 
 /// Sums up logs without computing anything.
@@ -115,43 +109,36 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
     let refused = || format!("the study of {} was refused", first.display());
     let scene = Scene::try_from(inputs.scene).with_context(refused)?;
     let study = Study::new(scene, inputs.study).with_context(refused)?;
-    let mut finished = vec![None; study.count()];
-    for log in &logs {
-        keep(&mut finished, read_log(log, &study)?);
-    }
-    let missing = finished.iter().filter(|saw| saw.is_none()).count();
-    if let Some(first) = finished.iter().position(Option::is_none) {
+    let rows = Rows::of(&study, logs)?;
+    let (count, done) = (study.count(), rows.finished().done());
+    if let Some(missing) = rows.finished().missing(0, 1) {
         bail!(
-            "{missing} of {} saws are missing, saw {first} the first; run the parts again that were stopped",
-            finished.len()
+            "{} of {count} saws are missing, saw {} the first; run the parts again that were stopped",
+            count - done,
+            missing.start
         );
     }
     let folder = merge.output.folder()?;
-    print(&merge.output, &study, &folder, finished)
+    print(&merge.output, &folder, &rows)
 }
 
 /// Analyses what is missing, each saw logged as soon as it is done.
-fn compute(
-    study: &Study,
-    shard: Shard,
-    folder: &OutputFolder,
-    finished: &mut [Option<Saw>],
-) -> anyhow::Result<()> {
-    let path = folder.path().join(Log::name(shard));
-    let (log, before) = Log::open(&path, study)?;
-    keep(finished, before);
-    let own = (0..study.count()).filter(|index| shard.holds(*index));
-    let (done, missing): (Vec<usize>, Vec<usize>) = own.partition(|k| finished[*k].is_some());
-    let bar = progress_bar(done.len(), done.len() + missing.len());
-    let state = Mutex::new((log, finished));
-    study::run(study, &missing, &|saw| {
-        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-        let (log, finished) = &mut *state;
+fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
+    let mut log = Log::open(folder.path(), shard, study)?;
+    let (done, of) = (log.finished().done(), shard.count(study.count()));
+    if done == of {
+        return Ok(());
+    }
+    log.append_processor(&study::processor())?;
+    let missing = log.finished().clone().into_missing();
+    let missing = missing.filter(|index| shard.holds(*index));
+    let bar = progress_bar(done, of);
+    let log = Mutex::new(log);
+    study::run(study, None, missing, &|saw| {
+        let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
         log.append(study, &saw)?;
-        let index = saw.index;
-        finished[index] = Some(saw);
         bar.inc(1);
-        Ok::<(), LogError>(())
+        anyhow::Ok(())
     })?;
     bar.finish_and_clear();
     Ok(())
@@ -171,26 +158,31 @@ fn progress_bar(done: usize, of: usize) -> ProgressBar {
     bar
 }
 
-fn print(
-    output: &Output,
-    study: &Study,
-    folder: &OutputFolder,
-    finished: Vec<Option<Saw>>,
-) -> anyhow::Result<()> {
-    let saws: Vec<Saw> = finished.into_iter().flatten().collect();
-    let report = StudyReport::new(study, &saws);
-    let json = serde_json::to_string_pretty(&report)?;
-    let files: Vec<NamedFile> = vec![
-        ("study.png", figure::study_png(&report)?),
-        ("study.svg", figure::study_svg(&report)?.into_bytes()),
+/// Writes the tables as they are read from the logs, then what sums them up.
+fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Result<()> {
+    let (mut writing, study) = (folder.begin(), rows.study());
+    let csv = writing.create("study.csv")?;
+    #[cfg(feature = "parquet")]
+    let parquet = writing.create("study.parquet")?;
+    let tables: Vec<Box<dyn Table>> = vec![
+        Box::new(CsvTable::new(study, BufWriter::new(csv.as_file()))?),
         #[cfg(feature = "parquet")]
-        ("study.parquet", study::parquet(study, &saws)?),
-        ("study.csv", study::csv(study, &saws)?),
-        ("study.json", json.clone().into_bytes()),
+        Box::new(study::ParquetTable::new(
+            study,
+            BufWriter::new(parquet.as_file()),
+        )?),
     ];
+    let report = sum_up(rows, folder.path(), tables)?;
+    let json = serde_json::to_string_pretty(&report)?;
+    writing.stage_bytes("study.png", &figure::study_png(&report)?)?;
+    writing.stage_bytes("study.svg", figure::study_svg(&report)?.as_bytes())?;
+    #[cfg(feature = "parquet")]
+    writing.stage("study.parquet", parquet)?;
+    writing.stage("study.csv", csv)?;
+    writing.stage_bytes("study.json", json.as_bytes())?;
     // Of a program that was built with Parquet.
     let optional = ["study.parquet"];
-    output.print(folder, &files, &optional, &json, || summary(&report))
+    output.print_written(folder, writing, &optional, &json, || summary(&report))
 }
 
 fn print_part(
@@ -199,9 +191,7 @@ fn print_part(
     shard: Shard,
     folder: &OutputFolder,
 ) -> anyhow::Result<()> {
-    let saws = (0..study.count())
-        .filter(|index| shard.holds(*index))
-        .count();
+    let saws = shard.count(study.count());
     let path = folder.path().join(Log::name(shard));
     let (Shard { number, of }, log) = (shard, path.display().to_string());
     if arguments.output.json {

@@ -242,7 +242,7 @@ mod tests {
             }
         };
         let saws: Vec<Saw> = (0..study.count()).map(saw).collect();
-        StudyReport::new(&study, &saws)
+        StudyReport::new(&study, &saws).unwrap()
     }
 
     #[test]

@@ -1,24 +1,44 @@
 //! `study.csv`, one row a saw; the rows of the log are the same.
 
+use std::io::{self, Write};
+
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
+use super::sum::Table;
 
 /// Names of the outcomes in the column `status`.
 pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
 
 /// The saws as comma-separated values.
-///
-/// # Errors
-/// [`csv::Error`], which writing to memory does not raise.
-pub fn csv(study: &Study, saws: &[Saw]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(columns(study))?;
-    for saw in saws {
-        writer.write_record(record(study, saw))?;
+#[derive(Debug)]
+pub struct CsvTable<'a, W: Write> {
+    study: &'a Study,
+    writer: csv::Writer<W>,
+}
+
+impl<'a, W: Write> CsvTable<'a, W> {
+    /// A table without saws.
+    ///
+    /// # Errors
+    /// What writing the names of the columns raises.
+    pub fn new(study: &'a Study, out: W) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(columns(study))?;
+        Ok(CsvTable { study, writer })
     }
-    writer
-        .into_inner()
-        .map_err(|error| error.into_error().into())
+}
+
+impl<W: Write> Table for CsvTable<'_, W> {
+    fn add(&mut self, saws: &[Saw]) -> io::Result<()> {
+        for saw in saws {
+            self.writer.write_record(record(self.study, saw))?;
+        }
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> io::Result<()> {
+        self.writer.flush()
+    }
 }
 
 /// Names of the columns.
@@ -74,8 +94,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
 }
 
 /// The saw of a row; `None` where it is none of this study's.
-pub(super) fn saw(study: &Study, record: &csv::StringRecord) -> Option<Saw> {
-    let mut cells = record.iter();
+pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Option<Saw> {
     let index: usize = cells.next()?.parse().ok()?;
     let mut values = Vec::new();
     for _ in 0..study.varying.len() {

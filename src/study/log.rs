@@ -1,15 +1,19 @@
 //! The log of a study: every finished saw, so that a run that was stopped goes on where it was.
 //!
 //! The first line is what the saws belong to ([`Inputs`]), the second names the columns, and
-//! each further one is a saw, written in one piece when it is done. A line without its end was
-//! cut off by what stopped the run, and counts for nothing.
+//! each further one is a saw, written in one piece when it is done, or the kind of processor that
+//! has computed some of them. A line without its end was cut off by what stopped the run, and
+//! counts for nothing.
 
+use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::csv::{columns, record, saw};
+use super::finished::Finished;
 use super::inputs::Inputs;
 use super::plan::{Shard, Study};
 use super::saw::Saw;
@@ -54,7 +58,28 @@ pub enum LogError {
         /// The file.
         path: PathBuf,
     },
+    /// A row that is none of the study's.
+    #[error("a row is none of this study: {row}")]
+    NoRow {
+        /// The row.
+        row: String,
+    },
+    /// The tables of its saws cannot be written.
+    #[error("cannot write the tables of the saws: {0}")]
+    Tables(#[source] std::io::Error),
 }
+
+/// What a line of a log says after the first two.
+#[derive(Debug)]
+pub(super) enum Line {
+    /// A saw.
+    Saw(Saw),
+    /// A kind of processor that has computed saws of this log.
+    Processor(String),
+}
+
+/// How the line of a processor begins.
+const PROCESSOR: &str = "# processor: ";
 
 /// A log that is written to. No other run can write to it at the same time.
 #[derive(Debug)]
@@ -62,6 +87,8 @@ pub struct Log {
     file: File,
     path: PathBuf,
     synced: Instant,
+    finished: Finished,
+    processors: BTreeSet<String>,
 }
 
 impl Log {
@@ -91,52 +118,111 @@ impl Log {
         Ok(logs)
     }
 
-    /// Opens a log, or begins it, and reads the saws in it.
+    /// Opens the log of a part of a study in a folder, or begins it. Whoever computes everything
+    /// takes what the logs of parts have; a part keeps to itself, for the others may be at work.
     ///
     /// # Errors
-    /// [`LogError`] where it belongs to another study, or another run writes to it.
-    pub fn open(path: &Path, study: &Study) -> Result<(Self, Vec<Saw>), LogError> {
+    /// [`LogError`] where a log belongs to another study, or another run writes to it.
+    pub fn open(folder: &Path, shard: Shard, study: &Study) -> Result<Self, LogError> {
+        let path = folder.join(Self::name(shard));
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
-        let mut file = options.open(path).map_err(io(path))?;
+        let mut file = options.open(&path).map_err(io(&path))?;
         // Where files cannot be locked, runs are not told apart.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(LogError::Busy {
-                path: path.to_owned(),
-            });
+            return Err(LogError::Busy { path });
         }
-        let mut text = Vec::new();
-        file.read_to_end(&mut text).map_err(io(path))?;
-        let header = header(study);
-        let saws = parse(path, &text, study)?;
-        let end = if header.as_bytes().starts_with(&text) {
+        let mut finished = Finished::none_of(study.count());
+        let mut processors = BTreeSet::new();
+        let mut keep = |own: bool, line: Line| match line {
+            Line::Saw(saw) => {
+                finished.insert(saw.index);
+            }
+            Line::Processor(name) if own => {
+                processors.insert(name);
+            }
+            Line::Processor(_) => {}
+        };
+        let end = match scan(&path, &file, study, &mut |_, line| keep(true, line))? {
+            Some(end) => end,
             // New, or stopped before it was begun in earnest.
-            file.set_len(0).map_err(io(path))?;
-            file.rewind().map_err(io(path))?;
-            file.write_all(header.as_bytes()).map_err(io(path))?;
-            file.sync_all().map_err(io(path))?;
-            header.len()
-        } else {
-            let whole = text.iter().rposition(|byte| *byte == b'\n');
-            whole.map_or(0, |k| k + 1)
+            None => begin(&mut file, study).map_err(io(&path))?,
         };
-        file.set_len(end as u64).map_err(io(path))?;
-        file.seek(SeekFrom::End(0)).map_err(io(path))?;
-        let log = Log {
+        file.set_len(end).map_err(io(&path))?;
+        file.seek(SeekFrom::End(0)).map_err(io(&path))?;
+        let others = match shard == Shard::WHOLE {
+            true => Self::all_in(folder)?,
+            false => Vec::new(),
+        };
+        for other in others.iter().filter(|other| **other != path) {
+            read(other, study, &mut |_, line| keep(false, line))?;
+        }
+        let synced = Instant::now();
+        Ok(Log {
             file,
-            path: path.to_owned(),
-            synced: Instant::now(),
-        };
-        Ok((log, saws))
+            path,
+            synced,
+            finished,
+            processors,
+        })
     }
 
-    /// Adds a saw.
+    /// Saws that there are, in this log and, where it is that of the whole study, in those of
+    /// parts beside it.
+    pub fn finished(&self) -> &Finished {
+        &self.finished
+    }
+
+    /// Adds a saw, unless there is one of its number.
     ///
     /// # Errors
     /// [`LogError::Io`].
     pub fn append(&mut self, study: &Study, saw: &Saw) -> Result<(), LogError> {
-        let line = line(&record(study, saw));
-        let written = self.file.write_all(&line).and_then(|()| {
+        self.append_rows(study, &line(&record(study, saw)))
+            .map(|_| ())
+    }
+
+    /// Adds rows of saws as [`rows_of`] gives them, but for those of which there is one; how many
+    /// are new.
+    ///
+    /// # Errors
+    /// [`LogError::Io`]; [`LogError::NoRow`] where one is none of this study, and none is added.
+    pub fn append_rows(&mut self, study: &Study, rows: &[u8]) -> Result<usize, LogError> {
+        let mut saws = Vec::new();
+        for line in rows.split_inclusive(|byte| *byte == b'\n') {
+            let saw = row(line, study).ok_or_else(|| LogError::NoRow {
+                row: String::from_utf8_lossy(line).trim_end().to_owned(),
+            })?;
+            saws.push((saw.index, line));
+        }
+        // A saw can be twice in these rows, too.
+        let mut seen = BTreeSet::new();
+        saws.retain(|(index, _)| !self.finished.has(*index) && seen.insert(*index));
+        let lines: Vec<&[u8]> = saws.iter().map(|(_, line)| *line).collect();
+        self.append_lines(&lines.concat())?;
+        for (index, _) in &saws {
+            self.finished.insert(*index);
+        }
+        Ok(saws.len())
+    }
+
+    /// Notes the kind of processor that computes saws of this log, once.
+    ///
+    /// # Errors
+    /// [`LogError::Io`].
+    pub fn append_processor(&mut self, name: &str) -> Result<(), LogError> {
+        let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+        if self.processors.contains(&name) {
+            return Ok(());
+        }
+        self.append_lines(format!("{PROCESSOR}{name}\n").as_bytes())?;
+        self.processors.insert(name);
+        Ok(())
+    }
+
+    /// Adds whole lines.
+    fn append_lines(&mut self, lines: &[u8]) -> Result<(), LogError> {
+        let written = self.file.write_all(lines).and_then(|()| {
             if self.synced.elapsed() > UNSYNCED {
                 self.file.sync_data()?;
                 self.synced = Instant::now();
@@ -147,46 +233,29 @@ impl Log {
     }
 }
 
-/// The saws of a study that the logs of a folder have, each at its number.
-///
-/// # Errors
-/// [`LogError`] where the folder cannot be read or a log belongs to another study.
-pub fn finished_in(folder: &Path, study: &Study) -> Result<Vec<Option<Saw>>, LogError> {
-    let mut finished = vec![None; study.count()];
-    for path in Log::all_in(folder)? {
-        keep(&mut finished, read_log(&path, study)?);
-    }
-    Ok(finished)
-}
-
-/// Puts saws in their places, where there is none yet.
-pub fn keep(finished: &mut [Option<Saw>], saws: Vec<Saw>) {
-    for saw in saws {
-        let index = saw.index;
-        finished[index].get_or_insert(saw);
-    }
-}
-
-/// The saws in a log that is only read.
-///
-/// # Errors
-/// [`LogError`] where it belongs to another study.
-pub fn read_log(path: &Path, study: &Study) -> Result<Vec<Saw>, LogError> {
-    parse(path, &std::fs::read(path).map_err(io(path))?, study)
-}
-
 /// What a log belongs to.
 ///
 /// # Errors
 /// [`LogError`] where it is none.
 pub fn read_inputs(path: &Path) -> Result<Inputs, LogError> {
-    let text = std::fs::read(path).map_err(io(path))?;
-    inputs(&text).ok_or_else(|| LogError::Foreign {
-        path: path.to_owned(),
-    })
+    let mut first = Vec::new();
+    let file = File::open(path).map_err(io(path))?;
+    let mut file = BufReader::new(file.take(LONGEST_LINE));
+    file.read_until(b'\n', &mut first).map_err(io(path))?;
+    let inputs = first
+        .ends_with(b"\n")
+        .then(|| serde_json::from_slice(&first));
+    inputs
+        .and_then(Result::ok)
+        .ok_or_else(|| LogError::Foreign {
+            path: path.to_owned(),
+        })
 }
 
-fn io(path: &Path) -> impl Fn(std::io::Error) -> LogError {
+/// Longer than the first line of any log: a scene with its tables.
+const LONGEST_LINE: u64 = 1 << 28;
+
+pub(super) fn io(path: &Path) -> impl Fn(std::io::Error) -> LogError {
     move |source| LogError::Io {
         path: path.to_owned(),
         source,
@@ -208,46 +277,111 @@ fn header(study: &Study) -> String {
     format!("{inputs}\n{}", String::from_utf8_lossy(&names))
 }
 
-fn inputs(text: &[u8]) -> Option<Inputs> {
-    let end = text.iter().position(|byte| *byte == b'\n')?;
-    serde_json::from_slice(&text[..end]).ok()
-}
-
 /// One line of comma-separated values, with its end.
-fn line(cells: &[String]) -> Vec<u8> {
+pub(super) fn line(cells: &[String]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Writing to memory cannot fail.
     let _ = writer.write_record(cells);
     writer.into_inner().unwrap_or_default()
 }
 
-fn parse(path: &Path, text: &[u8], study: &Study) -> Result<Vec<Saw>, LogError> {
+/// Begins a log; its length.
+fn begin(file: &mut File, study: &Study) -> std::io::Result<u64> {
     let header = header(study);
-    if header.as_bytes().starts_with(text) {
-        return Ok(Vec::new());
-    }
-    let Some(rows) = text.strip_prefix(header.as_bytes()) else {
-        let difference = inputs(text).map(|there| {
-            let differs = there.difference(&Inputs::of(study));
-            differs.unwrap_or_else(|| "its columns are others".into())
-        });
-        let path = path.to_owned();
-        return Err(match difference {
-            Some(difference) => LogError::Other { path, difference },
-            None => LogError::Foreign { path },
-        });
-    };
-    let lines = rows.split_inclusive(|byte| *byte == b'\n');
-    Ok(lines.filter_map(|line| row(line, study)).collect())
+    file.set_len(0)?;
+    file.rewind()?;
+    file.write_all(header.as_bytes())?;
+    file.sync_all()?;
+    Ok(header.len() as u64)
 }
 
-/// The saw of a whole line; a line that a broken disk has changed is computed again.
-fn row(line: &[u8], study: &Study) -> Option<Saw> {
-    line.ends_with(b"\n").then_some(())?;
-    let mut reader = csv::ReaderBuilder::new();
-    let mut reader = reader.has_headers(false).from_reader(line);
-    let mut record = csv::StringRecord::new();
-    reader.read_record(&mut record).ok()?;
-    let saw = saw(study, &record)?;
+/// Shows every whole line of a log that is only read, and where it stands.
+pub(super) fn read(
+    path: &Path,
+    study: &Study,
+    visit: &mut dyn FnMut(Range<u64>, Line),
+) -> Result<(), LogError> {
+    let file = File::open(path).map_err(io(path))?;
+    scan(path, &file, study, visit).map(|_| ())
+}
+
+/// Shows every whole line of a log after the first two, and where it stands; the end of the last
+/// whole line, or none where a log is not begun.
+fn scan(
+    path: &Path,
+    file: &File,
+    study: &Study,
+    visit: &mut dyn FnMut(Range<u64>, Line),
+) -> Result<Option<u64>, LogError> {
+    let mut file = BufReader::with_capacity(1 << 16, file);
+    let header = header(study);
+    let mut begun = Vec::new();
+    let mut limited = file.by_ref().take(header.len() as u64);
+    limited.read_to_end(&mut begun).map_err(io(path))?;
+    if begun != header.as_bytes() {
+        // A log is begun where anything comes after what it belongs to.
+        return match header.as_bytes().starts_with(&begun) {
+            true => Ok(None),
+            false => Err(differing(path, study)),
+        };
+    }
+    let (mut from, mut text) = (header.len() as u64, Vec::new());
+    loop {
+        text.clear();
+        let length = file.read_until(b'\n', &mut text).map_err(io(path))?;
+        if !text.ends_with(b"\n") {
+            return Ok(Some(from));
+        }
+        let to = from + length as u64;
+        if let Some(line) = parsed(&text, study) {
+            visit(from..to, line);
+        }
+        from = to;
+    }
+}
+
+/// In what the log is another study's.
+fn differing(path: &Path, study: &Study) -> LogError {
+    let difference = match read_inputs(path) {
+        Ok(there) => there.difference(&Inputs::of(study)),
+        Err(error) => return error,
+    };
+    LogError::Other {
+        path: path.to_owned(),
+        difference: difference.unwrap_or_else(|| "its columns are others".into()),
+    }
+}
+
+/// What a whole line says; one that a broken disk has changed says nothing.
+fn parsed(line: &[u8], study: &Study) -> Option<Line> {
+    match line.strip_prefix(PROCESSOR.as_bytes()) {
+        None => row(line, study).map(Line::Saw),
+        Some(name) => {
+            let name = std::str::from_utf8(name).ok()?.trim();
+            Some(Line::Processor(name.to_owned()))
+        }
+    }
+}
+
+/// Rows of saws, as [`Log::append_rows`] takes them.
+pub fn rows_of(study: &Study, saws: &[Saw]) -> Vec<u8> {
+    let lines = saws.iter().map(|saw| line(&record(study, saw)));
+    lines.collect::<Vec<_>>().concat()
+}
+
+/// The saw of a whole line; none where it is not one of this study.
+pub(super) fn row(line: &[u8], study: &Study) -> Option<Saw> {
+    let line = line.strip_suffix(b"\n")?;
+    let saw = match line.contains(&b'"') {
+        // Hardly any line has quotes.
+        false => saw(study, &mut std::str::from_utf8(line).ok()?.split(','))?,
+        true => {
+            let mut reader = csv::ReaderBuilder::new();
+            let mut reader = reader.has_headers(false).from_reader(line);
+            let mut record = csv::StringRecord::new();
+            reader.read_record(&mut record).ok()?;
+            saw(study, &mut record.iter())?
+        }
+    };
     (saw.values == study.values(saw.index)).then_some(saw)
 }

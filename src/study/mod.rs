@@ -17,7 +17,7 @@
 //! )?;
 //! let study = Study::new(scene, study)?;
 //! let saws: Vec<_> = (0..study.count()).map(|index| study.saw(index)).collect();
-//! let report = StudyReport::new(&study, &saws);
+//! let report = StudyReport::new(&study, &saws)?;
 //! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -26,26 +26,37 @@
 mod csv;
 mod distribution;
 mod file;
+mod finished;
 mod inputs;
 mod log;
+mod order;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
+mod processor;
 mod report;
+mod rows;
 mod run;
 mod saw;
+mod sequence;
 mod statistics;
+mod sum;
+mod tally;
 
-pub use csv::csv;
+pub use csv::CsvTable;
 pub use file::{DistributionFile, LimitsFile, ParameterFile, StudyError, StudyFile, json_schema};
+pub use finished::Finished;
 pub use inputs::Inputs;
-pub use log::{Log, LogError, finished_in, keep, read_inputs, read_log};
+pub use log::{Log, LogError, read_inputs, rows_of};
 #[cfg(feature = "parquet")]
-pub use parquet::parquet;
+pub use parquet::ParquetTable;
 pub use plan::{Shard, Study};
+pub use processor::processor;
 pub use report::{
-    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, SpeedEntry,
-    StudyReport,
+    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, Reliability,
+    ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
 };
+pub use rows::Rows;
 pub use run::run;
 pub use saw::{Found, Outcome, Saw};
+pub use sum::{Table, sum_up};

@@ -1,5 +1,6 @@
 //! `study.parquet`: the table of `study.csv`, with types.
 
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
@@ -14,6 +15,7 @@ use super::csv::{STATUS, columns};
 use super::inputs::Inputs;
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
+use super::sum::Table;
 
 /// A column; saws that were not analysed have none of its values.
 enum Column {
@@ -23,32 +25,51 @@ enum Column {
     Texts(Vec<Option<String>>),
 }
 
-/// The saws as an Apache Parquet file of one row group; its metadata holds the scene and the
-/// study under `sawflutter`.
-///
-/// # Errors
-/// [`ParquetError`], which writing to memory does not raise.
-pub fn parquet(study: &Study, saws: &[Saw]) -> Result<Vec<u8>, ParquetError> {
-    let columns: Vec<(String, Column)> = columns(study)
-        .into_iter()
-        .zip(values(study, saws))
-        .collect();
-    let inputs = serde_json::to_string(&Inputs::of(study))
-        .map_err(|error| ParquetError::External(Box::new(error)))?;
-    let properties = WriterProperties::builder()
-        .set_key_value_metadata(Some(vec![KeyValue::new("sawflutter".to_owned(), inputs)]))
-        .build();
-    let mut writer =
-        SerializedFileWriter::new(Vec::new(), schema(&columns)?, Arc::new(properties))?;
-    let mut rows = writer.next_row_group()?;
-    for (_, column) in &columns {
-        if let Some(mut open) = rows.next_column()? {
-            write(&mut open, column)?;
-            open.close()?;
-        }
+/// The saws as an Apache Parquet file; its metadata holds the scene and the study under
+/// `sawflutter`. Saws that are added together are a row group.
+pub struct ParquetTable<'a, W: Write + Send> {
+    study: &'a Study,
+    writer: SerializedFileWriter<W>,
+}
+
+impl<'a, W: Write + Send> ParquetTable<'a, W> {
+    /// A table without saws.
+    ///
+    /// # Errors
+    /// What writing raises.
+    pub fn new(study: &'a Study, out: W) -> io::Result<Self> {
+        let inputs = serde_json::to_string(&Inputs::of(study)).map_err(io::Error::other)?;
+        let properties = WriterProperties::builder()
+            .set_key_value_metadata(Some(vec![KeyValue::new("sawflutter".to_owned(), inputs)]))
+            .build();
+        let schema = schema(study).map_err(io::Error::other)?;
+        let writer = SerializedFileWriter::new(out, schema, Arc::new(properties));
+        let writer = writer.map_err(io::Error::other)?;
+        Ok(ParquetTable { study, writer })
     }
-    rows.close()?;
-    writer.into_inner()
+
+    fn add_rows(&mut self, saws: &[Saw]) -> Result<(), ParquetError> {
+        let mut rows = self.writer.next_row_group()?;
+        for column in values(self.study, saws) {
+            if let Some(mut open) = rows.next_column()? {
+                write(&mut open, &column)?;
+                open.close()?;
+            }
+        }
+        rows.close()?;
+        Ok(())
+    }
+}
+
+impl<W: Write + Send> Table for ParquetTable<'_, W> {
+    fn add(&mut self, saws: &[Saw]) -> io::Result<()> {
+        self.add_rows(saws).map_err(io::Error::other)
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        let mut out = self.writer.into_inner().map_err(io::Error::other)?;
+        out.flush()
+    }
 }
 
 /// The columns in the order of their names.
@@ -93,9 +114,9 @@ fn status(saw: &Saw) -> &'static str {
     }
 }
 
-fn schema(columns: &[(String, Column)]) -> Result<TypePtr, ParquetError> {
+fn schema(study: &Study) -> Result<TypePtr, ParquetError> {
     let mut fields = Vec::new();
-    for (name, column) in columns {
+    for (name, column) in columns(study).iter().zip(values(study, &[])) {
         let physical = match column {
             Column::Integers(_) => Physical::INT64,
             Column::Numbers(_) => Physical::DOUBLE,

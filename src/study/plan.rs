@@ -2,29 +2,23 @@
 //!
 //! Saws are numbered through the grid, its first parameter slowest, and within each point of
 //! the grid through the points of a Sobol sequence with Owen's scrambling (Burley, Journal of
-//! Computer Graphics Techniques 9 (2020), 1). A saw depends on its number alone, so that any
+//! Computer Graphics Techniques 9 (2020), 1), see `sequence.rs`. A saw depends on its number alone, so that any
 //! machine can compute any of them. Every point of the grid gets the same deviations: what
 //! differs between two of them is then due to the grid.
 
 use super::distribution::Distribution;
 use super::file::{LimitsFile, StudyError, StudyFile};
+use super::sequence::{DIMENSIONS, POINTS, even};
 use crate::check::{Criterion, Limits};
 use crate::scene::{MAX_RPM, Parameter, Scene, SceneFile, SpeedRange, rad_per_s};
 use crate::stability::ChosenBasis;
 
-/// Length of the library's Sobol sequences.
-const MAX_DRAWN: u32 = 1 << 16;
-/// Their dimensions.
-const MAX_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
-/// Saws of a study: weeks of computing, and a table that still fits into memory.
-const MAX_SAWS: usize = 1_000_000;
+/// Saws of a study: the points there are, and a log of 600 GB.
+const MAX_SAWS: usize = POINTS as usize;
 /// Quantiles that a report lists.
 const MAX_QUANTILES: usize = 100;
 /// Confidence below this is none; above, more saws are needed than a study has.
 const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
-/// Half a step of the sequence's 24 bits: its numbers begin at 0, ours lie within 0 and 1.
-const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
-
 /// A scene, what varies in it, and what it is held against.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -55,6 +49,11 @@ impl Shard {
     /// Whether a saw belongs to this part: every `of`-th does, so that all parts take as long.
     pub fn holds(&self, index: usize) -> bool {
         index % self.of == self.number - 1
+    }
+
+    /// How many of so many saws belong to this part.
+    pub fn count(&self, saws: usize) -> usize {
+        (saws + self.of - self.number) / self.of
     }
 }
 
@@ -132,9 +131,8 @@ impl Study {
         let mut dimension = 0;
         for (value, (_, distribution)) in values.iter_mut().zip(&self.varying) {
             if !matches!(distribution, Distribution::Grid(_)) {
-                let place = (index % self.drawn) as u32;
-                let even = sobol_burley::sample(place, dimension, self.file.seed);
-                *value = distribution.at(f64::from(even) + HALF_STEP);
+                let point = (index % self.drawn) as u64;
+                *value = distribution.at(even(point, dimension, self.file.seed));
                 dimension += 1;
             }
         }
@@ -223,15 +221,15 @@ fn counts(
             let remedy = "leave it out: the grids alone say which saws there are";
             return Err(refuse("saws", saws, "left out of a study of grids", remedy));
         }
-        (Some(saws), 1..=MAX_DIMENSIONS) if (1..=MAX_DRAWN).contains(&saws) => saws as usize,
-        (saws, 1..=MAX_DIMENSIONS) => {
+        (Some(saws), 1..=DIMENSIONS) if saws > 0 => saws as usize,
+        (saws, 1..=DIMENSIONS) => {
             let value = saws.map_or("missing".into(), |saws| saws.to_string());
-            let allowed = format!("between 1 and {MAX_DRAWN}");
+            let allowed = format!("between 1 and {}", u32::MAX);
             let remedy = "1024 give a probability of passing to 3 %, 4096 to 1.5 %";
             return Err(refuse("saws", value, allowed, remedy));
         }
         _ => {
-            let allowed = format!("at most {MAX_DIMENSIONS} numbers with a distribution");
+            let allowed = format!("at most {DIMENSIONS} numbers with a distribution");
             let value = format!("a list with {dimensions} of them");
             let remedy = "leave those out that matter least (`analyze --sensitivity`)";
             return Err(refuse("parameters", value, allowed, remedy));
@@ -371,6 +369,11 @@ mod tests {
         for index in 0..100 {
             let parts = (1..=7).map(|number| Shard { number, of: 7 });
             assert_eq!(parts.filter(|part| part.holds(index)).count(), 1);
+        }
+        let part = Shard { number: 3, of: 7 };
+        for saws in 0..30 {
+            let held = (0..saws).filter(|index| part.holds(*index)).count();
+            assert_eq!(part.count(saws), held);
         }
     }
 }

@@ -3,17 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::distribution::Distribution;
 use super::file::StudyFile;
 use super::plan::Study;
-use super::saw::{Found, Outcome, Saw};
-use super::statistics::{interval, quantile};
-use crate::scene::{SceneFile, rpm};
-
-/// Saws that were not analysed, of which the reasons are listed; the table has them all.
-const LISTED: usize = 20;
-/// Most bars of a histogram that can be told apart.
-const MOST_BARS: usize = 40;
+use super::saw::Saw;
+use super::tally::Tally;
+use crate::scene::SceneFile;
 
 /// Quantiles and probabilities of a study, and what it was asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,10 +27,62 @@ pub struct StudyReport {
     pub saws_with_krein_violations: usize,
     /// All saws together.
     pub all: Group,
-    /// The saws drawn in each point of the grid, where there are both.
+    /// The saws drawn in each point of the grid, where there are both, and no more than 10 000
+    /// points.
     pub groups: Vec<Group>,
     /// The first saws that were not analysed.
     pub not_analysed: Vec<Refusal>,
+    /// How many saws can be run, by the speed at which they are; null where no saw has a critical
+    /// or a flutter speed.
+    #[serde(default)]
+    pub reliability: Option<Reliability>,
+    /// The saws with the lowest first critical speed, ascending.
+    #[serde(default)]
+    pub worst_lowest_critical: Vec<WorstSaw>,
+    /// The saws with the lowest flutter speed, ascending.
+    #[serde(default)]
+    pub worst_flutter: Vec<WorstSaw>,
+    /// Kinds of processors that have computed the saws, where there are several: the last digits
+    /// of a speed may differ between them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub processors: Vec<String>,
+}
+
+/// How many saws can be run, by the speed at which they are: up to that speed they keep the margin
+/// to their lowest critical speed, and do not flutter. A saw that was refused or failed cannot.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reliability {
+    /// Largest share of the lowest critical speed that the operating speed may be: that of the
+    /// limits, or the usual one.
+    pub margin: f64,
+    /// The highest speeds at which given shares of the saws can be run; null where it lies beyond
+    /// the speeds of the study, or fewer saws were analysed.
+    pub fastest: Vec<Quantile>,
+    /// Shares of the saws that can be run at even speeds.
+    pub curve: Vec<ReliabilityPoint>,
+}
+
+/// The share of the saws that can be run at a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReliabilityPoint {
+    /// The speed.
+    pub operating_rpm: f64,
+    /// The share of all saws.
+    pub share: f64,
+}
+
+/// A saw with a low speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WorstSaw {
+    /// Its number.
+    pub saw: usize,
+    /// Its speed.
+    pub rpm: f64,
+    /// The numbers that vary, in the order of the study.
+    pub values: Vec<f64>,
 }
 
 /// Saws that belong together.
@@ -150,124 +196,14 @@ pub struct Refusal {
 }
 
 impl StudyReport {
-    /// Sums up the saws of a study, in the order of their numbers.
-    pub fn new(study: &Study, saws: &[Saw]) -> Self {
-        let found = || saws.iter().filter_map(Saw::found);
-        let is_mixed = study.drawn() > 1 && study.drawn() < study.count();
-        let groups = saws.chunks(study.drawn()).filter(|_| is_mixed);
-        let refusals = saws.iter().filter_map(|saw| match &saw.outcome {
-            Outcome::Analysed(_) => None,
-            Outcome::Refused(reason) | Outcome::Failed(reason) => Some(Refusal {
-                saw: saw.index,
-                reason: reason.clone(),
-            }),
-        });
-        StudyReport {
-            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
-            scene: study.scene().file().clone(),
-            study: study.file().clone(),
-            swept_to_rpm: rpm(study.to_rad_per_s()),
-            largest_estimated_relative_error: found()
-                .map(|f| f.estimated_relative_error)
-                .fold(0.0, f64::max),
-            saws_with_krein_violations: found().filter(|f| f.krein_violations > 0).count(),
-            all: group(study, saws, Vec::new()),
-            groups: groups
-                .map(|saws| group(study, saws, place(study, &saws[0])))
-                .collect(),
-            not_analysed: refusals.take(LISTED).collect(),
-        }
-    }
-}
-
-/// The grid's numbers of a saw.
-fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
-    let numbers = study.varying.iter().zip(&saw.values);
-    numbers
-        .filter(|((_, distribution), _)| matches!(distribution, Distribution::Grid(_)))
-        .map(|((parameter, _), value)| GridEntry {
-            parameter: parameter.path().to_owned(),
-            value: *value,
-        })
-        .collect()
-}
-
-fn group(study: &Study, saws: &[Saw], grid: Vec<GridEntry>) -> Group {
-    let count = |is: fn(&Outcome) -> bool| saws.iter().filter(|saw| is(&saw.outcome)).count();
-    Group {
-        grid,
-        saws: saws.len(),
-        refused: count(|outcome| matches!(outcome, Outcome::Refused(_))),
-        failed: count(|outcome| matches!(outcome, Outcome::Failed(_))),
-        lowest_critical: speed(study, saws, |found| found.lowest_critical_rpm),
-        flutter: speed(study, saws, |found| found.flutter_rpm),
-        passing: study.limits().map(|_| passing(study, saws)),
-    }
-}
-
-fn speed(study: &Study, saws: &[Saw], of: fn(&Found) -> Option<f64>) -> SpeedEntry {
-    let all: Vec<Option<f64>> = saws.iter().filter_map(Saw::found).map(of).collect();
-    let mut sorted: Vec<f64> = all.iter().copied().flatten().collect();
-    sorted.sort_by(f64::total_cmp);
-    let beyond = all.len() - sorted.len();
-    let shares = study.file().quantiles.iter();
-    SpeedEntry {
-        saws: sorted.len(),
-        beyond,
-        median_rpm: quantile(&sorted, beyond, 0.5),
-        quantiles: shares
-            .map(|&share| Quantile {
-                share,
-                rpm: quantile(&sorted, beyond, share),
-            })
-            .collect(),
-        histogram: histogram(&sorted),
-    }
-}
-
-/// Twice the cube root of the number of saws makes the bars (Rice's rule): their heights
-/// scatter as little as their number allows.
-fn histogram(sorted: &[f64]) -> Option<Histogram> {
-    let (from, to) = (*sorted.first()?, *sorted.last()?);
-    let bars = (2.0 * (sorted.len() as f64).cbrt()).round() as usize;
-    let bars = bars.clamp(1, MOST_BARS);
-    let mut counts = vec![0; bars];
-    for rpm in sorted {
-        // A range without length is one bar.
-        let share = if to > from {
-            (rpm - from) / (to - from)
-        } else {
-            0.0
-        };
-        counts[((share * bars as f64) as usize).min(bars - 1)] += 1;
-    }
-    Some(Histogram {
-        from_rpm: from,
-        to_rpm: to,
-        counts,
-    })
-}
-
-fn passing(study: &Study, saws: &[Saw]) -> Passing {
-    let found = || saws.iter().filter_map(Saw::found);
-    let passed = found().filter(|f| f.passed() == Some(true)).count();
-    let confidence = study.file().confidence;
-    // In several points of the grid the deviations are the same, so that saws are not
-    // independent.
-    let is_drawn = study.file().saws.is_some() && saws.len() == study.drawn();
-    let criteria = study.criteria_of_nothing().into_iter().enumerate();
-    Passing {
-        passed,
-        probability: passed as f64 / saws.len().max(1) as f64,
-        confidence,
-        interval: is_drawn.then(|| interval(passed, saws.len(), confidence)),
-        criteria: criteria
-            .map(|(k, criterion)| CriterionEntry {
-                key: criterion.key.to_owned(),
-                name: criterion.name.to_owned(),
-                asked_rpm: rpm(criterion.asked),
-                passed: found().filter(|f| f.kept[k]).count(),
-            })
-            .collect(),
+    /// Sums up the saws of a study, in the order of their numbers. Those of logs are summed up by
+    /// [`super::sum_up`], whatever their number.
+    ///
+    /// # Errors
+    /// Of more than a million saws, what the folder for temporary files raises.
+    pub fn new(study: &Study, saws: &[Saw]) -> std::io::Result<Self> {
+        let mut tally = Tally::new(study, &std::env::temp_dir());
+        saws.iter().try_for_each(|saw| tally.add(saw))?;
+        tally.report(Vec::new())
     }
 }

@@ -49,6 +49,13 @@ pub struct Found {
     pub krein_violations: usize,
 }
 
+impl Outcome {
+    /// It could not be analysed, for a reason of any length and number of lines.
+    pub fn failed(reason: &str) -> Self {
+        Outcome::Failed(one_line(reason))
+    }
+}
+
 impl Found {
     /// Whether every limit is kept; `None` without limits.
     pub fn passed(&self) -> Option<bool> {
@@ -75,7 +82,7 @@ impl Study {
             Err(error) => Outcome::Refused(one_line(&error.to_string())),
             Ok(scene) => match catch_unwind(AssertUnwindSafe(|| self.found(&scene))) {
                 Ok(Ok(found)) => Outcome::Analysed(found),
-                Ok(Err(error)) => Outcome::Failed(one_line(&error.to_string())),
+                Ok(Err(error)) => Outcome::failed(&error.to_string()),
                 Err(_) => Outcome::Failed("a fault of the program: please report this saw".into()),
             },
         };

@@ -2,19 +2,30 @@
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
-/// The value below which a share of all lies, `sorted` ascending and `beyond` more that are
-/// greater than any: between order statistics linearly (type 7 of Hyndman and Fan, The
-/// American Statistician 50 (1996), 361). `None` where it lies among those beyond.
-pub fn quantile(sorted: &[f64], beyond: usize, share: f64) -> Option<f64> {
-    let last = (sorted.len() + beyond).checked_sub(1)?;
-    let place = share * last as f64;
+/// The rank from 0 below the value under which a share of `total` values lies, and how far on
+/// the way to the next rank that is (type 7 of Hyndman and Fan, The American Statistician 50
+/// (1996), 361). `None` where there are no values.
+pub fn rank(total: usize, share: f64) -> Option<(usize, f64)> {
+    let place = share * total.checked_sub(1)? as f64;
     let below = place.floor();
-    let lower = *sorted.get(below as usize)?;
-    if place == below {
+    Some((below as usize, place - below))
+}
+
+/// The value at a rank, between two ranks linearly; `value` is that of a whole rank.
+pub fn between((below, part): (usize, f64), value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
+    let lower = value(below)?;
+    if part == 0.0 {
         return Some(lower);
     }
-    let upper = *sorted.get(below as usize + 1)?;
-    Some(lower + (place - below) * (upper - lower))
+    Some(lower + part * (value(below + 1)? - lower))
+}
+
+/// The value below which a share of all lies, `sorted` ascending and `beyond` more that are
+/// greater than any. `None` where it lies among those beyond.
+#[cfg(test)]
+pub fn quantile(sorted: &[f64], beyond: usize, share: f64) -> Option<f64> {
+    let rank = rank(sorted.len() + beyond, share)?;
+    between(rank, &|rank| sorted.get(rank).copied())
 }
 
 /// The interval of Clopper and Pearson (Biometrika 26 (1934), 404) for a probability, of

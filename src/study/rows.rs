@@ -1,0 +1,136 @@
+//! The rows of logs in the order of the saws, whatever order they were written in.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::finished::{BLOCK, Finished};
+use super::log::{Line, Log, LogError, io, read, row};
+use super::plan::Study;
+use super::saw::Saw;
+
+/// Which saws the logs of a study have, and where. The rows themselves stay in the logs, and are
+/// read 65 536 at a time.
+pub struct Rows<'a> {
+    study: &'a Study,
+    logs: Vec<PathBuf>,
+    finished: Finished,
+    processors: BTreeSet<String>,
+    /// Where the rows of each block of saws stand, in the order of the logs.
+    blocks: Vec<Vec<Extent>>,
+}
+
+/// Rows of one block of saws that follow each other in a log. Saws are given out in the order of
+/// their numbers, so that there are few.
+struct Extent {
+    log: usize,
+    place: Range<u64>,
+}
+
+impl<'a> Rows<'a> {
+    /// Those of logs. Of a saw in several of them, the first counts.
+    ///
+    /// # Errors
+    /// [`LogError`] where one cannot be read, or belongs to another study.
+    pub fn of(study: &'a Study, logs: Vec<PathBuf>) -> Result<Self, LogError> {
+        let mut rows = Rows {
+            study,
+            finished: Finished::none_of(study.count()),
+            processors: BTreeSet::new(),
+            blocks: Vec::new(),
+            logs,
+        };
+        rows.blocks
+            .resize_with(study.count().div_ceil(BLOCK), Vec::new);
+        for log in 0..rows.logs.len() {
+            let Rows {
+                logs,
+                finished,
+                processors,
+                blocks,
+                ..
+            } = &mut rows;
+            read(&logs[log], study, &mut |place, line| match line {
+                Line::Processor(name) => {
+                    processors.insert(name);
+                }
+                Line::Saw(saw) => {
+                    if finished.insert(saw.index) {
+                        add(&mut blocks[saw.index / BLOCK], log, place);
+                    }
+                }
+            })?;
+        }
+        Ok(rows)
+    }
+
+    /// Those of every log in a folder.
+    ///
+    /// # Errors
+    /// [`LogError`].
+    pub fn in_folder(study: &'a Study, folder: &Path) -> Result<Self, LogError> {
+        Self::of(study, Log::all_in(folder)?)
+    }
+
+    /// Which saws there are.
+    pub fn finished(&self) -> &Finished {
+        &self.finished
+    }
+
+    /// The study.
+    pub fn study(&self) -> &'a Study {
+        self.study
+    }
+
+    /// Kinds of processors that have computed them, in the order of their names.
+    pub fn processors(&self) -> impl Iterator<Item = &String> {
+        self.processors.iter()
+    }
+
+    /// Shows the saws in the order of their numbers, a block at a time.
+    ///
+    /// # Errors
+    /// [`LogError`], and what `visit` raises.
+    pub fn each_block(
+        &self,
+        visit: &mut dyn FnMut(&[Saw]) -> Result<(), LogError>,
+    ) -> Result<(), LogError> {
+        for (number, extents) in self.blocks.iter().enumerate() {
+            let mut saws: Vec<Option<Saw>> = Vec::new();
+            saws.resize_with(BLOCK.min(self.study.count() - number * BLOCK), || None);
+            for extent in extents {
+                for line in self.text(extent)?.split_inclusive(|byte| *byte == b'\n') {
+                    if let Some(saw) = row(line, self.study) {
+                        saws[saw.index % BLOCK].get_or_insert(saw);
+                    }
+                }
+            }
+            let saws: Vec<Saw> = saws.into_iter().flatten().collect();
+            visit(&saws)?;
+        }
+        Ok(())
+    }
+
+    fn text(&self, extent: &Extent) -> Result<Vec<u8>, LogError> {
+        let path = &self.logs[extent.log];
+        let Range { start, end } = extent.place;
+        let mut file = File::open(path).map_err(io(path))?;
+        file.seek(SeekFrom::Start(start)).map_err(io(path))?;
+        let mut text = Vec::with_capacity((end - start) as usize);
+        file.take(end - start)
+            .read_to_end(&mut text)
+            .map_err(io(path))?;
+        Ok(text)
+    }
+}
+
+fn add(extents: &mut Vec<Extent>, log: usize, place: Range<u64>) {
+    match extents.last_mut() {
+        Some(last) if last.log == log && last.place.end == place.start => {
+            last.place.end = place.end;
+        }
+        _ => extents.push(Extent { log, place }),
+    }
+}

@@ -1,0 +1,52 @@
+//! From the logs to the tables of the saws and their sum, in one pass and bounded memory.
+
+use std::io;
+use std::path::Path;
+
+use super::log::LogError;
+use super::report::StudyReport;
+use super::rows::Rows;
+use super::saw::Saw;
+use super::tally::Tally;
+
+/// A file that saws are written to, in the order of their numbers.
+pub trait Table {
+    /// Adds the next saws.
+    ///
+    /// # Errors
+    /// What writing raises.
+    fn add(&mut self, saws: &[Saw]) -> io::Result<()>;
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// What writing raises.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}
+
+/// Writes the tables of all saws and sums them up. `folder` takes what does not fit into memory;
+/// nothing stays there.
+///
+/// # Errors
+/// [`LogError`] where a log cannot be read or a table cannot be written.
+pub fn sum_up(
+    rows: &Rows<'_>,
+    folder: &Path,
+    mut tables: Vec<Box<dyn Table + '_>>,
+) -> Result<StudyReport, LogError> {
+    let mut tally = Tally::new(rows.study(), folder);
+    rows.each_block(&mut |saws| {
+        for saw in saws {
+            tally.add(saw).map_err(LogError::Tables)?;
+        }
+        let mut tables = tables.iter_mut();
+        tables
+            .try_for_each(|table| table.add(saws))
+            .map_err(LogError::Tables)
+    })?;
+    for table in tables {
+        table.finish().map_err(LogError::Tables)?;
+    }
+    let processors = rows.processors().cloned().collect();
+    tally.report(processors).map_err(LogError::Tables)
+}

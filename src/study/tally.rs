@@ -1,0 +1,381 @@
+//! Counts the saws of a study, one after the other: what a [`StudyReport`] says of them.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::distribution::Distribution;
+use super::order::Values;
+use super::plan::Study;
+use super::report::{
+    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, Reliability,
+    ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
+};
+use super::saw::{Found, Outcome, Saw};
+use super::statistics::interval;
+use crate::scene::rpm;
+use crate::stability::OPERATING_LIMIT;
+
+/// Saws of which the report lists why they were not analysed; the table has them all.
+const LISTED: usize = 20;
+/// Saws listed with the lowest speeds.
+const WORST: usize = 10;
+/// Points of the grid of which the report says more than the sum.
+const MAX_GROUPS: usize = 10_000;
+/// Most bars of a histogram that can be told apart.
+const MOST_BARS: usize = 40;
+/// Points of the curve of reliability.
+const CURVE: usize = 61;
+/// Shares of the saws that are to run, of which the speed is listed.
+const RELIABLE: [f64; 5] = [0.999, 0.99, 0.95, 0.9, 0.5];
+
+/// What is known of the saws so far.
+pub(super) struct Tally<'a> {
+    study: &'a Study,
+    folder: PathBuf,
+    all: Counts<'a>,
+    group: Option<Counts<'a>>,
+    groups: Vec<Group>,
+    allowed: Values,
+    lowest_critical: Lowest,
+    flutter: Lowest,
+    largest_error: f64,
+    with_violations: usize,
+    not_analysed: Vec<Refusal>,
+}
+
+impl<'a> Tally<'a> {
+    /// No saws; `folder` takes what does not fit into memory.
+    pub fn new(study: &'a Study, folder: &Path) -> Self {
+        Tally {
+            study,
+            folder: folder.to_owned(),
+            all: Counts::new(study, folder),
+            group: None,
+            groups: Vec::new(),
+            allowed: Values::new(folder),
+            lowest_critical: Lowest::default(),
+            flutter: Lowest::default(),
+            largest_error: 0.0,
+            with_violations: 0,
+            not_analysed: Vec::new(),
+        }
+    }
+
+    /// Adds the next saw, in the order of their numbers.
+    pub fn add(&mut self, saw: &Saw) -> io::Result<()> {
+        self.all.add(saw)?;
+        self.add_to_group(saw)?;
+        let reason = match &saw.outcome {
+            Outcome::Analysed(found) => return self.add_found(saw, found),
+            Outcome::Refused(reason) | Outcome::Failed(reason) => reason,
+        };
+        if self.not_analysed.len() < LISTED {
+            self.not_analysed.push(Refusal {
+                saw: saw.index,
+                reason: reason.clone(),
+            });
+        }
+        Ok(())
+    }
+
+    fn add_found(&mut self, saw: &Saw, found: &Found) -> io::Result<()> {
+        self.largest_error = self.largest_error.max(found.estimated_relative_error);
+        self.with_violations += usize::from(found.krein_violations > 0);
+        self.lowest_critical.add(saw, found.lowest_critical_rpm);
+        self.flutter.add(saw, found.flutter_rpm);
+        match highest_operating_rpm(found, margin(self.study)) {
+            Some(rpm) => self.allowed.push(rpm),
+            None => Ok(()),
+        }
+    }
+
+    fn add_to_group(&mut self, saw: &Saw) -> io::Result<()> {
+        let (study, drawn) = (self.study, self.study.drawn());
+        let points = study.count() / drawn;
+        if drawn == 1 || points == 1 || points > MAX_GROUPS {
+            return Ok(());
+        }
+        let folder = &self.folder;
+        let group = self.group.get_or_insert_with(|| Counts {
+            grid: place(study, saw),
+            ..Counts::new(study, folder)
+        });
+        group.add(saw)?;
+        if group.saws == drawn
+            && let Some(group) = self.group.take()
+        {
+            self.groups.push(group.report()?);
+        }
+        Ok(())
+    }
+
+    /// What there is to say of all saws.
+    pub fn report(mut self, processors: Vec<String>) -> io::Result<StudyReport> {
+        let study = self.study;
+        let reliability = self.reliability()?;
+        if let Some(group) = self.group.take() {
+            self.groups.push(group.report()?);
+        }
+        Ok(StudyReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: study.scene().file().clone(),
+            study: study.file().clone(),
+            swept_to_rpm: rpm(study.to_rad_per_s()),
+            largest_estimated_relative_error: self.largest_error,
+            saws_with_krein_violations: self.with_violations,
+            all: self.all.report()?,
+            groups: self.groups,
+            not_analysed: self.not_analysed,
+            reliability,
+            worst_lowest_critical: self.lowest_critical.0,
+            worst_flutter: self.flutter.0,
+            processors: match processors.len() {
+                0 | 1 => Vec::new(),
+                _ => processors,
+            },
+        })
+    }
+
+    /// None where no saw has a speed that it may not run at.
+    fn reliability(&mut self) -> io::Result<Option<Reliability>> {
+        let Some((from, to)) = self.allowed.range() else {
+            return Ok(None);
+        };
+        let (saws, analysed) = (self.all.saws, self.all.analysed());
+        let step = (to - from) / (CURVE - 1) as f64;
+        let points = if to > from { CURVE } else { 1 };
+        let speeds = (0..points).map(|k| {
+            if k + 1 == points {
+                to
+            } else {
+                from + k as f64 * step
+            }
+        });
+        let speeds: Vec<f64> = speeds.collect();
+        // Saws that may run below the first speed only, between it and the next, and so on.
+        let mut below = vec![0_usize; points];
+        self.allowed.each(&mut |allowed| {
+            let above = speeds.partition_point(|speed| *speed <= allowed);
+            if let Some(count) = below.get_mut(above) {
+                *count += 1;
+            }
+        })?;
+        let mut running = analysed;
+        let curve = speeds.iter().zip(&below).map(|(speed, count)| {
+            running -= count;
+            ReliabilityPoint {
+                operating_rpm: *speed,
+                share: running as f64 / saws as f64,
+            }
+        });
+        let curve = curve.collect();
+        let mut fastest = Vec::new();
+        for share in RELIABLE {
+            // So many saws may fall out. That is whole but for rounding: 1000 × (1 − 0.95).
+            let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
+            let rank = out.checked_sub(saws - analysed);
+            let rank = rank.filter(|rank| *rank < self.allowed.count());
+            let rpm = match rank {
+                Some(rank) => self.allowed.ranked(&[rank])?.first().copied(),
+                None => None,
+            };
+            fastest.push(Quantile { share, rpm });
+        }
+        Ok(Some(Reliability {
+            margin: margin(self.study),
+            fastest,
+            curve,
+        }))
+    }
+}
+
+fn margin(study: &Study) -> f64 {
+    study
+        .limits()
+        .map_or(OPERATING_LIMIT, |limits| limits.margin)
+}
+
+/// Up to this speed a saw keeps its margin and does not flutter; none within the speeds of the
+/// study.
+fn highest_operating_rpm(found: &Found, margin: f64) -> Option<f64> {
+    let critical = found.lowest_critical_rpm.map(|rpm| margin * rpm);
+    match (critical, found.flutter_rpm) {
+        (Some(critical), Some(flutter)) => Some(critical.min(flutter)),
+        (one, other) => one.or(other),
+    }
+}
+
+/// The saws with the lowest speeds, ascending.
+#[derive(Default)]
+struct Lowest(Vec<WorstSaw>);
+
+impl Lowest {
+    fn add(&mut self, saw: &Saw, speed: Option<f64>) {
+        let Some(rpm) = speed else {
+            return;
+        };
+        // Of saws with the same speed the first comes first.
+        let place = self.0.partition_point(|other| other.rpm <= rpm);
+        if place < WORST {
+            self.0.truncate(WORST - 1);
+            let worst = WorstSaw {
+                saw: saw.index,
+                rpm,
+                values: saw.values.clone(),
+            };
+            self.0.insert(place, worst);
+        }
+    }
+}
+
+/// The grid's numbers of a saw.
+fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
+    let numbers = study.varying.iter().zip(&saw.values);
+    numbers
+        .filter(|((_, distribution), _)| matches!(distribution, Distribution::Grid(_)))
+        .map(|((parameter, _), value)| GridEntry {
+            parameter: parameter.path().to_owned(),
+            value: *value,
+        })
+        .collect()
+}
+
+/// Saws that belong together.
+struct Counts<'a> {
+    study: &'a Study,
+    grid: Vec<GridEntry>,
+    saws: usize,
+    refused: usize,
+    failed: usize,
+    lowest_critical: Values,
+    flutter: Values,
+    passed: usize,
+    kept: Vec<usize>,
+}
+
+impl<'a> Counts<'a> {
+    fn new(study: &'a Study, folder: &Path) -> Self {
+        Counts {
+            study,
+            grid: Vec::new(),
+            saws: 0,
+            refused: 0,
+            failed: 0,
+            lowest_critical: Values::new(folder),
+            flutter: Values::new(folder),
+            passed: 0,
+            kept: vec![0; study.criteria_of_nothing().len()],
+        }
+    }
+
+    fn add(&mut self, saw: &Saw) -> io::Result<()> {
+        self.saws += 1;
+        let found = match &saw.outcome {
+            Outcome::Analysed(found) => found,
+            Outcome::Refused(_) => {
+                self.refused += 1;
+                return Ok(());
+            }
+            Outcome::Failed(_) => {
+                self.failed += 1;
+                return Ok(());
+            }
+        };
+        self.passed += usize::from(found.passed() == Some(true));
+        for (count, kept) in self.kept.iter_mut().zip(&found.kept) {
+            *count += usize::from(*kept);
+        }
+        let speeds = [
+            (&mut self.lowest_critical, found.lowest_critical_rpm),
+            (&mut self.flutter, found.flutter_rpm),
+        ];
+        for (values, speed) in speeds {
+            if let Some(rpm) = speed {
+                values.push(rpm)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn analysed(&self) -> usize {
+        self.saws - self.refused - self.failed
+    }
+
+    fn report(mut self) -> io::Result<Group> {
+        let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
+        let passing = self.study.limits().map(|_| self.passing());
+        Ok(Group {
+            grid: self.grid,
+            saws: self.saws,
+            refused: self.refused,
+            failed: self.failed,
+            lowest_critical: speed(&mut self.lowest_critical, analysed, shares)?,
+            flutter: speed(&mut self.flutter, analysed, shares)?,
+            passing,
+        })
+    }
+
+    fn passing(&self) -> Passing {
+        let (study, saws) = (self.study, self.saws);
+        let confidence = study.file().confidence;
+        // In several points of the grid the deviations are the same, so that saws are not
+        // independent.
+        let is_drawn = study.file().saws.is_some() && saws == study.drawn();
+        let criteria = study.criteria_of_nothing().into_iter().zip(&self.kept);
+        Passing {
+            passed: self.passed,
+            probability: self.passed as f64 / saws.max(1) as f64,
+            confidence,
+            interval: is_drawn.then(|| interval(self.passed, saws, confidence)),
+            criteria: criteria
+                .map(|(criterion, passed)| CriterionEntry {
+                    key: criterion.key.to_owned(),
+                    name: criterion.name.to_owned(),
+                    asked_rpm: rpm(criterion.asked),
+                    passed: *passed,
+                })
+                .collect(),
+        }
+    }
+}
+
+fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedEntry> {
+    let beyond = analysed - values.count();
+    let median = values.quantiles(beyond, &[0.5])?;
+    let found = values.quantiles(beyond, shares)?;
+    let quantiles = shares.iter().zip(found);
+    Ok(SpeedEntry {
+        saws: values.count(),
+        beyond,
+        median_rpm: median[0],
+        quantiles: quantiles
+            .map(|(&share, rpm)| Quantile { share, rpm })
+            .collect(),
+        histogram: histogram(values)?,
+    })
+}
+
+/// Twice the cube root of the number of saws makes the bars (Rice's rule): their heights
+/// scatter as little as their number allows.
+fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
+    let Some((from, to)) = values.range() else {
+        return Ok(None);
+    };
+    let bars = (2.0 * (values.count() as f64).cbrt()).round() as usize;
+    let bars = bars.clamp(1, MOST_BARS);
+    let mut counts = vec![0; bars];
+    values.each(&mut |rpm| {
+        // A range without length is one bar.
+        let share = if to > from {
+            (rpm - from) / (to - from)
+        } else {
+            0.0
+        };
+        counts[((share * bars as f64) as usize).min(bars - 1)] += 1;
+    })?;
+    Ok(Some(Histogram {
+        from_rpm: from,
+        to_rpm: to,
+        counts,
+    }))
+}
