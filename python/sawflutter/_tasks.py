@@ -12,9 +12,10 @@ import queue
 import sys
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from functools import lru_cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from . import _native
@@ -84,7 +85,7 @@ def rows(text: Text, ranges: Ranges) -> Rows:
         study = _study(text)
         begun = time.monotonic()
         found = study.rows(ranges)
-    except Exception as error:
+    except Exception as error:  # noqa: BLE001 whatever it is, it goes back
         return Rows(b"", 0.0, who(), f"{type(error).__name__}: {error}")
     return Rows(found, time.monotonic() - begun, who())
 
@@ -152,27 +153,41 @@ class Cluster:
     def __init__(self, client: Client, text: Text) -> None:
         if client.asynchronous:
             raise TypeError("the client is asynchronous; give one that is not: Client(address)")
-        self.client = client
-        self.text = client.submit(itself, text, pure=False)
+        # Of its methods some have types and some have none.
+        self.client: Any = client
+        self.text = text
+        self.sent: Future | None = None
 
     def workers(self) -> int:
         return max(1, sum(self.client.nthreads().values()))
 
     def known(self) -> Iterable[Worker]:
-        self.client.wait_for_workers(1)
-        found = self.client.run(who, on_error="return")
-        for address, worker in found.items():
-            if isinstance(worker, ImportError):
+        # A function of this package cannot be sent to where it cannot be imported, but the name of
+        # the package can.
+        self._asked(import_module, __package__)
+        return [Worker(*worker) for worker in self._asked(who)]
+
+    def _asked(self, function: Callable[..., Any], *arguments: str) -> list[Any]:
+        """What every worker says to a question."""
+        found: dict[str, Any] = {}
+        # Those that were there a moment ago may be gone.
+        while not found:
+            self.client.wait_for_workers(1)
+            found = self.client.run(function, *arguments, on_error="return")
+        for address, said in found.items():
+            if isinstance(said, ImportError):
                 raise AnalysisError(
-                    f"the worker {address} cannot import sawflutter ({worker}); install version "
+                    f"the worker {address} cannot import sawflutter ({said}); install version "
                     f"{who().version} there, with pip, and start it again"
                 )
-            if isinstance(worker, BaseException):
-                raise AnalysisError(f"the worker {address} did not answer: {worker}")
-        return [Worker(*worker) for worker in found.values()]
+            if isinstance(said, BaseException):
+                raise AnalysisError(f"the worker {address} does not answer: {said}")
+        return list(found.values())
 
     def submit(self, ranges: Ranges) -> Future:
-        future: Future = self.client.submit(rows, self.text, ranges, pure=False)
+        if self.sent is None:
+            self.sent = self.client.submit(itself, self.text, pure=False)
+        future: Future = self.client.submit(rows, self.sent, ranges, pure=False)
         return future
 
     def lost(self, error: BaseException) -> str | None:

@@ -21,6 +21,7 @@ from .scene import Scene, _json
 if TYPE_CHECKING:
     from distributed import Client
 
+
 class Study:
     """A scene and what varies in it.
 
@@ -107,13 +108,14 @@ class Study:
             if executor is None:
                 self._native.run(place, progress=told)
             else:
-                self._run_on(executor, place, told)
+                self._fill(executor, place, told)
         self._sum_up(place)
         result = StudyResults.from_json((place / "study.json").read_text(encoding="utf-8"))
         object.__setattr__(result, "_folder", place)
         return result
 
-    def _run_on(self, executor: Executor | Client, folder: Path, told: Any) -> None:
+    def _fill(self, executor: Executor | Client, folder: Path, told: Any = None) -> None:
+        """Adds the saws that its log does not have to a folder, without summing them up."""
         text = _tasks.Text(self.scene.to_json(), self._text)
         log = self._native.log(folder)
         try:

@@ -14,6 +14,7 @@ mod paint;
 mod paste;
 mod place;
 mod runup;
+mod scheduler;
 mod schema;
 mod several;
 mod study;

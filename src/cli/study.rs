@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::common::{Finely, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
+use super::scheduler;
 use super::study_summary::summary;
 
 pub const EXAMPLES: &str = "\
@@ -26,6 +27,9 @@ Examples:
                                                     third of eight machines
   sawflutter study merge runs --out result          the parts together, the same
                                                     bytes as from one machine
+
+  sawflutter study saw.json study.json --out runs --scheduler tcp://host:8786
+                                                    on a cluster of Dask
 
 In a job array of 8:
   sawflutter study saw.json study.json --out runs --shard $SLURM_ARRAY_TASK_ID/8
@@ -49,6 +53,10 @@ pub struct Arguments {
     /// Compute part k of n only, into a log of its own
     #[arg(long, value_name = "k/n", value_parser = shard)]
     shard: Option<Shard>,
+    /// Compute on the workers of this scheduler of Dask, like tcp://host:8786; needs the Python
+    /// package
+    #[arg(long, value_name = "ADDRESS", conflicts_with = "shard")]
+    scheduler: Option<String>,
     #[command(flatten)]
     output: Output,
 }
@@ -80,7 +88,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let study = Study::new(scene, study).context("the study was refused")?;
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    compute(&study, shard, &folder)?;
+    match &arguments.scheduler {
+        Some(address) => scheduler::compute(&study, folder.path(), address)?,
+        None => compute(&study, shard, &folder)?,
+    }
     if shard != Shard::WHOLE {
         return print_part(arguments, &study, shard, &folder);
     }
