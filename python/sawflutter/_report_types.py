@@ -1585,7 +1585,7 @@ class StudyReport(Entry):
     worst_flutter: tuple[WorstSaw, ...]
     """The saws with the lowest flutter speed, ascending."""
 
-    processors: tuple[str, ...] | None = field(default=None)
+    processors: tuple[str, ...]
     """Kinds of processors that have computed the saws, where there are several: the last digits
     of a speed may differ between them."""
 

@@ -159,7 +159,7 @@ class Cluster:
         self.sent: Future | None = None
 
     def workers(self) -> int:
-        return max(1, sum(self.client.nthreads().values()))
+        return max(1, int(sum(self.client.nthreads().values())))
 
     def known(self) -> Iterable[Worker]:
         # A function of this package cannot be sent to where it cannot be imported, but the name of

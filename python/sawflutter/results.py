@@ -373,8 +373,50 @@ class StudyResults(Result, StudyReport):
             )
         return read((self._folder / "study.csv").read_text(encoding="utf-8"))
 
+    def sensitivity(self, *, confidence: float = 0.95, seed: int = 0) -> pd.DataFrame:
+        """Sobol' indices of the first order: the share of the variance of a speed that a number
+        causes by itself, whatever the others are. What is missing to 1 in their sum is due to
+        several together. Needs SALib, which estimates them by RBD-FAST from the saws that there
+        are (Tarantola, Gatelli and Mara, Reliability Engineering and System Safety 91 (2006), 717).
+
+        Parameters
+        ----------
+        confidence : float
+            Of the half-width beside each index, from resampled saws.
+        seed : int
+            Of this resampling.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a number; columns ``lowest_critical``, ``flutter``, and the half-widths
+            ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
+            is the same in all saws. A saw without a speed counts with the last speed looked at, and
+            one that was not analysed does not count.
+        """
+        import numpy as np
+        import pandas as pd
+        from SALib.analyze import rbd_fast
+
+        table = self.to_dataframe()
+        table = table[table["status"] == "analysed"]
+        names = [parameter["path"] for parameter in self.study["parameters"]]
+        numbers = table[names].to_numpy(dtype=float)
+        # Ranks: an index depends on the order of the saws by each number, not on its distribution.
+        bounds = [[low, high] for low, high in zip(numbers.min(axis=0), numbers.max(axis=0))]
+        problem = {"num_vars": len(names), "names": names, "bounds": bounds}
+        columns: dict[str, Any] = {}
+        for key, column in (("lowest_critical", "lowest_critical_rpm"), ("flutter", "flutter_rpm")):
+            speeds = table[column].astype(float).fillna(self.swept_to_rpm).to_numpy()
+            columns[key] = columns[f"{key}_confidence"] = np.full(len(names), np.nan)
+            if len(speeds) > 1 and np.ptp(speeds) > 0.0:
+                found = rbd_fast.analyze(problem, numbers, speeds, conf_level=confidence, seed=seed)
+                columns[key] = np.array(found["S1"])
+                columns[f"{key}_confidence"] = np.array(found["S1_conf"])
+        return pd.DataFrame(columns, index=pd.Index(names, name="number"))
+
     def chart(self) -> Chart:
-        """Shares of the saws below a speed."""
+        """Shares of the saws below a speed, and those that can be run at one."""
         from .plot.design import study
 
         return study(self)

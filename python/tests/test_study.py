@@ -110,6 +110,44 @@ def test_saws_vary_as_they_are_told(study: sf.Study, tmp_path: Path) -> None:
     assert np.allclose(study.values([3, 5]), values[[3, 5]])
 
 
+def test_sobol_indices_are_shares_of_the_variance(study: sf.Study, tmp_path: Path) -> None:
+    """A free blade's critical speeds are proportional to thickness and to the root of the modulus:
+    the variance of the logarithm is the sum of two, var h / h² = (Δ/h)²/3 and var E / 4E²."""
+    more = sf.Study(study.scene, {**VARIED, "saws": 1024})
+    found = more.run(tmp_path).sensitivity()
+    thickness = (5e-5 / 0.0028) ** 2 / 3
+    modulus = (0.05e11 / 2.05e11) ** 2 / 12
+    exact = np.array([thickness, modulus]) / (thickness + modulus)
+    indices = found["lowest_critical"].to_numpy()
+    # The estimator's own error at 1024 saws, several times less than the half-widths.
+    assert np.all(abs(indices - exact) < 0.02), (indices, exact)
+    assert np.all(abs(indices - exact) < found["lowest_critical_confidence"])
+    # No saw flutters: nothing varies.
+    assert found["flutter"].isna().all()
+
+
+def test_worst_saws_and_reliability_are_those_of_the_table(study: sf.Study, tmp_path: Path) -> None:
+    result = study.run(tmp_path)
+    table = result.to_dataframe()
+    worst = table.sort_values("lowest_critical_rpm").head(10)
+    assert [saw.saw for saw in result.worst_lowest_critical] == list(worst["saw"])
+    assert result.worst_lowest_critical[0].rpm == worst["lowest_critical_rpm"].iloc[0]
+    assert np.array_equal(
+        result.worst_lowest_critical[0].values, study.values([worst["saw"].iloc[0]])[0]
+    )
+    assert result.worst_flutter == ()
+    reliability = result.reliability
+    assert reliability is not None and reliability.margin == 0.85
+    allowed = 0.85 * table["lowest_critical_rpm"].to_numpy()
+    for point in reliability.curve:
+        assert point.share == np.mean(allowed >= point.operating_rpm)
+    for fastest in reliability.fastest:
+        assert fastest.rpm is not None and np.mean(allowed >= fastest.rpm) >= fastest.share
+        above = allowed[allowed > fastest.rpm]
+        assert len(above) == 0 or np.mean(allowed >= above.min()) < fastest.share
+    assert len(result.chart().panels) == 3
+
+
 def test_what_is_no_study_is_refused(draft: sf.Scene, tmp_path: Path) -> None:
     with pytest.raises(sf.StudyError) as caught:
         sf.Study(draft, {**VARIED, "saws": 0})

@@ -21,9 +21,11 @@ pub fn summary(report: &StudyReport) -> String {
     if let Some(passing) = &report.all.passing {
         let _ = limits(&mut text, passing, report.all.saws);
     }
+    let _ = reliability(&mut text, report);
     if !report.groups.is_empty() {
         let _ = groups(&mut text, report);
     }
+    let _ = worst(&mut text, report);
     let _ = remarks(&mut text, report);
     text
 }
@@ -99,6 +101,56 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
     Ok(())
 }
 
+/// The speeds at which most saws can be run.
+fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    let Some(reliability) = &report.reliability else {
+        return Ok(());
+    };
+    write!(text, "\nShare of saws that run")?;
+    for fastest in &reliability.fastest {
+        write!(
+            text,
+            "{:>8}",
+            format!("{} %", rounded(100.0 * fastest.share))
+        )?;
+    }
+    write!(text, "\n  up to [rpm]          ")?;
+    for fastest in &reliability.fastest {
+        let cell = fastest.rpm.map_or("–".into(), |rpm| format!("{rpm:.1}"));
+        write!(text, "{cell:>8}")?;
+    }
+    writeln!(
+        text,
+        "\n  (at most {} of the lowest critical speed, and no flutter up to there)",
+        rounded(reliability.margin)
+    )
+}
+
+/// The saw with the lowest speed, of both.
+fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    let speeds = [
+        ("first critical", &report.worst_lowest_critical),
+        ("flutter", &report.worst_flutter),
+    ];
+    for (name, saws) in speeds {
+        let Some(first) = saws.first() else {
+            continue;
+        };
+        let parameters = report.study.parameters.iter().zip(&first.values);
+        let values = parameters.map(|(parameter, value)| format!("{} = {value}", parameter.path));
+        let values: Vec<String> = values.collect();
+        writeln!(
+            text,
+            "\nLowest {name} speed: {:.1} rpm, saw {}",
+            first.rpm, first.saw
+        )?;
+        for value in values {
+            writeln!(text, "  {}", shortened(&value, WIDTH - 2))?;
+        }
+    }
+    Ok(())
+}
+
 fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(text, "\nIn each point of the grid: medians [rpm]")?;
     writeln!(text, "  critical  flutter   pass")?;
@@ -148,6 +200,15 @@ fn remarks(text: &mut String, report: &StudyReport) -> std::fmt::Result {
             "The Krein index does not match in {} saws: column krein_violations of study.csv",
             report.saws_with_krein_violations
         )?;
+    }
+    if !report.processors.is_empty() {
+        writeln!(
+            text,
+            "Computed by processors of several kinds, whose last digits may differ:"
+        )?;
+        for name in &report.processors {
+            writeln!(text, "  {}", shortened(name, WIDTH - 2))?;
+        }
     }
     for (count, word) in [(all.refused, "refused"), (all.failed, "failed")] {
         if count > 0 {

@@ -44,7 +44,7 @@ pub struct StudyReport {
     pub worst_flutter: Vec<WorstSaw>,
     /// Kinds of processors that have computed the saws, where there are several: the last digits
     /// of a speed may differ between them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub processors: Vec<String>,
 }
 

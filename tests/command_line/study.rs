@@ -141,6 +141,17 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     };
     assert_eq!(words(&whole), words(&merged));
     assert!(words(&whole).lines().all(|line| line.chars().count() <= 80));
+    // What is written of the worst saw and of reliability is what the report says.
+    let report = std::fs::read_to_string(bench.path("whole/study.json")).unwrap();
+    let report: StudyReport = serde_json::from_str(&report).unwrap();
+    let worst = &report.worst_lowest_critical[0];
+    let line = format!(
+        "Lowest first critical speed: {:.1} rpm, saw {}",
+        worst.rpm, worst.saw
+    );
+    assert!(words(&whole).contains(&line), "{}", words(&whole));
+    let half = report.reliability.unwrap().fastest[4].rpm.unwrap();
+    assert!(words(&whole).contains(&format!("{half:.1}")));
     // A run of everything takes what the parts have computed, and computes the rest.
     assert_done(&bench.run("parts", &[]));
     assert_eq!(bench.rows("parts/study.log").len(), SAWS / 3);
@@ -268,6 +279,46 @@ fn the_report_reads_back_and_bad_arguments_are_refused() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(text(&refused.stderr).contains("sawflutter schema --study"));
     assert!(!bench.path("other").exists());
+}
+
+/// Without Python, with one that does not have the package, and with one that fails.
+#[cfg(unix)]
+#[test]
+fn a_scheduler_needs_the_python_package() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new();
+    let python = bench.path("python");
+    let scheduler = ["--scheduler", "tcp://127.0.0.1:1"];
+    let said = |script: Option<&str>| {
+        if let Some(script) = script {
+            std::fs::write(&python, format!("#!/bin/sh\n{script}\n")).unwrap();
+            std::fs::set_permissions(&python, PermissionsExt::from_mode(0o755)).unwrap();
+        }
+        let mut command = bench.command("out", &scheduler);
+        let output = command.env("SAWFLUTTER_PYTHON", &python).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(!bench.path("out/study.json").exists());
+        text(&output.stderr).to_owned()
+    };
+    let remedy = "pip install 'sawflutter[dask]==";
+    let none = said(None);
+    assert!(
+        none.contains("there is no") && none.contains(remedy),
+        "{none}"
+    );
+    let without = said(Some("echo 'No module named distributed' >&2; exit 1"));
+    assert!(without.contains("No module named distributed") && without.contains(remedy));
+    let other = said(Some("echo 0.0.9"));
+    assert!(other.contains("has version 0.0.9 of sawflutter"), "{other}");
+    let version = env!("CARGO_PKG_VERSION");
+    let script = format!("[ $1 = -c ] && echo {version} || {{ echo no scheduler; exit 1; }}");
+    assert!(said(Some(&script)).contains("no scheduler"));
+    let both = bench.run(
+        "out",
+        &["--scheduler", "tcp://127.0.0.1:1", "--shard", "1/2"],
+    );
+    assert_eq!(both.status.code(), Some(2));
+    assert!(text(&both.stderr).contains("cannot be used with"));
 }
 
 /// The table as another program would read it, against the rows of the CSV.

@@ -165,6 +165,12 @@ def study(r: StudyResults) -> Chart:
             if key in asked
         ]
         panels.append(Panel(name, "saws", [*_histogram(speed, colours()[colour]), *limits]))
+    if r.reliability is not None:
+        curve = r.reliability.curve
+        x, y = np.array([p.operating_rpm for p in curve]), np.array([p.share for p in curve])
+        name = f"up to {r.reliability.margin:g} of the lowest critical speed, and no flutter"
+        line = Line(x, 1e2 * y, colours()["forward"], name)
+        panels.append(Panel("operating speed [rpm]", "saws that can be run [%]", [line]))
     return Chart(r.study["name"], r._facts(), tuple(panels))
 
 
