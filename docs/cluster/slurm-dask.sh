@@ -1,6 +1,7 @@
 #!/bin/sh
 # A cluster of Dask inside an allocation: a scheduler on its first node, a worker process for every
 # core of all nodes, and the study on it: sbatch slurm-dask.sh
+# Scheduler and workers end with this script.
 #SBATCH --job-name=saws
 #SBATCH --nodes=4
 #SBATCH --ntasks-per-node=1

@@ -1,0 +1,85 @@
+"""A million saws in little memory: made-up rows, summed up by the program."""
+
+from __future__ import annotations
+
+import json
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sawflutter as sf
+
+SAWS = 1_000_000
+# Rows of a task, and tasks under way at the same time.
+ROWS, WINDOW = 5000, 64
+MERGE = """
+import resource, subprocess, sys
+code = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode
+# In kB on Linux.
+print(code, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
+"""
+
+
+def critical_rpm(thickness: float) -> float:
+    return 5.3e5 * thickness
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory is counted otherwise")
+def test_a_million_saws_are_summed_up_within_500_mb(
+    draft: sf.Scene, programs: list[str], tmp_path: Path
+) -> None:
+    even = {"kind": "tolerance", "plus_minus": 5e-5}
+    limits = {"operating_rpm": 1250.0}
+    thickness = {"path": "blade.thickness_m", "distribution": even}
+    file = {"name": "Thickness", "saws": SAWS, "parameters": [thickness], "limits": limits}
+    study = sf.Study(draft.replace({"guides": []}), file)
+    runs = tmp_path / "runs"
+    runs.mkdir()
+    log = study._native.log(runs)
+    exact = []
+    draw = random.Random(1)
+    for window in range(0, SAWS, ROWS * WINDOW):
+        # Tasks end in any order.
+        tasks = list(range(window, min(SAWS, window + ROWS * WINDOW), ROWS))
+        for first in draw.sample(tasks, len(tasks)):
+            lines = []
+            for saw in range(first, first + ROWS):
+                value = study._native.values(saw)[0]
+                rpm = critical_rpm(value)
+                kept = str(rpm >= 1250.0 / 0.85).lower()
+                exact.append(rpm)
+                lines.append(f"{saw},{value!r},analysed,{rpm!r},,,{kept},{kept},true,85,0.001,0,\n")
+            assert log.append("".join(lines).encode()) == ROWS
+    log.close()
+    merge = [programs[0], "study", "merge", str(runs), "--out", str(tmp_path / "sum")]
+    said = subprocess.run(
+        [sys.executable, "-c", MERGE, *merge], check=True, capture_output=True, text=True
+    )
+    code, kilobytes = map(int, said.stdout.split())
+    assert code == 0 and kilobytes < 500_000, kilobytes
+    report = json.loads((tmp_path / "sum" / "study.json").read_text())
+    speeds = np.array(exact)
+    # Exact counts and exact quantiles, of whatever is not in memory too.
+    quantiles = report["all"]["lowest_critical"]["quantiles"]
+    found = np.array([q["rpm"] for q in quantiles])
+    shares = [q["share"] for q in quantiles]
+    assert np.allclose(found, np.quantile(speeds, shares), rtol=1e-14, atol=0)
+    assert report["all"]["passing"]["passed"] == np.count_nonzero(speeds >= 1250.0 / 0.85)
+    assert sum(report["all"]["lowest_critical"]["histogram"]["counts"]) == SAWS
+    import pandas as pd
+
+    table = pd.read_parquet(tmp_path / "sum" / "study.parquet")
+    assert np.array_equal(table["saw"], np.arange(SAWS))
+    assert np.array_equal(np.sort(table["lowest_critical_rpm"]), np.sort(speeds))
+    # The first rows as the two others read them, from both tables.
+    polars, duckdb = pytest.importorskip("polars"), pytest.importorskip("duckdb")
+    for name in ("study.parquet", "study.csv"):
+        path = tmp_path / "sum" / name
+        read = polars.read_parquet(path) if name.endswith("parquet") else polars.read_csv(path)
+        assert read["lowest_critical_rpm"].to_list()[:9] == list(table["lowest_critical_rpm"][:9])
+        (row,) = duckdb.sql(f"select count(*), max(lowest_critical_rpm) from '{path}'").fetchall()
+        assert row == (SAWS, speeds.max())
