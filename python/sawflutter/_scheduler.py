@@ -44,6 +44,9 @@ def main(address: str, folder: str) -> int:
     except (AnalysisError, InputError, OSError) as error:
         print(error)
         return 1
+    except KeyboardInterrupt:
+        # Whoever has stopped it knows.
+        return 130
     return 0
 
 

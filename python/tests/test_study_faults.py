@@ -265,6 +265,29 @@ def test_workers_without_this_version_are_refused_before_the_first_task(
     assert logged(tmp_path / "out") == []
 
 
+def test_the_program_computes_on_a_scheduler(
+    study: sf.Study, alone: dict[str, bytes], programs: list[str], tmp_path: Path
+) -> None:
+    study.scene.save(tmp_path / "scene.json")
+    (tmp_path / "tolerances.json").write_text(json.dumps(STUDY))
+    out = [str(tmp_path / name) for name in ("scene.json", "tolerances.json")]
+    with cluster(tmp_path, 1) as (one, _):
+        address = json.loads(one.file.read_text())["address"]
+        for number, program in enumerate(programs):
+            folder = tmp_path / str(number)
+            done = subprocess.run(
+                [program, "study", *out, "--out", str(folder), "--scheduler", address],
+                env={**os.environ, "SAWFLUTTER_PYTHON": sys.executable},
+                check=False,
+                capture_output=True,
+                text=True,
+            )
+            assert done.returncode == 0, done.stderr
+            assert files(folder) == alone
+            assert "1 workers with 1 threads; dashboard http" in done.stderr
+            assert f"{SAWS} of {SAWS} saws" in done.stderr
+
+
 # Two kinds of processors, one on each worker.
 PROCESSOR = """
 import os

@@ -8,13 +8,13 @@
 
 use super::distribution::Distribution;
 use super::file::{LimitsFile, StudyError, StudyFile};
-use super::sequence::{DIMENSIONS, POINTS, even};
+use super::sequence::{DIMENSIONS, even};
 use crate::check::{Criterion, Limits};
 use crate::scene::{MAX_RPM, Parameter, Scene, SceneFile, SpeedRange, rad_per_s};
 use crate::stability::ChosenBasis;
 
-/// Saws of a study: the points there are, and a log of 600 GB.
-const MAX_SAWS: usize = POINTS as usize;
+/// Saws of a study: as many as there are points but one, and a log of 600 GB.
+const MAX_SAWS: usize = u32::MAX as usize;
 /// Quantiles that a report lists.
 const MAX_QUANTILES: usize = 100;
 /// Confidence below this is none; above, more saws are needed than a study has.

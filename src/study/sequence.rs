@@ -13,7 +13,8 @@ const BLOCK: u64 = 1 << 16;
 /// Numbers of a point.
 pub(super) const DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
 /// Points of a sequence.
-pub(super) const POINTS: u64 = 1 << 32;
+#[cfg(test)]
+const POINTS: u64 = 1 << 32;
 /// Half a step of the sequence's 24 bits: its numbers begin at 0, ours lie within 0 and 1.
 const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
 /// 2³² over the golden ratio. Its multiples up to 2¹⁶ stay as far as possible from each other and
