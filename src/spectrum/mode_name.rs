@@ -155,14 +155,18 @@ fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
             backward += squares[1];
         }
     }
-    if mode.kind == ModeKind::Negative {
+    let has_negative_energy =
+        mode.kind == ModeKind::Negative || (mode.kind == ModeKind::Damped && mode.action < 0);
+    if has_negative_energy {
         Direction::Reflected
     } else if (forward - backward).abs() < STANDING * all {
         Direction::Standing
     } else if backward > forward {
         Direction::Backward
     } else if dominant.body_frequency(mode) < 0.0 {
-        Direction::Reflected
+        // Forward in space and backward on the blade as a reflected wave is, but the energy of the
+        // whole motion is positive: other waves in it outweigh this one.
+        Direction::Standing
     } else {
         Direction::Forward
     }

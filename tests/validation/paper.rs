@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use crate::common::{Worst, assert_close, of_diameters, reference_model, relative_error, scene};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
-use sawflutter::spectrum::{ModeKind, SpectralModel};
+use sawflutter::spectrum::{DescribedMode, Direction, ModeKind, SpectralModel};
 use sawflutter::stability::{Analysis, InstabilityKind};
 use serde::Deserialize;
 
@@ -384,5 +384,24 @@ fn nothing_grows_below_the_first_critical_speed() {
                 "{share} of the critical speed"
             );
         }
+    }
+}
+
+/// A reflected wave is the one whose energy in space is negative: its name and its Krein sign say
+/// the same at every speed.
+#[test]
+fn a_mode_is_called_reflected_where_its_krein_sign_is_negative() {
+    let samples = &guided().chart.campbell.samples;
+    let modes = || samples.iter().flat_map(|sample| &sample.modes);
+    let is_reflected = |m: &&DescribedMode| m.name.direction == Direction::Reflected;
+    assert!(modes().filter(is_reflected).count() > 100);
+    for described in modes() {
+        let is_negative = described.mode.krein_sign() < 0;
+        assert_eq!(
+            is_reflected(&described),
+            is_negative,
+            "{:?}",
+            described.name
+        );
     }
 }
