@@ -126,10 +126,16 @@ impl<'a> Numbered<'a> {
         let candidates = beside.flat_map(|index| {
             let modes = samples[index].modes.iter().enumerate();
             let own = modes.filter(|(_, m)| m.mode.component == critical.component);
-            own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), (index, k)))
+            own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), m, (index, k)))
         });
-        let best = candidates.max_by(|x, y| x.0.total_cmp(&y.0))?;
-        self.at(best.1).filter(|_| best.0 >= LEAST_LIKENESS)
+        let candidates: Vec<_> = candidates.collect();
+        let best = candidates.iter().map(|c| c.0).fold(0.0, f64::max);
+        // The two waves of a harmonic of a free blade have one shape; the one that stands still is
+        // that whose frequency vanishes.
+        let alike = candidates.iter().filter(|c| c.0 >= ALIKE * best);
+        let found =
+            alike.min_by(|x, y| x.1.mode.lambda.norm().total_cmp(&y.1.mode.lambda.norm()))?;
+        self.at(found.2).filter(|_| found.0 >= LEAST_LIKENESS)
     }
 
     fn campbell(&self) -> &'a Campbell {
@@ -208,6 +214,9 @@ impl BranchName {
         }
     }
 }
+
+/// Share of the largest likeness from which on shapes are alike.
+const ALIKE: f64 = 0.8;
 
 /// |xᵀq|² of a wave that stands and a mode, both of length one.
 fn standing_likeness(

@@ -181,6 +181,26 @@ fn the_free_blade_is_never_unstable() {
     assert!(reflected > 0);
 }
 
+/// The frequency of the branch that a critical speed is said to belong to vanishes there.
+#[test]
+fn critical_speeds_of_the_free_blade_belong_to_backward_waves() {
+    let report = Analysis::new(&scene("free-blade")).unwrap();
+    let report = report.report().unwrap();
+    assert!(!report.critical_speeds.is_empty());
+    for critical in &report.critical_speeds {
+        let number = critical.branch.expect("it has a branch");
+        let branch = &report.campbell.branches[number - 1];
+        assert!(branch.name.ends_with("backward"), "{}", branch.name);
+        let below = branch.rpm.partition_point(|rpm| *rpm < critical.rpm);
+        let places = below.saturating_sub(1)..branch.rpm.len().min(below + 1);
+        let least_hz = branch.frequency_hz[places]
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+        assert!(least_hz < 1.0, "{} rpm: {least_hz} Hz", critical.rpm);
+    }
+}
+
 // The guided saw: scenes/paper.json, its pad calibrated on Table 5.
 
 fn guided() -> &'static Analysis {
