@@ -3,15 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::counts::Counts;
 use super::distribution::Distribution;
 use super::order::Values;
 use super::plan::Study;
 use super::report::{
-    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, Reliability,
-    ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
+    GridEntry, Group, Quantile, Refusal, Reliability, ReliabilityPoint, StudyReport, WorstSaw,
 };
 use super::saw::{Found, Outcome, Saw};
-use super::statistics::interval;
 use crate::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
@@ -21,8 +20,6 @@ const LISTED: usize = 20;
 const WORST: usize = 10;
 /// Points of the grid of which the report says more than the sum.
 const MAX_GROUPS: usize = 10_000;
-/// Most bars of a histogram that can be told apart.
-const MOST_BARS: usize = 40;
 /// Points of the curve of reliability.
 const CURVE: usize = 61;
 /// Shares of the saws that are to run, of which the speed is listed.
@@ -49,7 +46,7 @@ impl<'a> Tally<'a> {
         Tally {
             study,
             folder: folder.to_owned(),
-            all: Counts::new(study, folder),
+            all: Counts::new(study, Vec::new(), folder),
             group: None,
             groups: Vec::new(),
             allowed: Values::new(folder),
@@ -96,10 +93,9 @@ impl<'a> Tally<'a> {
             return Ok(());
         }
         let folder = &self.folder;
-        let group = self.group.get_or_insert_with(|| Counts {
-            grid: place(study, saw),
-            ..Counts::new(study, folder)
-        });
+        let group = self
+            .group
+            .get_or_insert_with(|| Counts::new(study, place(study, saw), folder));
         group.add(saw)?;
         if group.saws == drawn
             && let Some(group) = self.group.take()
@@ -238,144 +234,4 @@ fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
             value: *value,
         })
         .collect()
-}
-
-/// Saws that belong together.
-struct Counts<'a> {
-    study: &'a Study,
-    grid: Vec<GridEntry>,
-    saws: usize,
-    refused: usize,
-    failed: usize,
-    lowest_critical: Values,
-    flutter: Values,
-    passed: usize,
-    kept: Vec<usize>,
-}
-
-impl<'a> Counts<'a> {
-    fn new(study: &'a Study, folder: &Path) -> Self {
-        Counts {
-            study,
-            grid: Vec::new(),
-            saws: 0,
-            refused: 0,
-            failed: 0,
-            lowest_critical: Values::new(folder),
-            flutter: Values::new(folder),
-            passed: 0,
-            kept: vec![0; study.criteria_of_nothing().len()],
-        }
-    }
-
-    fn add(&mut self, saw: &Saw) -> io::Result<()> {
-        self.saws += 1;
-        let found = match &saw.outcome {
-            Outcome::Analysed(found) => found,
-            Outcome::Refused(_) => {
-                self.refused += 1;
-                return Ok(());
-            }
-            Outcome::Failed(_) => {
-                self.failed += 1;
-                return Ok(());
-            }
-        };
-        self.passed += usize::from(found.passed() == Some(true));
-        for (count, kept) in self.kept.iter_mut().zip(&found.kept) {
-            *count += usize::from(*kept);
-        }
-        let speeds = [
-            (&mut self.lowest_critical, found.lowest_critical_rpm),
-            (&mut self.flutter, found.flutter_rpm),
-        ];
-        for (values, speed) in speeds {
-            if let Some(rpm) = speed {
-                values.push(rpm)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn analysed(&self) -> usize {
-        self.saws - self.refused - self.failed
-    }
-
-    fn report(mut self) -> io::Result<Group> {
-        let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
-        let passing = self.study.limits().map(|_| self.passing());
-        Ok(Group {
-            grid: self.grid,
-            saws: self.saws,
-            refused: self.refused,
-            failed: self.failed,
-            lowest_critical: speed(&mut self.lowest_critical, analysed, shares)?,
-            flutter: speed(&mut self.flutter, analysed, shares)?,
-            passing,
-        })
-    }
-
-    fn passing(&self) -> Passing {
-        let (study, saws) = (self.study, self.saws);
-        let confidence = study.file().confidence;
-        // In several points of the grid the deviations are the same, so that saws are not
-        // independent.
-        let is_drawn = study.file().saws.is_some() && saws == study.drawn();
-        let criteria = study.criteria_of_nothing().into_iter().zip(&self.kept);
-        Passing {
-            passed: self.passed,
-            probability: self.passed as f64 / saws.max(1) as f64,
-            confidence,
-            interval: is_drawn.then(|| interval(self.passed, saws, confidence)),
-            criteria: criteria
-                .map(|(criterion, passed)| CriterionEntry {
-                    key: criterion.key.to_owned(),
-                    name: criterion.name.to_owned(),
-                    asked_rpm: rpm(criterion.asked),
-                    passed: *passed,
-                })
-                .collect(),
-        }
-    }
-}
-
-fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedEntry> {
-    let beyond = analysed - values.count();
-    let median = values.quantiles(beyond, &[0.5])?;
-    let found = values.quantiles(beyond, shares)?;
-    let quantiles = shares.iter().zip(found);
-    Ok(SpeedEntry {
-        saws: values.count(),
-        beyond,
-        median_rpm: median[0],
-        quantiles: quantiles
-            .map(|(&share, rpm)| Quantile { share, rpm })
-            .collect(),
-        histogram: histogram(values)?,
-    })
-}
-
-/// Twice the cube root of the number of saws makes the bars (Rice's rule): their heights
-/// scatter as little as their number allows.
-fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
-    let Some((from, to)) = values.range() else {
-        return Ok(None);
-    };
-    let bars = (2.0 * (values.count() as f64).cbrt()).round() as usize;
-    let bars = bars.clamp(1, MOST_BARS);
-    let mut counts = vec![0; bars];
-    values.each(&mut |rpm| {
-        // A range without length is one bar.
-        let share = if to > from {
-            (rpm - from) / (to - from)
-        } else {
-            0.0
-        };
-        counts[((share * bars as f64) as usize).min(bars - 1)] += 1;
-    })?;
-    Ok(Some(Histogram {
-        from_rpm: from,
-        to_rpm: to,
-        counts,
-    }))
 }
