@@ -12,7 +12,7 @@ pub use self::criteria::{CutCriterion, CutCriterionEntry, Verdict};
 use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
-use crate::scene::{Scene, SceneFile, unusual};
+use crate::scene::{Scene, SceneFile, unusual, unusual_number};
 use crate::transient::{
     CutHistory, Cutting, CuttingRun, LINEAR_THICKNESSES, ToothPassing, VerdictMap,
 };
@@ -170,11 +170,26 @@ impl CutReport {
                 .collect(),
             warnings: unusual(scene.file())
                 .into_iter()
+                .chain(unusual_speeds(scene, cutting))
                 .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
                 .collect(),
             runs,
         }
     }
+}
+
+/// Warnings of speeds that the scene does not name, in another unit perhaps.
+fn unusual_speeds(scene: &Scene, cutting: &Cutting) -> Vec<String> {
+    let named = |rpm: f64| {
+        scene
+            .cut()
+            .is_some_and(|cut| cut.runs.iter().any(|r| r.rpm == rpm))
+    };
+    let speeds = cutting.runs.iter().map(|run| run.history.run.rpm);
+    let asked = speeds.filter(|rpm| !named(*rpm));
+    asked
+        .filter_map(|rpm| unusual_number("the speed of the cut", "cut.speeds[].rpm", rpm))
+        .collect()
 }
 
 impl CutRunEntry {

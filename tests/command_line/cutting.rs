@@ -58,6 +58,16 @@ fn a_speed_of_ones_own_replaces_the_scenes() {
     assert_eq!(report.scene.accuracy, Accuracy::Draft);
 }
 
+/// 1.8 for 1800.
+#[test]
+fn a_speed_in_another_unit_is_warned_of() {
+    let folder = TempDir::new().unwrap();
+    let output = run(&["cut", "--rpm", "1.8", "--json"], &folder);
+    let report: CutReport = serde_json::from_slice(&output.stdout).unwrap();
+    let warned = |w: &String| w.contains("thousands of rpm? That would be 1800 rpm");
+    assert!(report.warnings.iter().any(warned), "{:?}", report.warnings);
+}
+
 #[test]
 fn a_run_up_tells_of_every_band_it_passes() {
     let folder = TempDir::new().unwrap();
