@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
-use super::sum::Table;
+use super::table::Table;
 
 /// Names of the outcomes in the column `status`.
 pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];

@@ -42,6 +42,7 @@ mod saw;
 mod sequence;
 mod statistics;
 mod sum;
+mod table;
 mod tally;
 
 pub use csv::CsvTable;
@@ -60,4 +61,5 @@ pub use report::{
 pub use rows::Rows;
 pub use run::run;
 pub use saw::{Found, Outcome, Saw};
-pub use sum::{Table, sum_up};
+pub use sum::sum_up;
+pub use table::Table;

@@ -15,7 +15,7 @@ use super::csv::{STATUS, columns};
 use super::inputs::Inputs;
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
-use super::sum::Table;
+use super::table::Table;
 
 /// A column; saws that were not analysed have none of its values.
 enum Column {

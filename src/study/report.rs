@@ -4,9 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::StudyFile;
-use super::plan::Study;
-use super::saw::Saw;
-use super::tally::Tally;
 use crate::scene::SceneFile;
 
 /// Quantiles and probabilities of a study, and what it was asked.
@@ -193,17 +190,4 @@ pub struct Refusal {
     pub saw: usize,
     /// Why.
     pub reason: String,
-}
-
-impl StudyReport {
-    /// Sums up the saws of a study, in the order of their numbers. Those of logs are summed up by
-    /// [`super::sum_up`], whatever their number.
-    ///
-    /// # Errors
-    /// Of more than a million saws, what the folder for temporary files raises.
-    pub fn new(study: &Study, saws: &[Saw]) -> std::io::Result<Self> {
-        let mut tally = Tally::new(study, &std::env::temp_dir());
-        saws.iter().try_for_each(|saw| tally.add(saw))?;
-        tally.report(Vec::new())
-    }
 }

@@ -1,28 +1,12 @@
 //! From the logs to the tables of the saws and their sum, in one pass and bounded memory.
 
-use std::io;
 use std::path::Path;
 
 use super::log::LogError;
 use super::report::StudyReport;
 use super::rows::Rows;
-use super::saw::Saw;
+use super::table::Table;
 use super::tally::Tally;
-
-/// A file that saws are written to, in the order of their numbers.
-pub trait Table {
-    /// Adds the next saws.
-    ///
-    /// # Errors
-    /// What writing raises.
-    fn add(&mut self, saws: &[Saw]) -> io::Result<()>;
-
-    /// Ends the file.
-    ///
-    /// # Errors
-    /// What writing raises.
-    fn finish(self: Box<Self>) -> io::Result<()>;
-}
 
 /// Writes the tables of all saws and sums them up. `folder` takes what does not fit into memory;
 /// nothing stays there.

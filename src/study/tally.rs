@@ -235,3 +235,16 @@ fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
         })
         .collect()
 }
+
+impl StudyReport {
+    /// Sums up the saws of a study, in the order of their numbers. Those of logs are summed up by
+    /// [`super::sum_up`], whatever their number.
+    ///
+    /// # Errors
+    /// Of more than a million saws, what the folder for temporary files raises.
+    pub fn new(study: &Study, saws: &[Saw]) -> std::io::Result<Self> {
+        let mut tally = Tally::new(study, &std::env::temp_dir());
+        saws.iter().try_for_each(|saw| tally.add(saw))?;
+        tally.report(Vec::new())
+    }
+}
