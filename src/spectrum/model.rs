@@ -98,59 +98,51 @@ impl SpectralModel {
             cancellation: Cancellation::current(),
             ..WorkCounters::default()
         };
-        let mut components = Component::of(&plate);
-        let (mut complete_to_rad_per_s, mut unsettled_rad_per_s) = (f64::INFINITY, 0.0);
-        if strategy != Strategy::Dense {
-            let scale = frequency_scale(&plate);
-            // Harmonics that nothing couples are small enough to be solved whole.
-            let coupled = components.iter_mut().filter(|_| !plate.is_axisymmetric());
-            for component in coupled {
-                let bands_alone = match strategy == Strategy::Bands {
-                    true => guided_reduction::for_bands(
-                        &component.full,
-                        range,
-                        scale,
-                        &critical,
-                        &counters,
-                    )?,
-                    false => None,
-                };
-                if let Some(found) = bands_alone {
-                    component.chart = vec![found.low.clone()];
-                    component.low = Some((found.low, found.low_rad_per_s));
-                    complete_to_rad_per_s = found.low_rad_per_s;
-                    unsettled_rad_per_s = found.unsettled_rad_per_s;
-                } else {
-                    let found = guided_reduction::of_guided(
-                        &component.full,
-                        range,
-                        scale,
-                        &critical,
-                        &counters,
-                    )?;
-                    component.chart = found.chart;
-                    component.low = found.low.map(|low| (low, found.low_rad_per_s));
-                    complete_to_rad_per_s = found.chart_rad_per_s;
-                    unsettled_rad_per_s = found.unsettled_rad_per_s;
-                }
-            }
-        }
-        let conservative = components
-            .iter()
-            .all(|component| component.full.is_conservative());
+        let components = Component::of(&plate);
+        let conservative = components.iter().all(|c| c.full.is_conservative());
         let mut model = SpectralModel {
             has_free_waves: strategy != Strategy::Dense && plate.is_axisymmetric() && conservative,
             plate,
             components,
             critical,
-            complete_to_rad_per_s,
-            unsettled_rad_per_s,
+            complete_to_rad_per_s: f64::INFINITY,
+            unsettled_rad_per_s: 0.0,
             counters,
         };
+        // Harmonics that nothing couples are small enough to be solved whole.
+        if strategy != Strategy::Dense && !model.plate.is_axisymmetric() {
+            model.reduce(range, strategy)?;
+        }
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
         }
         Ok(model)
+    }
+
+    /// Projects each component on the low modes of a few speeds.
+    fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+        let scale = frequency_scale(&self.plate);
+        let (critical, counters) = (&self.critical, &self.counters);
+        for component in &mut self.components {
+            let system = &component.full;
+            let bands_alone = match strategy == Strategy::Bands {
+                true => guided_reduction::for_bands(system, range, scale, critical, counters)?,
+                false => None,
+            };
+            if let Some(found) = bands_alone {
+                component.chart = vec![found.low.clone()];
+                component.low = Some((found.low, found.low_rad_per_s));
+                self.complete_to_rad_per_s = found.low_rad_per_s;
+                self.unsettled_rad_per_s = found.unsettled_rad_per_s;
+            } else {
+                let found = guided_reduction::of_guided(system, range, scale, critical, counters)?;
+                component.chart = found.chart;
+                component.low = found.low.map(|low| (low, found.low_rad_per_s));
+                self.complete_to_rad_per_s = found.chart_rad_per_s;
+                self.unsettled_rad_per_s = found.unsettled_rad_per_s;
+            }
+        }
+        Ok(())
     }
 
     /// Every critical speed of a plate, ascending, without preparing anything else.

@@ -125,3 +125,23 @@ fn a_follower_load_is_neither_symmetrised_nor_called_conservative() {
     assert!(modes.iter().all(|mode| mode.kind == ModeKind::Damped));
     assert!(modes.iter().all(|mode| mode.krein_sign() == 0));
 }
+
+/// A matrix without symmetry that is added as a stiffness keeps what has no potential.
+#[test]
+fn a_stiffness_without_symmetry_is_not_symmetrised_by_accident() {
+    struct Coupled;
+    impl Contact for Coupled {
+        fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
+            let order = plate.degrees_of_freedom();
+            let entry = |i, k| if (i, k) == (0, 1) { 2e3 } else { 0.0 };
+            terms.add_stiffness(&Mat::from_fn(order, order, entry));
+        }
+    }
+    let plate = sprung(1e5);
+    let before = GyroscopicSystem::of_plate(&plate).stiffness_at(0.0);
+    let touched = plate.with_contact(&Coupled);
+    assert!(!touched.is_conservative());
+    let change = GyroscopicSystem::of_plate(&touched).stiffness_at(0.0) - before;
+    let rounding = 1e-9 * change.norm_max();
+    assert!((change[(0, 1)] - 2e3).abs() < rounding && change[(1, 0)].abs() < rounding);
+}

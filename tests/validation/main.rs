@@ -16,6 +16,7 @@ mod heat_limits;
 mod membrane;
 mod moving_loads;
 mod paper;
+mod paper_free_blade;
 mod rigid_motions;
 mod saws;
 mod sensitivity;

@@ -23,15 +23,20 @@ pub struct ContactTerms {
 }
 
 impl ContactTerms {
-    /// Stiffness K_g, in 1/s², symmetric: of what is added the symmetric part counts, which is
-    /// all of it but for rounding.
+    /// Stiffness K_g, in 1/s². What of it is not symmetric beyond rounding has no potential, and
+    /// goes where [`ContactTerms::add_nonconservative_stiffness`] puts it.
     pub fn add_stiffness(&mut self, term: &Mat<f64>) {
-        add(&mut self.stiffness, symmetric(term));
+        let symmetric = Scale(0.5) * (term + term.transpose());
+        let skew = term - &symmetric;
+        if skew.norm_max() > ROUNDING * term.norm_max() {
+            add(&mut self.nonconservative, skew);
+        }
+        add(&mut self.stiffness, symmetric);
     }
 
-    /// Damping C, in 1/s, symmetric as the stiffness is.
+    /// Damping C, in 1/s, symmetric.
     pub fn add_damping(&mut self, term: &Mat<f64>) {
-        add(&mut self.damping, symmetric(term));
+        add(&mut self.damping, term.clone());
     }
 
     /// Forces that follow the deflection without a potential, K_n in 1/s², of any symmetry:
@@ -75,13 +80,12 @@ impl ContactTerms {
     }
 }
 
+/// Share of the largest number of a matrix below which a difference is rounding.
+const ROUNDING: f64 = 1e-12;
+
 fn add(sum: &mut Option<Mat<f64>>, term: Mat<f64>) {
     *sum = Some(match sum.take() {
         Some(sum) => sum + term,
         None => term,
     });
-}
-
-fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
-    Scale(0.5) * (matrix + matrix.transpose())
 }
