@@ -1,6 +1,6 @@
 //! Two modes next to each other, refined on the system that they are modes of.
 
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::{Col, Mat, Scale, c64};
 
 use crate::system::GyroscopicSystem;
@@ -147,33 +147,22 @@ impl ModePair {
     }
 }
 
-/// Gram–Schmidt on two complex states (q, v/scale).
+/// Makes two complex states orthonormal in (q, v/scale).
 fn orthonormalise(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> {
-    let product = |q: &Mat<c64>, v: &Mat<c64>, i: usize, k: usize| {
-        let deflections = q.col(i).adjoint() * q.col(k);
-        let velocities: c64 = v.col(i).adjoint() * v.col(k);
-        deflections + velocities / (scale * scale)
-    };
-    for k in 0..2 {
-        if k == 1 {
-            let share = product(q, v, 0, 1);
-            for m in [&mut *q, &mut *v] {
-                for i in 0..m.nrows() {
-                    let first = m[(i, 0)];
-                    m[(i, 1)] -= share * first;
-                }
-            }
-        }
-        let norm = product(q, v, k, k).re.sqrt();
-        if !norm.is_finite() || norm == 0.0 {
-            return None;
-        }
-        for m in [&mut *q, &mut *v] {
-            for i in 0..m.nrows() {
-                m[(i, k)] /= norm;
-            }
-        }
+    let order = q.nrows();
+    let stacked = Mat::from_fn(2 * order, 2, |i, k| match i.checked_sub(order) {
+        Some(i) => v[(i, k)] / scale,
+        None => q[(i, k)],
+    });
+    let qr = stacked.qr();
+    let upper = qr.thin_R();
+    let sound = |k: usize| upper[(k, k)].norm() > 0.0 && upper[(k, k)].is_finite();
+    if !(sound(0) && sound(1)) {
+        return None;
     }
+    let basis = qr.compute_thin_Q();
+    *q = basis.get(..order, ..).to_owned();
+    *v = Scale(c64::new(scale, 0.0)) * basis.get(order.., ..);
     Some(())
 }
 
@@ -187,8 +176,7 @@ fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>
     let force = re + Scale(c64::new(0.0, 1.0)) * im + damping * v;
     // Coefficients of v in q by least squares are those of −force in v, if it is an
     // invariant subspace: v = qB, −force = vB.
-    let gram: Mat<c64> = q.adjoint() * q;
-    let coefficients = gram.partial_piv_lu().solve(q.adjoint() * v);
+    let coefficients = q.qr().solve_lstsq(v);
     let left: Mat<c64> = &force + v * &coefficients;
     let kinematic: Mat<c64> = v - q * &coefficients;
     let size = force.norm_l2().max(f64::MIN_POSITIVE);

@@ -1,5 +1,7 @@
 //! Cubic interpolation between two speeds.
 
+use super::root::share_of_zero;
+
 /// Cubic Hermite polynomial on [0, 1]: values and slopes at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic {
@@ -51,18 +53,9 @@ impl Cubic {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// A zero in [0, 1] where the ends differ in sign, to the digits that a guess needs.
+    /// A zero in [0, 1] where the ends differ in sign.
     pub fn sign_change(&self) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..24 {
-            let middle = 0.5 * (low + high);
-            if self.at(middle) * self.values[0] > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+        share_of_zero(|t| self.at(t))
     }
 }
 

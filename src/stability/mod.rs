@@ -18,6 +18,7 @@ mod matching;
 mod maximum;
 mod onsets;
 mod pair_continuation;
+mod root;
 mod search;
 mod sensitivity;
 mod signature;

@@ -97,11 +97,17 @@ impl Signature {
         order
     }
 
-    /// k_real + 2 k_flutter + 2 k_negative: by Krein's theory the number of negative eigenvalues
-    /// of K(Ω).
+    /// By Krein's theory the number of negative eigenvalues of K(Ω), see
+    /// [`ModeKind::krein_index`].
     pub fn krein_index(&self) -> usize {
         let negative = self.waves.iter().filter(|w| w.sign == Sign::Minus).count();
-        self.real.len() + 2 * self.quadruples.len() + 2 * negative
+        let counts = [
+            (ModeKind::Divergent, self.real.len()),
+            (ModeKind::Flutter, self.quadruples.len()),
+            (ModeKind::Negative, negative),
+        ];
+        let share = |(kind, count): (ModeKind, usize)| kind.krein_index() * count;
+        counts.into_iter().map(share).sum()
     }
 
     /// Largest growth of a divergent mode.

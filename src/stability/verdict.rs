@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
+use super::root::share_of_zero;
 
 /// What becomes of a saw at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -177,19 +178,11 @@ fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     cubic.at(share)
 }
 
-/// Speed between two points of a curve at which Re λ has a value, by bisection.
+/// Speed between two points of a curve at which Re λ has a value.
 fn crossing(pair: &[CurvePoint], value: f64) -> f64 {
-    let rises = pair[0].lambda.re < value;
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        match (growth_between(pair, middle) < value) == rises {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
+    let share = share_of_zero(|share| growth_between(pair, share) - value);
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
-    pair[0].speed_rad_per_s + high * width
+    pair[0].speed_rad_per_s + share * width
 }
 
 #[cfg(test)]

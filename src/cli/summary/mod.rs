@@ -7,6 +7,8 @@ mod whirl;
 
 use std::fmt::Write;
 
+use textwrap::{Options, WordSeparator, WordSplitter};
+
 use crate::report::{Report, RestMode};
 
 /// Lines of a table before the rest is only counted.
@@ -114,16 +116,10 @@ pub fn shortened(line: &str, width: usize) -> String {
 
 /// Breaks a sentence into lines at spaces.
 pub fn wrapped(sentence: &str) -> String {
-    let mut lines = vec![String::new()];
-    for word in sentence.split(' ') {
-        let last = lines.last_mut().expect("there is always a line");
-        if last.is_empty() {
-            *last = word.to_owned();
-        } else if last.chars().count() + 1 + word.chars().count() <= WIDTH {
-            *last += &format!(" {word}");
-        } else {
-            lines.push(format!("  {word}"));
-        }
-    }
-    lines.join("\n")
+    let at_spaces = Options::new(WIDTH)
+        .subsequent_indent("  ")
+        .word_separator(WordSeparator::AsciiSpace)
+        .word_splitter(WordSplitter::NoHyphenation)
+        .break_words(false);
+    textwrap::fill(sentence, at_spaces)
 }

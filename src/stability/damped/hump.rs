@@ -1,6 +1,7 @@
 //! Bands of a damped blade from the paths of its eigenvalues.
 
 use super::super::band::{CurvePoint, Instability, InstabilityKind};
+use super::super::root::{Look, bracketed};
 use super::link::between;
 use super::spectrum::{Eigenvalue, Solver, Spectrum};
 use super::trace::Path;
@@ -145,47 +146,22 @@ fn with_extrema(
     Ok(full)
 }
 
-/// The point between two points of a path at which a number of it is zero, by false position.
+/// The point between two points of a path at which a number of it is zero.
 fn root(
     solver: &Solver<'_>,
     component: usize,
-    [mut low, mut high]: [CurvePoint; 2],
+    ends: [CurvePoint; 2],
     number: impl Fn(&CurvePoint) -> f64,
 ) -> Result<CurvePoint, SpectrumError> {
-    let (mut at_low, mut at_high) = (number(&low), number(&high));
-    let mut best = if at_low.abs() < at_high.abs() {
-        low
-    } else {
-        high
+    let look = |point: CurvePoint| Look {
+        at: point.speed_rad_per_s,
+        value: number(&point),
+        point,
     };
-    for step in 0..40 {
-        let width = high.speed_rad_per_s - low.speed_rad_per_s;
-        if width.abs() <= SPEED_TOLERANCE * high.speed_rad_per_s.abs() || number(&best) == 0.0 {
-            break;
-        }
-        let share = match step % 4 == 3 {
-            true => 0.5,
-            false => (at_low / (at_low - at_high)).clamp(1e-3, 0.999),
-        };
-        let found = between_points(solver, component, [low, high], share)?;
-        let value = number(&found);
-        let moves = (found.speed_rad_per_s - best.speed_rad_per_s).abs();
-        if value.abs() <= number(&best).abs() {
-            best = found;
-        }
-        // Illinois: an end that stays counts half.
-        if (value < 0.0) == (number(&high) < 0.0) {
-            (high, at_high) = (found, value);
-            at_low *= 0.5;
-        } else {
-            (low, at_low) = (found, value);
-            at_high *= 0.5;
-        }
-        if moves <= SPEED_TOLERANCE * found.speed_rad_per_s.abs() {
-            break;
-        }
-    }
-    Ok(best)
+    let found = bracketed(ends.map(look), SPEED_TOLERANCE, |ends, share| {
+        between_points(solver, component, ends, share).map(look)
+    })?;
+    Ok(found.point)
 }
 
 /// The point of a path at a share of the way between two of its points.

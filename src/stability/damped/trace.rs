@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 
+use super::super::root::share_of_zero;
 use super::link::{LAST, Link, Pair, STRICT};
 use super::spectrum::{Solver, Spectrum};
 use crate::spectrum::SpectrumError;
@@ -122,19 +123,11 @@ fn place_to_look(pairs: &[Pair]) -> Option<f64> {
 fn crossing(plus: &Pair, minus: &Pair) -> Option<f64> {
     const END: f64 = 1e-3;
     let apart = |share: f64| plus.at(share).im - minus.at(share).im;
-    let (mut low, mut high) = (0.0, 1.0);
-    let rises = apart(low) < 0.0;
-    if (apart(high) < 0.0) == rises {
+    if (apart(0.0) < 0.0) == (apart(1.0) < 0.0) {
         return None;
     }
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        match (apart(middle) < 0.0) == rises {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    (END..1.0 - END).contains(&low).then_some(low)
+    let share = share_of_zero(apart);
+    (END..1.0 - END).contains(&share).then_some(share)
 }
 
 /// One eigenvalue over speed: (index of the spectrum, index in it), a spectrum each.
