@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Freed, Scene, SceneError, SceneFile, scene_at};
-use crate::spectrum::{Component, LowestModes, Mode, SpectrumError, derivative};
+use crate::spectrum::{
+    Component, Differences, LowestModes, Mode, SpectrumError, derivative, matrix_slopes,
+};
 use crate::system::GyroscopicSystem;
 
 use super::Measurement;
@@ -43,9 +45,8 @@ impl Model<'_> {
         self.residuals_of(&lowest, |_, _| ())
     }
 
-    /// The same as [`Model::residuals_hz`] with its derivative by every share, exact in the eigenvalues; the matrices are
-    /// differentiated by differences of the assembly, as in
-    /// [`sensitivities`](crate::stability::sensitivities).
+    /// The same as [`Model::residuals_hz`] with its derivative by every share, exact in the eigenvalues, see
+    /// [`matrix_slopes`].
     pub fn residuals_and_slopes(
         &self,
         shares: &[f64],
@@ -110,45 +111,17 @@ impl Model<'_> {
         shares: &[f64],
         k: usize,
     ) -> Result<Vec<GyroscopicSystem>, SceneError> {
-        let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
-        for (place, weight) in stencil(shares[k]) {
+        // Past a bound a value may be refused.
+        let differences = match shares[k] {
+            share if share < 2.0 * STEP => Differences::Above,
+            share if share > 1.0 - 2.0 * STEP => Differences::Below,
+            _ => Differences::Central,
+        };
+        matrix_slopes(STEP, differences, |by| {
             let mut shares = shares.to_vec();
-            shares[k] += place * STEP;
-            let components = Component::of(&self.plate(&shares)?);
-            moved.resize_with(components.len(), Vec::new);
-            for (terms, component) in moved.iter_mut().zip(components) {
-                terms.push((weight / STEP, component.full));
-            }
-        }
-        let combined = moved
-            .iter()
-            .map(|terms| GyroscopicSystem::combination(terms));
-        Ok(combined.flatten().collect())
-    }
-}
-
-/// Central differences of fourth order; of third order, and one-sided, at a bound, past which
-/// a value may be refused.
-fn stencil(share: f64) -> [(f64, f64); 4] {
-    let twelfth = 1.0 / 12.0;
-    let central = [
-        (-2.0, twelfth),
-        (-1.0, -8.0 * twelfth),
-        (1.0, 8.0 * twelfth),
-        (2.0, -twelfth),
-    ];
-    let forward = [
-        (0.0, -11.0 / 6.0),
-        (1.0, 3.0),
-        (2.0, -1.5),
-        (3.0, 1.0 / 3.0),
-    ];
-    if share < 2.0 * STEP {
-        forward
-    } else if share > 1.0 - 2.0 * STEP {
-        forward.map(|(place, weight)| (-place, -weight))
-    } else {
-        central
+            shares[k] += by;
+            self.plate(&shares)
+        })
     }
 }
 

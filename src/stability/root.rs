@@ -13,19 +13,17 @@ pub struct Look<P> {
     pub point: P,
 }
 
-/// False position converges on one side only where the function is bent; the Illinois rule and
-/// a bisection now and then bound the number of looks whatever its shape.
-const BISECTED: usize = 4;
-/// Bisections alone would reach any tolerance above rounding with as many.
+/// Bisections alone would reach any tolerance above rounding with a quarter of as many.
 const MOST_LOOKS: usize = 4 * 53;
-/// A step of false position stays so far from both ends, as a share of the interval.
-const FROM_END: f64 = 1e-3;
 
-/// The look next to a zero, by the Illinois variant of false position (Dowell and Jarratt,
-/// BIT 11, 1971) with safeguards. `look` is given the two ends and the share of the way between
-/// them. Ends of one sign give the one of the smaller value.
+/// The look next to a zero, by Chandrupatla's method: inverse quadratic interpolation where the
+/// function is seen to be smooth enough for it, bisection elsewhere (*A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using
+/// derivatives*, Advances in Engineering Software 28, 1997). `look` is given the two ends and
+/// the share of the way from the first to the second. Ends of one sign give the one of the
+/// smaller value.
 ///
-/// It ends where the interval or a step is below `tolerance`, a relative one of the place.
+/// It ends where the interval is below `tolerance`, a relative one of the place.
 ///
 /// # Errors
 /// Those of `look`.
@@ -34,42 +32,46 @@ pub fn bracketed<P: Copy, E>(
     tolerance: f64,
     mut look: impl FnMut([P; 2], f64) -> Result<Look<P>, E>,
 ) -> Result<Look<P>, E> {
-    let [mut low, mut high] = ends;
-    let mut best = if low.value.abs() < high.value.abs() {
-        low
-    } else {
-        high
-    };
-    if (low.value < 0.0) == (high.value < 0.0) {
+    let [mut far, mut last] = ends;
+    let nearer = |x: Look<P>, y: Look<P>| if x.value.abs() < y.value.abs() { x } else { y };
+    let mut best = nearer(far, last);
+    if (far.value < 0.0) == (last.value < 0.0) {
         return Ok(best);
     }
-    // The values that false position sees: an end that stays counts half.
-    let (mut at_low, mut at_high) = (low.value, high.value);
-    for step in 1..=MOST_LOOKS {
-        if (high.at - low.at).abs() <= tolerance * high.at.abs() || best.value == 0.0 {
-            break;
-        }
-        let share = match step % BISECTED == 0 {
-            true => 0.5,
-            false => (at_low / (at_low - at_high)).clamp(FROM_END, 1.0 - FROM_END),
-        };
-        let found = look([low.point, high.point], share)?;
-        let moved = (found.at - best.at).abs();
-        if found.value.abs() <= best.value.abs() {
-            best = found;
-        }
-        if (found.value < 0.0) == (high.value < 0.0) {
-            (high, at_high) = (found, found.value);
-            at_low *= 0.5;
+    let mut share = 0.5;
+    for _ in 0..MOST_LOOKS {
+        let found = look([last.point, far.point], share)?;
+        // The zero stays between `last` and `far`; `before` is the end that was replaced.
+        let before;
+        if (found.value < 0.0) == (last.value < 0.0) {
+            before = last;
         } else {
-            (low, at_low) = (found, found.value);
-            at_high *= 0.5;
+            (before, far) = (far, last);
         }
-        if moved <= tolerance * found.at.abs() {
+        last = found;
+        best = nearer(last, far);
+        let least = 0.5 * tolerance * best.at.abs() / (far.at - last.at).abs();
+        if best.value == 0.0 || least.is_nan() || least > 0.5 {
             break;
         }
+        share = interpolated(last, far, before).clamp(least, 1.0 - least);
     }
     Ok(best)
+}
+
+/// Share of the way from `a` to `b` at which the inverse parabola through three looks is zero,
+/// or a half where it is not sure to rise or fall all the way.
+fn interpolated<P: Copy>(a: Look<P>, b: Look<P>, c: Look<P>) -> f64 {
+    let xi = (a.at - b.at) / (c.at - b.at);
+    let phi = (a.value - b.value) / (c.value - b.value);
+    if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
+        let (fa, fb, fc) = (a.value, b.value, c.value);
+        let straight = fa / (fb - fa) * fc / (fb - fc);
+        let bent = (c.at - a.at) / (b.at - a.at) * fa / (fc - fa) * fb / (fc - fb);
+        straight + bent
+    } else {
+        0.5
+    }
 }
 
 /// The zero on [0, 1] of a function that costs nothing, to rounding. Ends of one sign give the
@@ -81,7 +83,7 @@ pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
         point: share,
     };
     let look = |[low, high]: [f64; 2], share: f64| Ok(at(low + share * (high - low)));
-    let found: Result<_, Infallible> = bracketed([at(0.0), at(1.0)], f64::EPSILON, look);
+    let found: Result<_, Infallible> = bracketed([at(0.0), at(1.0)], 2.0 * f64::EPSILON, look);
     match found {
         Ok(look) => look.at,
     }

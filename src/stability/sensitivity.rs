@@ -1,21 +1,20 @@
 //! How critical speeds, onsets and eigenvalues move with the numbers of the scene.
 //!
-//! The matrices are smooth in every number, so they are differentiated by a
-//! fourth-order central difference of the assembly; the eigenvalues are then
-//! differentiated exactly, with left and right vectors.
+//! The matrices are differentiated by differences of their assembly, see [`matrix_slopes`]; the
+//! eigenvalues are then differentiated exactly, with left and right vectors.
 
 use faer::{Col, c64};
 
 use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
-use crate::scene::{MembraneFile, Scene, SceneError, SceneFile};
-use crate::spectrum::{Component, Mode, SpectrumError, derivative};
+use crate::scene::{Parameter, Scene, SceneError, SceneFile};
+use crate::spectrum::{Differences, Mode, SpectrumError, derivative, matrix_slopes};
 use crate::system::GyroscopicSystem;
 
-/// Relative step of the difference: truncation (1e-3)⁴ and rounding 1e-16/1e-3 are
-/// both below 1e-11.
-const STEP: f64 = 1e-3;
+/// Step of the differences as a share of the change, 1e-3 of the number where that is 1 %:
+/// truncation (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
+const STEP: f64 = 0.1;
 
 /// Effect of one change of the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,21 +35,29 @@ pub struct Sensitivity {
 #[derive(Debug, thiserror::Error)]
 pub enum SensitivityError {
     /// A number stands so close to the edge of what is allowed that it cannot be moved.
-    #[error("a number of the scene cannot be moved by {STEP} to differentiate by it: {0}")]
+    #[error(
+        "a number of the scene cannot be moved by a tenth of a percent to differentiate by it: {0}"
+    )]
     Edge(#[from] SceneError),
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
 }
 
-/// Moves a number of the scene by a multiple of the change asked about.
-type Shift = Box<dyn Fn(&mut SceneFile, f64)>;
+/// A change that is asked about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum By {
+    /// Of the number itself.
+    Percent,
+    /// One unit, in words.
+    One(&'static str),
+}
 
-/// A number of the scene and the change that is asked about.
-struct Parameter {
-    path: String,
-    words: &'static str,
-    shift: Shift,
+/// A number of the scene and the change of it that is asked about.
+struct Variation {
+    parameter: Parameter,
+    value: f64,
+    by: By,
 }
 
 /// Sensitivities of an analysis, most influential on the lowest critical speed first.
@@ -71,8 +78,8 @@ pub fn sensitivities(
         .map(|band| Merging::new(analysis, band))
         .collect::<Result<_, _>>()?;
     let mut all = Vec::new();
-    for parameter in parameters(scene) {
-        let changes = changed_components(scene, &analysis.model.plate, &parameter)?;
+    for variation in Variation::of_scene(scene.file()) {
+        let changes = variation.of_matrices(scene, &analysis.model.plate)?;
         let relative = |merging: &Merging| {
             let system = &analysis.model.components[merging.component].full;
             let change = &changes[merging.component];
@@ -100,8 +107,11 @@ pub fn sensitivities(
                     )
                 })
                 .collect(),
-            parameter: parameter.path,
-            change: parameter.words,
+            parameter: variation.parameter.path().to_owned(),
+            change: match variation.by {
+                By::Percent => "1 %",
+                By::One(unit) => unit,
+            },
         });
     }
     let influence = |s: &Sensitivity| s.critical_speeds.first().map_or(0.0, |c| c.abs());
@@ -109,113 +119,72 @@ pub fn sensitivities(
     Ok(all)
 }
 
-fn parameters(scene: &Scene) -> Vec<Parameter> {
-    let percent = |path: String, number: fn(&mut SceneFile) -> &mut f64| Parameter {
-        path,
-        words: "1 %",
-        shift: Box::new(move |file, share| *number(file) *= 1.0 + 0.01 * share),
-    };
-    let mut parameters = vec![
-        percent("blade.thickness_m".into(), |f| &mut f.blade.thickness_m),
-        percent("blade.material.youngs_modulus_pa".into(), |f| {
-            &mut f.blade.material.youngs_modulus_pa
-        }),
-        percent("blade.material.density_kg_per_m3".into(), |f| {
-            &mut f.blade.material.density_kg_per_m3
-        }),
-    ];
-    for index in 0..scene.file().guides.len() {
-        let mut add = |name: &str, words, shift: Shift| {
-            parameters.push(Parameter {
-                path: format!("guides[{index}].{name}"),
-                words,
-                shift,
-            });
+impl Variation {
+    /// The variations that are asked about: of the blade, of every guide, and of the heat and roll tension that
+    /// the scene has.
+    fn of_scene(scene: &SceneFile) -> Vec<Self> {
+        let mut all = Vec::new();
+        let mut add = |path: String, by| {
+            let parameter = Parameter::new(&path);
+            // Keys that the scene leaves out have no number to vary.
+            if let Ok(value) = parameter.get(scene) {
+                all.push(Variation {
+                    parameter,
+                    value,
+                    by,
+                });
+            }
         };
-        let percent = |share: f64| 1.0 + 0.01 * share;
-        add(
-            "radius_m",
-            "1 %",
-            Box::new(move |f, share| f.guides[index].radius_m *= percent(share)),
-        );
-        add(
-            "angle_deg",
-            "1 degree",
-            Box::new(move |f, share| f.guides[index].angle_deg += share),
-        );
-        let stiffness =
-            move |f: &mut SceneFile, share| f.guides[index].stiffness_n_per_m *= percent(share);
-        add("stiffness_n_per_m", "1 %", Box::new(stiffness));
+        for name in [
+            "thickness_m",
+            "material.youngs_modulus_pa",
+            "material.density_kg_per_m3",
+        ] {
+            add(format!("blade.{name}"), By::Percent);
+        }
+        for index in 0..scene.guides.len() {
+            for (name, by) in [
+                ("radius_m", By::Percent),
+                ("angle_deg", By::One("1 degree")),
+                ("stiffness_n_per_m", By::Percent),
+            ] {
+                add(format!("guides[{index}].{name}"), by);
+            }
+        }
+        let membrane = scene.membrane.as_ref();
+        add("membrane.temperature.expansion_per_k".into(), By::Percent);
+        add("membrane.temperature.rim_rise_k".into(), By::One("1 K"));
+        for index in 0..membrane.map_or(0, |m| m.roll_tension.len()) {
+            for name in ["radius_m", "eigenstrain"] {
+                add(
+                    format!("membrane.roll_tension[{index}].{name}"),
+                    By::Percent,
+                );
+            }
+        }
+        all
     }
-    parameters.extend(of_membrane(scene.file()));
-    parameters
-}
 
-/// The numbers of heat and roll tension.
-fn of_membrane(file: &SceneFile) -> Vec<Parameter> {
-    let mut parameters = Vec::new();
-    let mut add = |path: String, words, number: Box<Number>, change: fn(&mut f64, f64)| {
-        parameters.push(Parameter {
-            path: format!("membrane.{path}"),
-            words,
-            shift: Box::new(move |file, share| {
-                let found = file.membrane.as_mut().and_then(&number);
-                found.into_iter().for_each(|n| change(n, share));
-            }),
-        });
-    };
-    let percent = |number: &mut f64, share: f64| *number *= 1.0 + 0.01 * share;
-    let membrane = file.membrane.as_ref();
-    if let Some(temperature) = membrane.and_then(|m| m.temperature.as_ref()) {
-        let expansion: Box<Number> =
-            Box::new(|m| Some(&mut m.temperature.as_mut()?.expansion_per_k));
-        add(
-            "temperature.expansion_per_k".into(),
-            "1 %",
-            expansion,
-            percent,
-        );
-        if temperature.rim_rise_k.is_some() {
-            let rise: Box<Number> = Box::new(|m| m.temperature.as_mut()?.rim_rise_k.as_mut());
-            let kelvin = |number: &mut f64, share: f64| *number += share;
-            add("temperature.rim_rise_k".into(), "1 K", rise, kelvin);
+    /// The whole change of the number.
+    fn change(&self) -> f64 {
+        match self.by {
+            By::Percent => 0.01 * self.value,
+            By::One(_) => 1.0,
         }
     }
-    for index in 0..membrane.map_or(0, |m| m.roll_tension.len()) {
-        let path = |name: &str| format!("roll_tension[{index}].{name}");
-        let radius: Box<Number> = Box::new(move |m| Some(&mut m.roll_tension[index].radius_m));
-        add(path("radius_m"), "1 %", radius, percent);
-        let strain: Box<Number> = Box::new(move |m| Some(&mut m.roll_tension[index].eigenstrain));
-        add(path("eigenstrain"), "1 %", strain, percent);
-    }
-    parameters
-}
 
-/// Finds a number of the membrane stress.
-type Number = dyn Fn(&mut MembraneFile) -> Option<&mut f64>;
-
-/// Change of the matrices of every component for the whole change of a parameter.
-fn changed_components(
-    scene: &Scene,
-    plate: &Plate,
-    parameter: &Parameter,
-) -> Result<Vec<GyroscopicSystem>, SceneError> {
-    // f' ≈ (f(−2h) − 8f(−h) + 8f(h) − f(2h)) / 12h, in shares of the change.
-    let share = 100.0 * STEP;
-    let stencil = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
-    let mut moved: Vec<Vec<(f64, GyroscopicSystem)>> = Vec::new();
-    for (place, weight) in stencil {
-        let scene = scene.edited(|file| (parameter.shift)(file, place * share))?;
-        let components = Component::of(&Plate::new(&scene, plate.resolution));
-        moved.resize_with(components.len(), Vec::new);
-        for (terms, component) in moved.iter_mut().zip(components) {
-            terms.push((weight / (12.0 * share), component.full));
-        }
+    /// Change of the matrices of every component for the whole change of the number.
+    fn of_matrices(
+        &self,
+        scene: &Scene,
+        plate: &Plate,
+    ) -> Result<Vec<GyroscopicSystem>, SceneError> {
+        matrix_slopes(STEP, Differences::Central, |share| {
+            let number = self.value + share * self.change();
+            let scene = scene.file().with(&[(&self.parameter, number)])?;
+            Ok(Plate::new(&scene, plate.resolution))
+        })
     }
-    Ok(moved
-        .iter()
-        .filter_map(|terms| GyroscopicSystem::combination(terms))
-        .collect())
 }
 
 /// A speed at which something begins: two modes merge, or a wave stands still.
