@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use sawflutter::check::{Check, Limits};
 use sawflutter::figure;
-use sawflutter::fit::{Fit, Measurement};
+use sawflutter::fit::{Compared, Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, RunUpReport};
 use sawflutter::scene::{Freed, Scene, rad_per_s};
@@ -48,7 +48,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         // Another scene's saw on its spline: only that is new.
         return Ok(vec![("orbit.png", orbit(scene)?)]);
     }
-    let report = Analysis::new(scene)?.report()?;
+    let report = Analysis::new(scene)?.report();
     let mut figures = vec![
         ("campbell.png", figure::campbell_png(&report)?),
         ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
@@ -103,27 +103,17 @@ fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
 
 /// `sawflutter fit --to-rpm 1250`.
 fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
-    let to_rpm = 1250.0;
     let own = scene.file().measured.as_ref().context("it is measured")?;
     let measurement = Measurement::of_scene(own);
     let freed = ["radius_m", "stiffness_n_per_m"]
         .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
     let freed = freed.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let options = sawflutter::fit::Options::default();
-    let fit = Fit::new(
-        scene,
-        &measurement.up_to(to_rpm),
-        &freed,
-        &options,
-        &|_, _| (),
-    )?;
-    Ok(FitReport::new(
-        scene,
-        &measurement,
-        to_rpm,
-        options.confidence,
-        &fit,
-    )?)
+    let options = sawflutter::fit::Options {
+        to_rpm: 1250.0,
+        ..Default::default()
+    };
+    let fit = Fit::new(scene, &measurement, &freed, &options, &|_, _| ())?;
+    Ok(FitReport::new(&fit, &Compared::new(&fit)?))
 }
 
 /// `sawflutter place` with the pad's radius and angle free.

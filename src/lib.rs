@@ -14,7 +14,7 @@
 //! for band in analysis.bands() {
 //!     println!("{band}");
 //! }
-//! std::fs::write("campbell.svg", analysis.report()?.campbell_svg()?)?;
+//! std::fs::write("campbell.svg", analysis.report().campbell_svg()?)?;
 //! # assert!((1400.0..1600.0).contains(&analysis.lowest_critical_rpm().unwrap()));
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok(())

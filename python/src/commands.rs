@@ -3,7 +3,7 @@
 
 use pyo3::prelude::*;
 use sawflutter::check::Check;
-use sawflutter::fit::{Fit, Measurement};
+use sawflutter::fit::{Compared, Fit, Measurement, Options as FitOptions};
 use sawflutter::place::Placement;
 use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
@@ -39,7 +39,7 @@ pub fn analyze(
             ..AnalysisOptions::default()
         };
         let analysis = Analysis::with_options(&scene, options)?;
-        let mut report = analysis.report()?;
+        let mut report = analysis.report();
         if sensitivity {
             let at = scene
                 .operating_rad_per_s()
@@ -175,8 +175,8 @@ pub fn fit(
         None => f64::INFINITY,
     };
     let measurement = measurement(&scene, measured)?;
-    let fitted = measurement.up_to(to_rpm);
-    if fitted.count() == 0 {
+    let options = FitOptions { to_rpm, ..options };
+    if measurement.up_to(to_rpm).count() == 0 {
         let allowed = "a table with frequencies up to to_rpm".to_owned();
         let remedy = "give another table, or another to_rpm";
         return Err(Failure::argument("measured", "empty", allowed, remedy).into());
@@ -184,15 +184,8 @@ pub fn fit(
     let freed = arguments::freed(&scene, free, Freed::usual_to_fit(scene.file()))?;
     compute(py, progress, move |meter| {
         let progress = |done, of| meter.show(done, of);
-        let fit = Fit::new(&scene, &fitted, &freed, &options, &progress)?;
-        let confidence = options.confidence;
-        json(&FitReport::new(
-            &scene,
-            &measurement,
-            to_rpm,
-            confidence,
-            &fit,
-        )?)
+        let fit = Fit::new(&scene, &measurement, &freed, &options, &progress)?;
+        json(&FitReport::new(&fit, &Compared::new(&fit)?))
     })
 }
 

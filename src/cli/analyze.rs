@@ -89,7 +89,7 @@ fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
     };
     let analysis = Analysis::with_options(scene, options)?;
     bar.finish_and_clear();
-    let mut report = analysis.report()?;
+    let mut report = analysis.report();
     if let Some(speed) = arguments.at_rpm {
         let speed = within_sweep(speed, &report)?;
         report.whirl = Some(WhirlEntry::new(&analysis, rad_per_s(speed))?);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use crate::figure;
-use crate::fit::{Fit, Measurement, Options};
+use crate::fit::{Compared, Fit, Measurement, Options};
 use crate::report::{FitReport, ParameterEntry};
 use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
@@ -68,14 +68,16 @@ const TABLE: Kind = Kind {
 /// Fits a saw to measured frequencies, writes the files and prints the table.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let options = options(arguments)?;
     let to_rpm = match arguments.to_rpm {
         Some(rpm) => number("--to-rpm", rpm, (0.0, 1e9))?,
         None => f64::INFINITY,
     };
+    let options = Options {
+        to_rpm,
+        ..options(arguments)?
+    };
     let measurement = measurement(arguments, &scene)?;
-    let fitted = measurement.up_to(to_rpm);
-    if fitted.count() == 0 {
+    if measurement.up_to(to_rpm).count() == 0 {
         bail!(
             "no frequency of {} is left to fit; give a table with some, or another --to-rpm",
             measurement.source
@@ -85,11 +87,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let freed = freed(&scene, &arguments.free, &usual)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("starts");
-    let fit = Fit::new(&scene, &fitted, &freed, &options, &|done, of| {
+    let fit = Fit::new(&scene, &measurement, &freed, &options, &|done, of| {
         show(&bar, done, of);
     })?;
     bar.finish_and_clear();
-    let report = FitReport::new(&scene, &measurement, to_rpm, options.confidence, &fit)?;
+    let report = FitReport::new(&fit, &Compared::new(&fit)?);
     let json = serde_json::to_string_pretty(&report)?;
     let files = [
         ("fit.png", figure::fit_png(&report)?),
@@ -122,7 +124,7 @@ fn options(arguments: &Arguments) -> anyhow::Result<Options> {
         confidence: arguments.confidence,
         starts: arguments.starts,
         seed: arguments.seed,
-        resolution: None,
+        ..Options::default()
     })
 }
 

@@ -144,7 +144,7 @@ impl Charts {
                 ..AnalysisOptions::default()
             },
         )?;
-        let report = analysis.report()?;
+        let report = analysis.report();
         let chart = self.keep(analysis);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         serde_json::to_string(&Chart {
@@ -221,7 +221,7 @@ impl SavedFile {
         if self == SavedFile::Scene {
             return pretty(scene.file());
         }
-        let report = Analysis::new(&scene)?.report()?;
+        let report = Analysis::new(&scene)?.report();
         let undrawn = |error: FigureError| Refusal::of(&error);
         match self {
             SavedFile::Scene | SavedFile::Report => pretty(&report),

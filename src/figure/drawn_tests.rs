@@ -28,7 +28,7 @@ fn report(file: &SceneFile, reach: f64) -> Report {
     file.accuracy = Accuracy::Draft;
     let scene = scene(&file);
     let analysis = Analysis::new(&scene).unwrap();
-    analysis.report().unwrap()
+    analysis.report()
 }
 
 /// Speeds at which a branch begins or ends between the ends of the sweep, below the height

@@ -253,7 +253,7 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
 mod tests {
     use super::*;
     use crate::figure::tidy::assert_tidy;
-    use crate::fit::{Fit, Measurement, Options};
+    use crate::fit::{Compared, Fit, Measurement, Options};
     use crate::plate::Resolution;
     use crate::scene::{Freed, Scene};
 
@@ -271,16 +271,10 @@ mod tests {
             ..Options::default()
         };
         for to_rpm in [0.0, 500.0] {
-            let fitted = table.up_to(to_rpm);
-            let fit = Fit::new(
-                &scene,
-                &fitted,
-                std::slice::from_ref(&freed),
-                &options,
-                &|_, _| (),
-            )
-            .unwrap();
-            let report = FitReport::new(&scene, &table, to_rpm, 0.95, &fit).unwrap();
+            let options = Options { to_rpm, ..options };
+            let freed = std::slice::from_ref(&freed);
+            let fit = Fit::new(&scene, &table, freed, &options, &|_, _| ()).unwrap();
+            let report = FitReport::new(&fit, &Compared::new(&fit).unwrap());
             assert_tidy(&sheet(&report));
         }
     }

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod compared;
 mod error;
 mod measurement;
 mod model;
@@ -38,6 +39,7 @@ use crate::scene::{
 use crate::spectrum::{LowestModes, SpectrumError};
 use crate::stability::ChosenBasis;
 
+pub use compared::{BeforeAndAfter, Compared};
 pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
@@ -52,6 +54,8 @@ pub struct Options {
     pub starts: usize,
     /// Which others.
     pub seed: u64,
+    /// Rows past this speed are not fitted.
+    pub to_rpm: f64,
     /// A basis instead of the one that the scene's tolerance asks for.
     pub resolution: Option<Resolution>,
 }
@@ -62,6 +66,7 @@ impl Default for Options {
             confidence: 0.95,
             starts: 12,
             seed: 0,
+            to_rpm: f64::INFINITY,
             resolution: None,
         }
     }
@@ -98,6 +103,14 @@ pub struct Start {
 pub struct Fit {
     /// The saw.
     pub scene: Scene,
+    /// As it was.
+    pub before: Scene,
+    /// What was measured.
+    pub measurement: Measurement,
+    /// Rows past this speed were not fitted.
+    pub to_rpm: f64,
+    /// Probability with which the intervals cover the truth.
+    pub confidence: f64,
     /// Numbers found.
     pub parameters: Vec<FittedParameter>,
     /// Freed numbers that move no measured frequency, or none that the others do not move
@@ -127,17 +140,18 @@ const IDLE_HZ: f64 = 1e-5;
 const REFINED: usize = 3;
 
 impl Fit {
-    /// Fits the freed numbers of a scene.
+    /// Fits the freed numbers of a scene to what was measured.
     ///
     /// # Errors
     /// [`FitError`].
     pub fn new(
         scene: &Scene,
-        measurement: &Measurement,
+        measured: &Measurement,
         freed: &[Freed],
         options: &Options,
         progress: Progress<'_>,
     ) -> Result<Self, FitError> {
+        let measurement = &measured.up_to(options.to_rpm);
         let coarse = match options.resolution {
             Some(resolution) => resolution,
             None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
@@ -146,9 +160,12 @@ impl Fit {
         if freed.is_empty() {
             return Err(FitError::NothingFree);
         }
-        let (measured, free) = (measurement.count(), freed.len());
-        if measured <= free {
-            return Err(FitError::TooFew { measured, free });
+        let (count, free) = (measurement.count(), freed.len());
+        if count <= free {
+            return Err(FitError::TooFew {
+                measured: count,
+                free,
+            });
         }
         let model = |resolution| Model {
             scene: scene.file(),
@@ -179,6 +196,10 @@ impl Fit {
         let before = fine.residuals_of_saw_hz(scene)?;
         Ok(Fit {
             scene: calibrated(scene, measurement, &freed, &best)?,
+            before: scene.clone(),
+            measurement: measured.clone(),
+            to_rpm: options.to_rpm,
+            confidence: options.confidence,
             parameters: parameters(scene, &freed, &best.shares, &spread.half_widths)?,
             without_effect,
             correlation: spread.correlation,

@@ -14,8 +14,8 @@ use super::{
 };
 use crate::plate::Plate;
 use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, SpectrumError, WorkCounters};
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, StabilityState};
+use crate::spectrum::{DescribedMode, WorkCounters};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -24,17 +24,10 @@ const DOUBLE: f64 = 1e-9;
 
 impl Analysis {
     /// Everything found out, in the units and names of `report.json`.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the modes at rest or the limits of heat cannot be computed.
-    pub fn report(&self) -> Result<Report, SpectrumError> {
+    pub fn report(&self) -> Report {
         let (analysis, scene) = (self, &self.scene);
         let model = &analysis.model;
         let samples = &analysis.chart.campbell.samples;
-        let at_rest = match samples.first() {
-            Some(sample) if sample.speed_rad_per_s == 0.0 => sample.modes.clone(),
-            _ => model.describe(0.0, model.modes(0.0)?),
-        };
         let errors = samples
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
@@ -45,11 +38,11 @@ impl Analysis {
         );
         let branches = Numbered::new(analysis);
         let resolution = model.plate.resolution;
-        Ok(Report {
+        Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
             terms: terms(&model.plate),
-            modes_at_rest: rest_modes(analysis, &at_rest, &branches),
+            modes_at_rest: rest_modes(analysis, &branches),
             critical_speeds: critical_speeds(analysis, &branches),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
             flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
@@ -57,8 +50,7 @@ impl Analysis {
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             operating: scene
                 .operating_rad_per_s()
-                .map(|speed| operating(analysis, speed))
-                .transpose()?,
+                .map(|speed| operating(analysis, speed)),
             whirl: None,
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),
@@ -72,7 +64,7 @@ impl Analysis {
                 estimated_drawn_error: analysis.estimates.as_ref().map(|e| e.drawn),
             },
             work: work(&model.counters),
-            warnings: warnings(scene, analysis, &certificate, &at_rest),
+            warnings: warnings(scene, analysis, &certificate, &analysis.modes_at_rest),
             certificate,
             campbell: CampbellEntry {
                 from_rpm: rpm(analysis.range_rad_per_s.0),
@@ -81,9 +73,9 @@ impl Analysis {
                 branches: branches.entries(),
             },
             root_loci: root_loci(analysis, &branches),
-            membrane: MembraneEntry::new(scene, analysis)?,
+            membrane: MembraneEntry::new(scene, analysis),
             sensitivities: Vec::new(),
-        })
+        }
     }
 }
 
@@ -128,11 +120,8 @@ impl From<&Sensitivity> for SensitivityEntry {
 }
 
 /// The modes at rest, each with its branch and its estimated error.
-fn rest_modes(
-    analysis: &Analysis,
-    at_rest: &[DescribedMode],
-    branches: &Numbered<'_>,
-) -> Vec<RestMode> {
+fn rest_modes(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<RestMode> {
+    let at_rest = &analysis.modes_at_rest;
     let errors = match &analysis.estimates {
         Some(estimates) => estimates.frequencies(&analysis.model, 0.0, at_rest),
         None => vec![None; at_rest.len()],
@@ -318,16 +307,13 @@ impl InstabilityEntry {
     }
 }
 
-fn operating(analysis: &Analysis, speed: f64) -> Result<OperatingEntry, SpectrumError> {
+fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
     let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
     let of_lowest_critical = lowest.map(|lowest| speed / lowest);
     let verdict = analysis.verdict(speed);
-    let fastest = match verdict.state {
-        StabilityState::OutsideSweep => None,
-        _ => fastest(analysis, speed)?,
-    };
+    let fastest = analysis.fastest_operating;
     let window = analysis.safe_window(speed);
-    Ok(OperatingEntry {
+    OperatingEntry {
         rpm: rpm(speed),
         of_lowest_critical,
         limit: OPERATING_LIMIT,
@@ -337,16 +323,7 @@ fn operating(analysis: &Analysis, speed: f64) -> Result<OperatingEntry, Spectrum
         safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
-    })
-}
-
-/// λ of the mode that grows fastest at a speed, or decays most slowly.
-fn fastest(analysis: &Analysis, speed: f64) -> Result<Option<c64>, SpectrumError> {
-    let modes = analysis.model.modes(speed)?;
-    let growing = modes
-        .iter()
-        .map(|m| c64::new(m.growth_per_s(), m.lambda.im));
-    Ok(growing.max_by(|x, y| x.re.total_cmp(&y.re)))
+    }
 }
 
 fn work(counters: &WorkCounters) -> WorkEntry {
@@ -356,5 +333,6 @@ fn work(counters: &WorkCounters) -> WorkEntry {
         reduced_solves: count(&counters.reduced_solves),
         local_solves: count(&counters.local_solves),
         refined_pairs: count(&counters.refined_pairs),
+        heat_solves: count(&counters.heat_solves),
     }
 }

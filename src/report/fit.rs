@@ -3,10 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campbell::even_speeds;
-use crate::fit::{Fit, FittedParameter, Measurement, Row, Start};
-use crate::scene::{Scene, SceneFile, unusual};
-use crate::spectrum::SpectrumError;
+use crate::fit::{BeforeAndAfter, Compared, Fit, FittedParameter, Row, Start};
+use crate::scene::{SceneFile, unusual};
 
 /// `fit.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,31 +113,17 @@ pub struct StartEntry {
     pub rms_hz: Option<f64>,
 }
 
-/// Speeds of the curves.
-const CURVE_SPEEDS: usize = 121;
-/// They reach a little past the last fitted speed.
-const BEYOND: f64 = 1.12;
 /// Numbers more alike than this are hardly told apart.
 const HIGH_CORRELATION: f64 = 0.95;
 
 impl FitReport {
-    /// Reports a fit of `before` to the rows of `measurement` up to a speed.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(
-        before: &Scene,
-        measurement: &Measurement,
-        to_rpm: f64,
-        confidence: f64,
-        fit: &Fit,
-    ) -> Result<Self, SpectrumError> {
-        let fitted = measurement.up_to(to_rpm);
-        Ok(FitReport {
+    /// Reports a fit.
+    pub fn new(fit: &Fit, compared: &Compared) -> Self {
+        FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: fit.scene.file().clone(),
-            source: measurement.source.clone(),
-            confidence,
+            source: fit.measurement.source.clone(),
+            confidence: fit.confidence,
             parameters: fit.parameters.iter().map(ParameterEntry::from).collect(),
             without_effect: fit
                 .without_effect
@@ -147,18 +131,18 @@ impl FitReport {
                 .map(|freed| freed.parameter.path().to_owned())
                 .collect(),
             correlation: fit.correlation.clone(),
-            measured_frequencies: fitted.count(),
+            measured_frequencies: fit.measurement.up_to(fit.to_rpm).count(),
             degrees_of_freedom: fit.degrees_of_freedom,
             rms_hz: fit.rms_hz,
             rms_before_hz: fit.rms_before_hz,
-            residuals: residuals(before, measurement, to_rpm, fit)?,
-            curves: curves(before, &fitted, fit)?,
+            residuals: residuals(fit, &compared.measured),
+            curves: CurvesEntry::from(&compared.curves),
             starts: fit.starts.iter().map(StartEntry::from).collect(),
             max_diameters: fit.resolution.max_diameters,
             radial_functions: fit.resolution.radial_functions,
             estimated_relative_error: fit.estimated_relative_error,
             warnings: warnings(fit),
-        })
+        }
     }
 }
 
@@ -187,18 +171,20 @@ impl From<&Start> for StartEntry {
     }
 }
 
-fn residuals(
-    before: &Scene,
-    measurement: &Measurement,
-    to_rpm: f64,
-    fit: &Fit,
-) -> Result<Vec<ResidualEntry>, SpectrumError> {
-    let rpm: Vec<f64> = measurement.rows.iter().map(|row| row.rpm).collect();
-    let depth = measurement.depth();
-    let computed = |scene: &Scene| fit.frequencies_hz(scene, &rpm, depth);
-    let (before, after) = (computed(before)?, computed(&fit.scene)?);
+impl From<&BeforeAndAfter> for CurvesEntry {
+    fn from(curves: &BeforeAndAfter) -> Self {
+        CurvesEntry {
+            rpm: curves.rpm.clone(),
+            before_hz: curves.before_hz.clone(),
+            fitted_hz: curves.fitted_hz.clone(),
+        }
+    }
+}
+
+fn residuals(fit: &Fit, computed: &BeforeAndAfter) -> Vec<ResidualEntry> {
     let mut entries = Vec::new();
-    for (row, (before, after)) in measurement.rows.iter().zip(before.iter().zip(&after)) {
+    let computed = computed.before_hz.iter().zip(&computed.fitted_hz);
+    for (row, (before, after)) in fit.measurement.rows.iter().zip(computed) {
         let Row { rpm, pairs } = row;
         for (place, measured_hz) in pairs {
             let at = |computed: &[f64]| computed.get(*place).copied().unwrap_or(0.0);
@@ -208,27 +194,11 @@ fn residuals(
                 measured_hz: *measured_hz,
                 before_hz: at(before),
                 fitted_hz: at(after),
-                fitted: *rpm <= to_rpm,
+                fitted: *rpm <= fit.to_rpm,
             });
         }
     }
-    Ok(entries)
-}
-
-fn curves(before: &Scene, fitted: &Measurement, fit: &Fit) -> Result<CurvesEntry, SpectrumError> {
-    // A fit at one speed is drawn a little way, for there has to be an axis.
-    let top = if fitted.top_rpm() > 0.0 {
-        BEYOND * fitted.top_rpm()
-    } else {
-        100.0
-    };
-    let rpm = even_speeds((0.0, top), CURVE_SPEEDS);
-    let depth = fitted.depth();
-    Ok(CurvesEntry {
-        before_hz: fit.frequencies_hz(before, &rpm, depth)?,
-        fitted_hz: fit.frequencies_hz(&fit.scene, &rpm, depth)?,
-        rpm,
-    })
+    entries
 }
 
 fn warnings(fit: &Fit) -> Vec<String> {

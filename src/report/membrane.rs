@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::plate::MembraneStress;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, HeatLimit, HeatLimits};
 
 /// Stress of heat, roll tension and manufacture over the radius.
@@ -78,11 +77,11 @@ const ASIDE: f64 = 1e-9;
 
 impl MembraneEntry {
     /// `None` for a scene that names no membrane stress.
-    pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Result<Option<Self>, SpectrumError> {
+    pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
-        let heat = HeatLimits::new(scene, &analysis.model)?;
+        let heat = analysis.heat.as_ref();
         if plate.membrane.is_none() && heat.is_none() {
-            return Ok(None);
+            return None;
         }
         let stress = plate.membrane.as_ref();
         let radius_m = shown_radii(
@@ -105,14 +104,14 @@ impl MembraneEntry {
                 buckling: limits.buckling.map(HeatLimitEntry::from),
                 flat_from: limits.flat_from.map(HeatLimitEntry::from),
                 buckles_first: limits.buckles_first,
-                critical_speeds: curves(&limits),
+                critical_speeds: curves(limits),
             });
-        Ok(Some(MembraneEntry {
+        Some(MembraneEntry {
             radial_pa: radius_m.iter().map(|r| at(r).radial_pa).collect(),
             hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),
             radius_m,
             heat,
-        }))
+        })
     }
 }
 

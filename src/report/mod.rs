@@ -292,6 +292,8 @@ pub struct WorkEntry {
     pub local_solves: usize,
     /// Pairs of modes refined by inverse iteration, with a factorization each.
     pub refined_pairs: usize,
+    /// Symmetric, of the whole basis under other temperatures: limits of heat.
+    pub heat_solves: usize,
 }
 
 /// The Campbell diagram.

@@ -82,7 +82,7 @@ impl RunUpReport {
     /// [`SpectrumError`] when the modes at rest cannot be computed.
     pub fn new(found: &RunningUp) -> Result<Self, SpectrumError> {
         let (scene, runup) = (&found.scene, &found.runup);
-        let chart = found.analysis.report()?;
+        let chart = found.analysis.report();
         let history = &found.history;
         let speeds: Vec<f64> = history.speed_rad_per_s.iter().map(|s| rpm(*s)).collect();
         let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());

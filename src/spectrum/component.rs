@@ -5,9 +5,12 @@ use faer::{Col, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
+use super::companion::companion_eigenpairs;
+use super::error::SpectrumError;
+use super::free_wave;
 use super::projection::Projection;
 use super::residual::MatrixNorms;
-use super::vectors::real_times;
+use super::vectors::{Eigenpair, real_times};
 
 /// An independent component of the blade: one harmonic, or all of them coupled by guides.
 #[derive(Debug)]
@@ -16,17 +19,38 @@ pub struct Component {
     pub first: usize,
     /// The whole component.
     pub full: GyroscopicSystem,
-    /// Projections for the chart, by speed.
-    pub chart: Vec<Projection>,
-    /// Projection on the reflected waves and what they can meet, and the frequency up
-    /// to which it is complete.
-    pub low: Option<(Projection, f64)>,
+    /// How its modes are found.
+    pub(super) solution: Solution,
     /// Norms of its matrices.
     pub(super) norms: MatrixNorms,
 }
 
+/// How the modes of a component are found.
+#[derive(Debug)]
+pub(super) enum Solution {
+    /// Every eigenvalue of the whole component.
+    Whole(Projection),
+    /// Those of one harmonic of an undamped free blade, a symmetric problem.
+    FreeWaves(Projection),
+    /// Those of projections on the low modes of a few speeds.
+    Projected {
+        /// For the chart, by speed.
+        chart: Vec<Projection>,
+        /// On the reflected waves and what they can meet, where there are any.
+        reflected: Option<ReflectedProjection>,
+    },
+}
+
+/// A projection for the whole range of speeds.
+#[derive(Debug)]
+pub(super) struct ReflectedProjection {
+    pub projection: Projection,
+    /// Frequency up to which it is complete.
+    pub height_rad_per_s: f64,
+}
+
 impl Component {
-    /// The independent components of a plate.
+    /// The independent components of a plate, to be solved whole.
     pub(crate) fn of(plate: &Plate) -> Vec<Component> {
         if !plate.is_axisymmetric() {
             return vec![Component::new(GyroscopicSystem::of_plate(plate), 0)];
@@ -39,17 +63,10 @@ impl Component {
     fn new(full: GyroscopicSystem, first: usize) -> Self {
         Component {
             first,
-            chart: vec![Projection::whole(&full)],
-            low: None,
+            solution: Solution::Whole(Projection::whole(&full)),
             norms: MatrixNorms::new(&full),
             full,
         }
-    }
-
-    /// Whether the chart is drawn from fewer unknowns than the component has.
-    pub(super) fn is_projected(&self) -> bool {
-        let order = self.full.order();
-        self.chart.iter().any(|piece| piece.reduced.order() < order)
     }
 
     /// Coordinates in this component of a vector in the basis of the plate.
@@ -64,10 +81,27 @@ impl Component {
 
     /// The projection for a speed; the last one also beyond the range.
     pub(super) fn at(&self, speed_rad_per_s: f64) -> &Projection {
-        let place = self
-            .chart
-            .partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
-        &self.chart[place.min(self.chart.len() - 1)]
+        match &self.solution {
+            Solution::Whole(whole) | Solution::FreeWaves(whole) => whole,
+            Solution::Projected { chart, .. } => {
+                let place = chart.partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
+                &chart[place.min(chart.len() - 1)]
+            }
+        }
+    }
+
+    /// Eigenpairs at a speed in the coordinates of [`Component::at`].
+    pub(super) fn eigenpairs(
+        &self,
+        plate: &Plate,
+        index: usize,
+        speed_rad_per_s: f64,
+    ) -> Result<Vec<Eigenpair>, SpectrumError> {
+        let system = &self.at(speed_rad_per_s).reduced;
+        match self.solution {
+            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed_rad_per_s),
+            _ => companion_eigenpairs(system, speed_rad_per_s),
+        }
     }
 }
 

@@ -12,14 +12,14 @@ use crate::plate::Plate;
 
 use super::buckling;
 use super::companion::companion_eigenpairs;
-use super::component::{Component, frequency_scale};
+use super::component::{Component, ReflectedProjection, Solution, frequency_scale};
 use super::critical::{NamedCriticalSpeed, named_critical_speeds};
 use super::derivative;
 use super::error::SpectrumError;
-use super::free_wave;
 use super::guided_reduction;
 use super::mode::{Mode, ModeKind, classify, pairs_of};
 use super::mode_name::ModeName;
+use super::projection::Projection;
 use super::reflected::ReflectedModel;
 use super::work::{Cancellation, WorkCounters};
 
@@ -65,8 +65,6 @@ pub struct SpectralModel {
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
-    /// Whether each component is a harmonic of an undamped free blade, a symmetric problem.
-    has_free_waves: bool,
 }
 
 /// At rest the two waves of equal n are degenerate. This share of the blade's
@@ -98,25 +96,31 @@ impl SpectralModel {
             cancellation: Cancellation::current(),
             ..WorkCounters::default()
         };
-        let components = Component::of(&plate);
-        let conservative = components.iter().all(|c| c.full.is_conservative());
         let mut model = SpectralModel {
-            has_free_waves: strategy != Strategy::Dense && plate.is_axisymmetric() && conservative,
+            components: Component::of(&plate),
             plate,
-            components,
             critical,
             complete_to_rad_per_s: f64::INFINITY,
             unsettled_rad_per_s: 0.0,
             counters,
         };
-        // Harmonics that nothing couples are small enough to be solved whole.
-        if strategy != Strategy::Dense && !model.plate.is_axisymmetric() {
-            model.reduce(range, strategy)?;
+        match (strategy, model.plate.is_axisymmetric()) {
+            (Strategy::Dense, _) => (),
+            // Harmonics that nothing couples are small enough to be solved whole.
+            (_, true) if model.is_conservative() => model.use_free_waves(),
+            (_, true) => (),
+            (_, false) => model.reduce(range, strategy)?,
         }
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
         }
         Ok(model)
+    }
+
+    fn use_free_waves(&mut self) {
+        for component in &mut self.components {
+            component.solution = Solution::FreeWaves(Projection::whole(&component.full));
+        }
     }
 
     /// Projects each component on the low modes of a few speeds.
@@ -130,14 +134,24 @@ impl SpectralModel {
                 false => None,
             };
             if let Some(found) = bands_alone {
-                component.chart = vec![found.low.clone()];
-                component.low = Some((found.low, found.low_rad_per_s));
+                component.solution = Solution::Projected {
+                    chart: vec![found.low.clone()],
+                    reflected: Some(ReflectedProjection {
+                        projection: found.low,
+                        height_rad_per_s: found.low_rad_per_s,
+                    }),
+                };
                 self.complete_to_rad_per_s = found.low_rad_per_s;
                 self.unsettled_rad_per_s = found.unsettled_rad_per_s;
             } else {
                 let found = guided_reduction::of_guided(system, range, scale, critical, counters)?;
-                component.chart = found.chart;
-                component.low = found.low.map(|low| (low, found.low_rad_per_s));
+                component.solution = Solution::Projected {
+                    chart: found.chart,
+                    reflected: found.low.map(|projection| ReflectedProjection {
+                        projection,
+                        height_rad_per_s: found.low_rad_per_s,
+                    }),
+                };
                 self.complete_to_rad_per_s = found.chart_rad_per_s;
                 self.unsettled_rad_per_s = found.unsettled_rad_per_s;
             }
@@ -238,17 +252,18 @@ impl SpectralModel {
     /// blade keeps low ones accurate to their own size; there the numbers of the matrix are
     /// rounded, each by ε of itself.
     pub fn relative_rounding(&self, mode: &Mode) -> f64 {
-        let stiffness = &self.components[mode.component].at(0.0).reduced.stiffness;
+        let component = &self.components[mode.component];
+        let stiffness = &component.at(0.0).reduced.stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
-        let size = match self.has_free_waves {
-            true => {
+        let size = match component.solution {
+            Solution::FreeWaves(_) => {
                 let q = &mode.coordinates;
                 let sizes = Col::from_fn(q.nrows(), |i| q[i].norm());
                 let entries = stiffness.nrows();
                 let absolute = Mat::from_fn(entries, entries, |i, k| f64::abs(stiffness[(i, k)]));
                 sizes.transpose() * absolute * &sizes
             }
-            false => stiffness.norm_l2(),
+            _ => stiffness.norm_l2(),
         };
         0.5 * f64::EPSILON * size / square
     }
@@ -265,10 +280,7 @@ impl SpectralModel {
             self.counters.cancellation.check()?;
             self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
             let system = &component.at(speed_rad_per_s).reduced;
-            let mut pairs = match self.has_free_waves {
-                true => free_wave::eigenpairs(&self.plate, index, system, speed)?,
-                false => companion_eigenpairs(system, speed)?,
-            };
+            let mut pairs = component.eigenpairs(&self.plate, index, speed)?;
             pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
             modes.extend(classify(system, speed, index, pairs));
         }
@@ -283,16 +295,21 @@ impl SpectralModel {
         let [component] = self.components.as_slice() else {
             return None;
         };
-        let last = component.chart.last().map_or(0.0, |p| p.to_rad_per_s);
+        let last = component.at(f64::INFINITY).to_rad_per_s;
         let within = self.critical.iter().filter(|c| c.speed_rad_per_s <= last);
         let standing = within.map(|c| (c.speed_rad_per_s, &c.shape));
-        let (system, standing, height_rad_per_s) = match &component.low {
-            Some((projection, height)) => {
-                let inward = |(speed, x)| (speed, projection.basis.transpose() * x);
-                (&projection.reduced, standing.map(inward).collect(), *height)
+        let (system, standing, height_rad_per_s) = match &component.solution {
+            Solution::Projected { reflected, .. } => {
+                let reflected = reflected.as_ref()?;
+                let basis = &reflected.projection.basis;
+                let inward = |(speed, x)| (speed, basis.transpose() * x);
+                (
+                    &reflected.projection.reduced,
+                    standing.map(inward).collect(),
+                    reflected.height_rad_per_s,
+                )
             }
-            None if component.is_projected() => return None,
-            None => {
+            Solution::Whole(_) | Solution::FreeWaves(_) => {
                 let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
                 (&component.full, own.collect(), self.complete_to_rad_per_s)
             }

@@ -1,15 +1,18 @@
 //! From a scene to its stability chart: the library's main call.
 
+use faer::c64;
+
 use super::band::{Instability, InstabilityKind};
 use super::basis::ChosenBasis;
 use super::chart::{CHART_SPEEDS, Detail, StabilityChart, chart, drawn};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
+use super::heat::HeatLimits;
 use super::loci::RootLoci;
-use super::verdict::{Verdict, flutter_onsets, safe_window, verdict};
+use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::{SpectralModel, Strategy};
+use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
 /// usual rule of thumb of saw makers.
@@ -61,6 +64,13 @@ pub struct Analysis {
     pub estimated_relative_error: Option<f64>,
     /// Estimated errors of single numbers.
     pub estimates: Option<Estimates>,
+    /// The modes at rest, ascending.
+    pub modes_at_rest: Vec<DescribedMode>,
+    /// λ of the mode that grows fastest at the operating speed, or decays most slowly, where
+    /// the scene gives one within the sweep.
+    pub fastest_operating: Option<c64>,
+    /// How hot the blade may become, of a scene with temperature.
+    pub heat: Option<HeatLimits>,
 }
 
 impl Analysis {
@@ -109,7 +119,12 @@ impl Analysis {
             Some(band) => RootLoci::new(&model, band, range)?,
             None => None,
         };
-        Ok(Analysis {
+        let heat = HeatLimits::new(scene, &model)?;
+        let modes_at_rest = match chart.campbell.samples.first() {
+            Some(sample) if sample.speed_rad_per_s == 0.0 => sample.modes.clone(),
+            _ => model.describe(0.0, model.modes(0.0)?),
+        };
+        let mut analysis = Analysis {
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
@@ -119,7 +134,27 @@ impl Analysis {
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,
             root_loci,
-        })
+            modes_at_rest,
+            fastest_operating: None,
+            heat,
+        };
+        if let Some(speed) = scene.operating_rad_per_s() {
+            analysis.fastest_operating = analysis.fastest(speed)?;
+        }
+        Ok(analysis)
+    }
+
+    /// λ of the mode that grows fastest at a speed, or decays most slowly; `None` outside the
+    /// sweep.
+    fn fastest(&self, speed_rad_per_s: f64) -> Result<Option<c64>, SpectrumError> {
+        if self.verdict(speed_rad_per_s).state == StabilityState::OutsideSweep {
+            return Ok(None);
+        }
+        let modes = self.model.modes(speed_rad_per_s)?;
+        let growing = modes
+            .iter()
+            .map(|m| c64::new(m.growth_per_s(), m.lambda.im));
+        Ok(growing.max_by(|x, y| x.re.total_cmp(&y.re)))
     }
 
     /// Every band of instability within the range of speeds, by onset.

@@ -7,6 +7,8 @@
 //! nothing else can happen: the speeds squared and rises at which K is positive definite form a
 //! convex set.
 
+use std::sync::atomic::Ordering;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -130,6 +132,13 @@ impl<'a> Heating<'a> {
         }
     }
 
+    /// Counts an eigenproblem, and ends where the analysis is cancelled.
+    fn count(&self) -> Result<(), SpectrumError> {
+        let counters = &self.model.counters;
+        counters.heat_solves.fetch_add(1, Ordering::Relaxed);
+        counters.cancellation.check()
+    }
+
     /// The first limit at a speed upwards or downwards from a peak, at which K must be positive
     /// definite.
     fn limit(
@@ -144,6 +153,7 @@ impl<'a> Heating<'a> {
             from: from_k - self.now_k,
             direction,
         };
+        self.count()?;
         let (plate, components) = (&self.model.plate, &self.model.components);
         let found = first_singular(plate, components, speed_rad_per_s, &added)?;
         let limit = |found: SingularStress| HeatLimit {
@@ -224,6 +234,7 @@ impl<'a> Heating<'a> {
     /// The lowest critical speeds at a peak, one of each number of diameters of a free blade;
     /// none where the blade has buckled.
     fn lowest_critical(&self, rise_k: f64) -> Result<Vec<Named>, SpectrumError> {
+        self.count()?;
         let plate = &self.model.plate;
         let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();
         let mut lowest = Vec::new();

@@ -20,7 +20,7 @@ fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
 
 fn report(accuracy: Accuracy) -> Report {
     let (_, analysis) = analysis(accuracy, 3000.0);
-    analysis.report().unwrap()
+    analysis.report()
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn a_slow_saw_takes_less_work() {
     let (_, analysis) = analysis(Accuracy::Design, 1400.0);
     assert!(analysis.model.reflected_model().is_none());
     assert!(analysis.chart.certificate.speeds_checked > 0);
-    let work = analysis.report().unwrap().work;
+    let work = analysis.report().work;
     println!("{work:?}");
     assert_eq!(work.refined_pairs, 0);
     assert!(

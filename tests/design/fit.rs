@@ -177,6 +177,7 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
         starts: 1,
         seed: 0,
         resolution: Some(SMALL),
+        ..Options::default()
     };
     const DRAWS: usize = 100;
     let mut noise = Noise(20_241_122);

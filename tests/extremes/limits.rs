@@ -49,7 +49,7 @@ fn rounding_that_eats_digits_is_warned_about() {
         change(&mut file);
         let scene = scene(&file);
         let analysis = Analysis::new(&scene).unwrap();
-        let report = analysis.report().unwrap();
+        let report = analysis.report();
         let warning = report.warnings.iter().find(|w| w.contains("six digits"));
         warning.cloned()
     };

@@ -228,7 +228,7 @@ fn any_number_of_threads_writes_the_same_report() {
         pool.install(|| {
             assert_eq!(rayon::current_num_threads(), threads);
             let analysis = Analysis::new(&scene).unwrap();
-            serde_json::to_string(&analysis.report().unwrap()).unwrap()
+            serde_json::to_string(&analysis.report()).unwrap()
         })
     };
     let one = report(1);

@@ -73,5 +73,8 @@ pub fn dense_analysis(
         root_loci: None,
         estimated_relative_error: None,
         estimates: None,
+        modes_at_rest: Vec::new(),
+        fastest_operating: None,
+        heat: None,
     }
 }
