@@ -101,7 +101,7 @@ impl GyroscopicSystem {
             free_rigid: Vec::new(),
             drift: None,
         };
-        system.add_blade_damping(plate);
+        system.add_blade_damping(plate, range.clone());
         if plate.membrane.is_some() {
             let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.as_ref());
             system.stiffness += spread(plate, range, &blocks.collect::<Vec<_>>());
@@ -110,7 +110,7 @@ impl GyroscopicSystem {
     }
 
     /// Called before membrane stress, guides and edge loads join the stiffness, so K₀ is K_b here.
-    fn add_blade_damping(&mut self, plate: &Plate) {
+    fn add_blade_damping(&mut self, plate: &Plate, range: std::ops::RangeInclusive<usize>) {
         let Some(damping) = plate.damping else {
             return;
         };
@@ -122,8 +122,9 @@ impl GyroscopicSystem {
             self.circulatory = Some(Scale(retardation) * &self.stiffness * &self.gyroscopic);
         }
         let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-        for i in 0..size {
-            total[(i, i)] += air;
+        match air_area(plate, range) {
+            Some(area) => total += Scale(air) * area,
+            None => (0..size).for_each(|i| total[(i, i)] += air),
         }
         self.damping = Some(total);
     }
@@ -313,6 +314,13 @@ impl GyroscopicSystem {
             drift: sum(|s| s.drift.as_ref()),
         })
     }
+}
+
+/// ∫ φᵢφⱼ dA in units of the mass, where it is not the identity.
+fn air_area(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Option<Mat<f64>> {
+    let blocks = plate.harmonics.iter().map(|h| h.area.as_ref());
+    let blocks: Option<Vec<_>> = blocks.collect();
+    blocks.map(|blocks| spread(plate, range, &blocks))
 }
 
 /// Share of the largest number below which a number is rounding.

@@ -1050,7 +1050,7 @@ class FitReport(Entry):
     """Largest number of nodal diameters of the basis."""
 
     radial_functions: int
-    """Radial functions of each."""
+    """Polynomials over the radius of each."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds on this basis."""

@@ -25,8 +25,32 @@ class MaterialDict(TypedDict):
     """Density ρ."""
 
 
+class ThicknessRowDict(TypedDict):
+    """Thickness at one radius."""
+
+    radius_m: float
+    """Distance from the axis."""
+
+    thickness_m: float
+    """Thickness of the plate there."""
+
+
+class _RimDict(TypedDict):
+    """Mass of teeth or of carbide tips, taken as spread evenly along a circle."""
+
+    mass_per_tooth_kg: float
+    """Mass of one tooth, or of one tip; blade.teeth says how many there are."""
+
+
+class RimDict(_RimDict, total=False):
+    """Mass of teeth or of carbide tips, taken as spread evenly along a circle."""
+
+    radius_m: float | None
+    """Distance of its centre from the axis; by default that of the rim."""
+
+
 class _BladeDict(TypedDict):
-    """An annular blade of uniform thickness."""
+    """An annular blade."""
 
     outer_diameter_m: float
     """Diameter of the rim."""
@@ -35,17 +59,25 @@ class _BladeDict(TypedDict):
     """Diameter of the bore."""
 
     thickness_m: float
-    """Thickness of the plate."""
+    """Thickness of the plate; with a profile, from the bore to the first row of it."""
 
     material: MaterialDict
     """Linear elastic, isotropic."""
 
 
 class BladeDict(_BladeDict, total=False):
-    """An annular blade of uniform thickness."""
+    """An annular blade."""
+
+    profile: list[ThicknessRowDict]
+    """Thickness at ascending radii, straight between the rows and constant beyond the last; two
+    rows of one radius make a step, and so does a first row of another thickness. By default the
+    blade has one thickness."""
 
     teeth: int | None
-    """Number of teeth; they carry no mass or stiffness in the model."""
+    """Number of teeth; they carry no stiffness in the model, and mass where `rim` gives it."""
+
+    rim: RimDict | None
+    """Mass of teeth or carbide tips. None by default."""
 
 
 class MountSplineDict(TypedDict):

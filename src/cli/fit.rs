@@ -196,10 +196,11 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
         .filter(|s| s.rms_hz.is_some_and(|rms| rms <= 1.001 * best));
     writeln!(
         text,
-        "{} of {} starts led to this minimum ({} functions)",
+        "{} of {} starts led to this minimum (n up to {}, {} polynomials over the radius)",
         same.count(),
         report.starts.iter().filter(reached).count(),
-        report.radial_functions * (2 * report.max_diameters + 1)
+        report.max_diameters,
+        report.radial_functions
     )?;
     for warning in &report.warnings {
         writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;

@@ -138,8 +138,12 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
 
 fn key_facts(report: &Report) -> String {
     let blade = &report.scene.blade;
-    let [diameter, thickness] = [blade.outer_diameter_m, blade.thickness_m].map(millimetres);
-    let size = format!("{diameter} mm diameter, {thickness} mm thick");
+    let (least, largest) = blade.thickness_range_m();
+    let [diameter, least, largest] = [blade.outer_diameter_m, least, largest].map(millimetres);
+    let size = match least == largest {
+        true => format!("{diameter} mm diameter, {largest} mm thick"),
+        false => format!("{diameter} mm diameter, {least} to {largest} mm thick"),
+    };
     let guides = count(report.scene.guides.len(), "guide", "guides");
     let critical = match report.critical_speeds.first() {
         Some(lowest) => format!("lowest critical speed {:.0} rpm", lowest.rpm),

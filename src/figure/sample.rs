@@ -23,6 +23,8 @@ pub fn empty_report(name: &str) -> Report {
             outer_diameter_m: 0.864,
             inner_diameter_m: 0.15,
             thickness_m: 0.0023,
+            profile: Vec::new(),
+            rim: None,
             teeth: None,
             material,
         },

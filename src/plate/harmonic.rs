@@ -1,6 +1,6 @@
 //! Bending and membrane stiffness of one circumferential harmonic.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::scene::Blade;
 
@@ -13,25 +13,33 @@ use super::stress::CentrifugalStress;
 pub struct HarmonicBlock {
     /// Number of nodal diameters n.
     pub diameters: usize,
-    /// K_b: D/ρh ∫ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s².
+    /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², h₀ the thickness that
+    /// mass is referred to.
     pub bending: DMatrix<f64>,
-    /// K_σ − N: ∫ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
+    /// K_σ − N: ∫ h/h₀ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
     /// K_m, in 1/s², of a membrane stress that does not depend on the speed.
     pub membrane: Option<DMatrix<f64>>,
+    /// ∫ RR r dr, where it is not the identity: the area of what has one mass, on which air acts.
+    pub area: Option<DMatrix<f64>>,
 }
 
 impl HarmonicBlock {
     /// Assembles bending and rotation for n nodal diameters.
-    pub fn new(blade: &Blade, basis: &RadialBasis, diameters: usize) -> Self {
+    pub fn new(
+        blade: &Blade,
+        stress: &CentrifugalStress,
+        basis: &RadialBasis,
+        diameters: usize,
+    ) -> Self {
         let n2 = (diameters * diameters) as f64;
         let n = diameters as f64;
         let nu = blade.material.poisson_ratio;
         let specific_rigidity = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
-        let stress = CentrifugalStress::new(blade);
         let size = basis.count();
         let mut bending = DMatrix::zeros(size, size);
         let mut spin = DMatrix::from_diagonal_element(size, size, -n2);
+        let mut area = (!blade.is_plain()).then(|| DMatrix::zeros(size, size));
         for (r, w) in basis.rule().iter() {
             let f = basis.evaluate(diameters, r);
             let radial = &f.curvature;
@@ -42,6 +50,13 @@ impl HarmonicBlock {
                 .map(|j| n * (f.slope[j] / r - f.value[j] / (r * r)))
                 .collect();
             let (tension_r, tension_t) = (stress.radial_m2(r), stress.hoop_m2(r));
+            let thickness = blade.thickness_ratio(r);
+            let specific_rigidity = specific_rigidity * thickness.powi(3);
+            let tensioned = w * r * thickness;
+            if let Some(area) = &mut area {
+                let value = DVector::from_column_slice(&f.value);
+                area.ger(w * r, &value, &value, 1.0);
+            }
             for j in 0..size {
                 for k in 0..=j {
                     let energy = radial[j] * radial[k]
@@ -51,7 +66,7 @@ impl HarmonicBlock {
                     bending[(j, k)] += w * r * specific_rigidity * energy;
                     let tension = tension_r * f.slope[j] * f.slope[k]
                         + n2 * tension_t * f.value[j] * f.value[k] / (r * r);
-                    spin[(j, k)] += w * r * tension;
+                    spin[(j, k)] += tensioned * tension;
                 }
             }
         }
@@ -60,6 +75,7 @@ impl HarmonicBlock {
             bending,
             spin,
             membrane: None,
+            area,
         };
         block.free_rigid_motion(basis);
         block.bending.fill_upper_triangle_with_lower_triangle();

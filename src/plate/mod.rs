@@ -4,8 +4,8 @@
 //! matrices of the scene in that basis. Nothing here solves for eigenvalues.
 //!
 //! Deflection w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) of a Kirchhoff plate on a < r < b, in the frame fixed
-//! in space, with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh π(1+δ_n0)) in 1/√kg, so that the mass matrix
-//! ρh ∫ φᵢφⱼ dA is the identity; q is in √kg·m. Order of the N = J(2 n_max + 1) unknowns: n = 0: J
+//! in space, with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh₀ π(1+δ_n0)) in 1/√kg, so that the mass matrix
+//! ∫ φᵢφⱼ dm is the identity, h₀ being the thickness that mass is referred to; q is in √kg·m. Order of the N = J(2 n_max + 1) unknowns: n = 0: J
 //! cosines; then for each n ≥ 1: J cosines, J sines. With M = 1 every stiffness is in 1/s² and every
 //! damping in 1/s.
 //!
@@ -17,6 +17,7 @@
 mod contact;
 mod edge_load;
 mod harmonic;
+mod in_plane;
 mod membrane;
 mod quadrature;
 mod radial;
@@ -38,7 +39,7 @@ use crate::scene::{Accuracy, Blade, Damping, Scene};
 pub struct Resolution {
     /// Largest number of nodal diameters n_max.
     pub max_diameters: usize,
-    /// Radial functions J for each.
+    /// Polynomials over the radius J for each; steps and bends of the thickness add to them.
     pub radial_functions: usize,
 }
 
@@ -56,7 +57,7 @@ impl Resolution {
         }
     }
 
-    /// Number of unknowns, J (2 n_max + 1).
+    /// Number of unknowns of a blade of one thickness, J (2 n_max + 1).
     pub fn degrees_of_freedom(&self) -> usize {
         self.radial_functions * (2 * self.max_diameters + 1)
     }
@@ -98,8 +99,9 @@ impl Plate {
     /// resolution of fewer than two radial functions is not one, see [`RadialBasis::new`].
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
+        let stress = CentrifugalStress::new(scene.blade());
         let mut harmonics: Vec<HarmonicBlock> = (0..=resolution.max_diameters)
-            .map(|n| HarmonicBlock::new(scene.blade(), &basis, n))
+            .map(|n| HarmonicBlock::new(scene.blade(), &stress, &basis, n))
             .collect();
         let membrane = scene.membrane();
         let membrane = membrane.and_then(|named| MembraneStress::new(scene.blade(), named));
@@ -180,7 +182,7 @@ impl Plate {
 
     /// Number of unknowns N.
     pub fn degrees_of_freedom(&self) -> usize {
-        self.resolution.degrees_of_freedom()
+        self.basis.count() * (2 * self.max_diameters() + 1)
     }
 
     /// Index of the first cosine of n nodal diameters.
@@ -189,7 +191,7 @@ impl Plate {
         if n == 0 { 0 } else { size * (2 * n - 1) }
     }
 
-    /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh π(1+δ_n0)), in √(kg/m²).
+    /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh₀ π(1+δ_n0)), in √(kg/m²).
     pub fn angular_norm(&self, n: usize) -> f64 {
         let two = if n == 0 { 2.0 } else { 1.0 };
         (self.blade.mass_per_area_kg_per_m2() * std::f64::consts::PI * two).sqrt()

@@ -54,6 +54,17 @@ pub fn graded(from: f64, to: f64, points: usize) -> Rule {
     rule
 }
 
+/// [`graded`] on each of the intervals between ascending edges.
+pub fn piecewise(edges: &[f64], points: usize) -> Rule {
+    let mut whole = Rule::default();
+    for pair in edges.windows(2) {
+        for (r, w) in graded(pair[0], pair[1], points).iter() {
+            whole.push(r, w);
+        }
+    }
+    whole
+}
+
 /// Rule on [from, to] for an integrand with square-root ends, as the angle
 /// that a circle spends inside a rectangle has: x = sin(πt/2) makes it smooth.
 pub fn root_ended(from: f64, to: f64, points: usize) -> Rule {

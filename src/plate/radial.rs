@@ -3,6 +3,12 @@
 //! A free edge asks nothing of them. A clamped bore multiplies them by
 //! ((r−a)/(b−a))². For n = 1 on a free bore the first two are turned so that the
 //! first is the rigid tilt, R ∝ r; for n = 0 the first is the rigid heave already.
+//!
+//! Where the thickness is not uniform the weight is μ(r) r, μ the mass of an area over that of the
+//! thickness `thickness_m`, with the mass of teeth as a point of it: the mass matrix stays the
+//! identity. At a step of thickness the moment is continuous and the curvature is not, which no
+//! polynomial follows: truncated powers (r − r_k)₊^p join the basis there. They come after the
+//! first two polynomials, so that a larger basis begins with a smaller one.
 
 use crate::scene::{Blade, Bore};
 
@@ -19,8 +25,8 @@ pub struct RadialValues {
     pub curvature: Vec<f64>,
 }
 
-/// J radial functions for each number of nodal diameters n, with
-/// ∫ R_nj R_nk r dr = δ_jk over a < r < b.
+/// J polynomials, and a few functions more for each knot of the thickness, for each number of
+/// nodal diameters n, with ∫ R_nj R_nk μ r dr = δ_jk over a < r < b.
 #[derive(Debug, Clone)]
 pub struct RadialBasis {
     inner_radius_m: f64,
@@ -31,8 +37,30 @@ pub struct RadialBasis {
     off: Vec<f64>,
     /// (cos, sin) of the turn that makes the first function of n = 1 the rigid tilt.
     tilt: Option<(f64, f64)>,
+    knots: Option<KnotFunctions>,
+    /// For integrals over the area.
     rule: Rule,
+    /// For integrals over the mass: its weights contain μ r.
+    mass_rule: Rule,
 }
+
+/// Truncated powers and what makes one orthonormal family of them and the polynomials.
+#[derive(Debug, Clone)]
+struct KnotFunctions {
+    /// (r_k, p).
+    powers: Vec<(f64, i32)>,
+    /// Row j: factors of the first j + 1 of p₀, p₁, powers, p₂ … in function j.
+    rows: Vec<Vec<f64>>,
+}
+
+/// Powers that join the basis where the curvature jumps: at a step of the thickness. A bend needs
+/// the higher ones alone, but a step of no size is to be the limit of a small one.
+const AT_STEP: [i32; 3] = [2, 3, 4];
+/// Powers where only its slope jumps: where teeth have mass.
+const AT_MASS: [i32; 2] = [3, 4];
+/// Share of the width below which a knot is not told from an edge or from another knot: its powers
+/// would be nearly those of the other.
+const TOLD_APART: f64 = 0.02;
 
 impl RadialBasis {
     /// Builds J ≥ 2 functions by the discretised Stieltjes procedure
@@ -40,6 +68,9 @@ impl RadialBasis {
     /// accuracy where Gram–Schmidt on monomials would lose it.
     pub fn new(blade: &Blade, functions: usize) -> Self {
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+        let powers = knot_powers(blade);
+        let points = functions + powers.len() + 12;
+        let rule = quadrature::piecewise(&blade.edges_m(), points);
         let mut basis = RadialBasis {
             inner_radius_m: a,
             width_m: b - a,
@@ -47,18 +78,23 @@ impl RadialBasis {
             diag: Vec::with_capacity(functions),
             off: Vec::with_capacity(functions),
             tilt: None,
-            rule: quadrature::graded(a, b, functions + 12),
+            knots: None,
+            mass_rule: mass_rule(blade, &rule),
+            rule,
         };
         basis.stieltjes(functions);
         if !basis.clamped {
             basis.tilt = Some(basis.tilt_turn());
         }
+        if !powers.is_empty() {
+            basis.knots = Some(basis.knot_functions(powers));
+        }
         basis
     }
 
-    /// Number J of radial functions.
+    /// Number of radial functions: the polynomials, and those of the knots.
     pub fn count(&self) -> usize {
-        self.diag.len()
+        self.diag.len() + self.knots.as_ref().map_or(0, |knots| knots.powers.len())
     }
 
     /// Whether rigid heave and tilt are part of the motion.
@@ -73,12 +109,12 @@ impl RadialBasis {
     }
 
     fn stieltjes(&mut self, functions: usize) {
-        let weights: Vec<f64> = self
-            .rule
+        let mass = &self.mass_rule;
+        let weights: Vec<f64> = mass
             .iter()
-            .map(|(r, w)| w * r * self.clamp(r)[0].powi(2))
+            .map(|(r, w)| w * self.clamp(r)[0].powi(2))
             .collect();
-        let x: Vec<f64> = self.rule.points.iter().map(|&r| self.mapped(r)).collect();
+        let x: Vec<f64> = mass.points.iter().map(|&r| self.mapped(r)).collect();
         let mut previous = vec![0.0; x.len()];
         let mut current = vec![1.0; x.len()];
         let mut off = 0.0;
@@ -100,10 +136,10 @@ impl RadialBasis {
     /// The tilt r = c₀p₀ + c₁p₁, as the cosine and sine of the turn in that plane.
     fn tilt_turn(&self) -> (f64, f64) {
         let mut coefficient = [0.0; 2];
-        for (r, w) in self.rule.iter() {
+        for (r, w) in self.mass_rule.iter() {
             let p = self.unturned(r).value;
-            coefficient[0] += w * r * r * p[0];
-            coefficient[1] += w * r * r * p[1];
+            coefficient[0] += w * r * p[0];
+            coefficient[1] += w * r * p[1];
         }
         let norm = coefficient[0].hypot(coefficient[1]);
         (coefficient[0] / norm, coefficient[1] / norm)
@@ -123,15 +159,100 @@ impl RadialBasis {
         [t * t, 2.0 * t / self.width_m, 2.0 / self.width_m.powi(2)]
     }
 
+    /// Gram–Schmidt, twice for the digits that the first pass loses.
+    fn knot_functions(&self, powers: Vec<(f64, i32)>) -> KnotFunctions {
+        let mass = &self.mass_rule;
+        let raw: Vec<Vec<f64>> = mass
+            .points
+            .iter()
+            .map(|&r| self.with_powers(&powers, r).value)
+            .collect();
+        let count = self.diag.len() + powers.len();
+        let mut rows: Vec<Vec<f64>> = Vec::with_capacity(count);
+        let mut done: Vec<Vec<f64>> = Vec::with_capacity(count);
+        for j in 0..count {
+            let mut row = vec![0.0; j + 1];
+            row[j] = 1.0;
+            let mut values: Vec<f64> = raw.iter().map(|point| point[j]).collect();
+            for _ in 0..2 {
+                for (known, known_row) in done.iter().zip(&rows) {
+                    let share = dot(&mass.weights, known, &values);
+                    let all = values.iter_mut().zip(known);
+                    all.for_each(|(value, known)| *value -= share * known);
+                    let all = row.iter_mut().zip(known_row);
+                    all.for_each(|(factor, known)| *factor -= share * known);
+                }
+            }
+            let norm = dot(&mass.weights, &values, &values).sqrt();
+            values.iter_mut().for_each(|value| *value /= norm);
+            row.iter_mut().for_each(|factor| *factor /= norm);
+            rows.push(row);
+            done.push(values);
+        }
+        KnotFunctions { powers, rows }
+    }
+
+    /// p₀, p₁, the truncated powers, p₂ … at a radius.
+    fn with_powers(&self, powers: &[(f64, i32)], r: f64) -> RadialValues {
+        let RadialValues {
+            mut value,
+            mut slope,
+            mut curvature,
+        } = self.polynomials(r);
+        let [c, dc, ddc] = self.clamp(r);
+        let truncated = powers.iter().map(|&(knot_m, power)| {
+            let t = ((r - knot_m) / self.width_m).max(0.0);
+            let p = f64::from(power);
+            let e = [
+                t.powi(power),
+                p * t.powi(power - 1) / self.width_m,
+                p * (p - 1.0) * t.powi(power - 2) / self.width_m.powi(2),
+            ];
+            let beyond = if r > knot_m { 1.0 } else { 0.0 };
+            [
+                c * e[0],
+                dc * e[0] + c * e[1],
+                ddc * e[0] + 2.0 * dc * e[1] + c * e[2] * beyond,
+            ]
+        });
+        let truncated: Vec<[f64; 3]> = truncated.collect();
+        value.splice(2..2, truncated.iter().map(|e| e[0]));
+        slope.splice(2..2, truncated.iter().map(|e| e[1]));
+        curvature.splice(2..2, truncated.iter().map(|e| e[2]));
+        RadialValues {
+            value,
+            slope,
+            curvature,
+        }
+    }
+
     /// The functions of every n ≠ 1 at a radius.
     fn unturned(&self, r: f64) -> RadialValues {
+        let Some(knots) = &self.knots else {
+            return self.polynomials(r);
+        };
+        let raw = self.with_powers(&knots.powers, r);
+        let combined = |raw: &[f64]| {
+            let rows = knots.rows.iter();
+            let sum = |row: &Vec<f64>| row.iter().zip(raw).map(|(f, v)| f * v).sum();
+            rows.map(sum).collect::<Vec<f64>>()
+        };
+        RadialValues {
+            value: combined(&raw.value),
+            slope: combined(&raw.slope),
+            curvature: combined(&raw.curvature),
+        }
+    }
+
+    /// The orthonormal polynomials at a radius, with the factor of a clamped bore.
+    fn polynomials(&self, r: f64) -> RadialValues {
         let x = self.mapped(r);
         let dx = 2.0 / self.width_m;
         let [c, dc, ddc] = self.clamp(r);
         let mut values = RadialValues::default();
         let mut previous = [0.0; 3];
         let mut p = [1.0 / self.off[0], 0.0, 0.0];
-        for j in 0..self.count() {
+        for j in 0..self.diag.len() {
             values.value.push(c * p[0]);
             values.slope.push(dc * p[0] + c * p[1] * dx);
             let curvature = ddc * p[0] + 2.0 * dc * p[1] * dx + c * p[2] * dx * dx;
@@ -189,6 +310,52 @@ impl RadialBasis {
         }
         block
     }
+}
+
+/// The knots that get functions of their own, with the powers of each.
+fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let apart = TOLD_APART * (b - a);
+    let mut knots: Vec<(f64, &[i32])> = Vec::new();
+    for radius in blade.knots_m() {
+        knots.push((radius, &AT_STEP));
+    }
+    // Of two that are close the step.
+    if let Some(rim) = blade.rim {
+        knots.push((rim.radius_m, &AT_MASS));
+    }
+    let mut kept: Vec<(f64, &[i32])> = Vec::new();
+    for (radius, powers) in knots {
+        let alone = kept
+            .iter()
+            .all(|(other, _)| (radius - other).abs() >= apart);
+        if radius - a >= apart && b - radius >= apart && alone {
+            kept.push((radius, powers));
+        }
+    }
+    kept.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let of_knot = |(radius, powers): (f64, &[i32])| {
+        let powers = powers.to_vec();
+        powers.into_iter().map(move |power| (radius, power))
+    };
+    kept.into_iter().flat_map(of_knot).collect()
+}
+
+/// ∫ … dm/(2π ρh) of a function of the radius.
+fn mass_rule(blade: &Blade, area: &Rule) -> Rule {
+    let mut rule = Rule {
+        points: area.points.clone(),
+        weights: area
+            .iter()
+            .map(|(r, w)| w * r * blade.thickness_ratio(r))
+            .collect(),
+    };
+    if let Some(rim) = blade.rim {
+        rule.points.push(rim.radius_m);
+        let per_area = std::f64::consts::TAU * blade.mass_per_area_kg_per_m2();
+        rule.weights.push(rim.mass_kg / per_area);
+    }
+    rule
 }
 
 fn rotate(values: &mut [f64], (cos, sin): (f64, f64)) {

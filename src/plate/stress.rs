@@ -1,12 +1,24 @@
-//! In-plane stress of the steadily spinning annulus, in closed form.
+//! In-plane stress of the steadily spinning annulus: in closed form where its thickness is uniform
+//! and its teeth have no mass, by finite elements otherwise.
 
 use crate::scene::{Blade, Bore, InPlane};
 
-/// Centrifugal plane stress σ̂ = σ/(ρΩ²), in m²:
+use super::in_plane::{InPlaneField, InPlaneLoad};
+
+/// Centrifugal plane stress σ̂ = σ/(ρΩ²), in m².
+#[derive(Debug, Clone, PartialEq)]
+pub struct CentrifugalStress(Stress);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Stress {
+    Uniform(UniformStress),
+    Varying(InPlaneField),
+}
+
 /// σ̂_rr = A − B/r² − p r², σ̂_θθ = A + B/r² − q r², with p = (3+ν)/8, q = (1+3ν)/8
 /// (Timoshenko & Goodier, *Theory of Elasticity*, section 32).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CentrifugalStress {
+struct UniformStress {
     uniform_m2: f64,
     inverse_m4: f64,
     p: f64,
@@ -15,8 +27,46 @@ pub struct CentrifugalStress {
 
 impl CentrifugalStress {
     /// Stress of a blade with a free rim; the bore is free (spline, or a collar
-    /// that lets the blade slide) or has u(a) = 0.
+    /// that lets the blade slide) or has u(a) = 0. The mass of teeth pulls at its circle with
+    /// m Ω² r/2π for each radian.
     pub fn new(blade: &Blade) -> Self {
+        if blade.is_plain() {
+            return CentrifugalStress(Stress::Uniform(UniformStress::new(blade)));
+        }
+        let of_rim = |rim: crate::scene::RimMass| {
+            let per_density = std::f64::consts::TAU * blade.material.density_kg_per_m3;
+            (rim.radius_m, rim.mass_kg * rim.radius_m / per_density)
+        };
+        let circle: Vec<(f64, f64)> = blade.rim.map(of_rim).into_iter().collect();
+        let load = InPlaneLoad {
+            // ρΩ² is one.
+            body_n_per_m3: &|r| r,
+            circle_n: &circle,
+            bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),
+            ..InPlaneLoad::default()
+        };
+        CentrifugalStress(Stress::Varying(InPlaneField::new(blade, 0, &load)))
+    }
+
+    /// σ_rr / ρΩ² at radius r, in m².
+    pub fn radial_m2(&self, r: f64) -> f64 {
+        match &self.0 {
+            Stress::Uniform(stress) => stress.radial_m2(r),
+            Stress::Varying(field) => field.at(r, 0.0).radial_pa,
+        }
+    }
+
+    /// σ_θθ / ρΩ² at radius r, in m².
+    pub fn hoop_m2(&self, r: f64) -> f64 {
+        match &self.0 {
+            Stress::Uniform(stress) => stress.hoop_m2(r),
+            Stress::Varying(field) => field.at(r, 0.0).hoop_pa,
+        }
+    }
+}
+
+impl UniformStress {
+    fn new(blade: &Blade) -> Self {
         let nu = blade.material.poisson_ratio;
         let (aa, bb) = (blade.inner_radius_m.powi(2), blade.outer_radius_m.powi(2));
         let (p, q) = ((3.0 + nu) / 8.0, (1.0 + 3.0 * nu) / 8.0);
@@ -28,7 +78,7 @@ impl CentrifugalStress {
                     / ((1.0 - nu) / bb + (1.0 + nu) / aa)
             }
         };
-        CentrifugalStress {
+        UniformStress {
             uniform_m2: inverse_m4 / bb + p * bb,
             inverse_m4,
             p,
@@ -36,13 +86,11 @@ impl CentrifugalStress {
         }
     }
 
-    /// σ_rr / ρΩ² at radius r, in m².
-    pub fn radial_m2(&self, r: f64) -> f64 {
+    fn radial_m2(&self, r: f64) -> f64 {
         self.uniform_m2 - self.inverse_m4 / (r * r) - self.p * r * r
     }
 
-    /// σ_θθ / ρΩ² at radius r, in m².
-    pub fn hoop_m2(&self, r: f64) -> f64 {
+    fn hoop_m2(&self, r: f64) -> f64 {
         self.uniform_m2 + self.inverse_m4 / (r * r) - self.q * r * r
     }
 }

@@ -56,7 +56,7 @@ impl Analysis {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
                 radial_functions: resolution.radial_functions,
-                degrees_of_freedom: resolution.degrees_of_freedom(),
+                degrees_of_freedom: model.plate.degrees_of_freedom(),
                 tolerance: scene.tolerance(),
                 reached: reached(scene, analysis),
                 estimated_relative_error: analysis.estimated_relative_error,

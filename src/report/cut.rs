@@ -13,9 +13,7 @@ use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
 use crate::scene::{Scene, SceneFile, unusual, unusual_number};
-use crate::transient::{
-    CutHistory, Cutting, CuttingRun, LINEAR_THICKNESSES, ToothPassing, VerdictMap,
-};
+use crate::transient::{CutHistory, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m};
 
 /// `cut.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -155,8 +153,8 @@ impl CutReport {
             .iter()
             .map(|run| CutRunEntry::new(scene, run))
             .collect();
-        let thickness_m = scene.blade().thickness_m;
-        let linear_limit_m = LINEAR_THICKNESSES * thickness_m;
+        let (thickness_m, _) = scene.blade().thickness_range_m();
+        let linear_limit_m = linear_limit_m(scene.blade());
         CutReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),

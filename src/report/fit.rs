@@ -40,7 +40,7 @@ pub struct FitReport {
     pub starts: Vec<StartEntry>,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
-    /// Radial functions of each.
+    /// Polynomials over the radius of each.
     pub radial_functions: usize,
     /// Estimated relative error of the critical speeds on this basis.
     pub estimated_relative_error: Option<f64>,

@@ -29,6 +29,11 @@ pub fn terms(plate: &Plate) -> Vec<String> {
             terms.push(name.to_owned());
         }
     };
+    add(
+        plate.blade.profile.is_some(),
+        "thickness over the radius in M, K_b and K_sigma",
+    );
+    add(plate.blade.rim.is_some(), "mass of teeth in M and K_sigma");
     for (source, name) in [
         (MembraneSource::Heat, "heat K_m"),
         (MembraneSource::RollTension, "roll tension K_m"),
@@ -110,7 +115,7 @@ fn uncalibrated(scene: &Scene) -> Option<String> {
 }
 
 fn thick(blade: &Blade) -> Option<String> {
-    let share = blade.thickness_m / (blade.outer_radius_m - blade.inner_radius_m);
+    let share = blade.thickness_range_m().1 / (blade.outer_radius_m - blade.inner_radius_m);
     (share > 0.1).then(|| {
         format!("the blade is {share:.2} of its width thick; thin-plate theory holds below 0.1")
     })

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
 use crate::scene::{SceneFile, rpm};
 use crate::spectrum::SpectrumError;
-use crate::transient::{LINEAR_THICKNESSES, RunningUp};
+use crate::transient::{RunningUp, linear_limit_m};
 
 /// `runup.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -109,7 +109,7 @@ impl RunUpReport {
             from_rpm: rpm(runup.speeds.from_rad_per_s),
             to_rpm: rpm(runup.speeds.to_rad_per_s),
             rate_rpm_per_s,
-            linear_limit_m: LINEAR_THICKNESSES * scene.blade().thickness_m,
+            linear_limit_m: linear_limit_m(scene.blade()),
             linear_until_rpm,
             step_s: history.step_s,
             deflection_m: history.deflection_m.clone(),

@@ -10,6 +10,7 @@ use super::cut::CutFile;
 use super::membrane::MembraneFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
+use super::thickness::{RimFile, ThicknessRow};
 
 /// A saw and what to find out about it, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -70,7 +71,7 @@ fn default_flutter_threshold_per_s() -> f64 {
     0.25
 }
 
-/// An annular blade of uniform thickness.
+/// An annular blade.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BladeFile {
@@ -78,11 +79,19 @@ pub struct BladeFile {
     pub outer_diameter_m: f64,
     /// Diameter of the bore.
     pub inner_diameter_m: f64,
-    /// Thickness of the plate.
+    /// Thickness of the plate; with a profile, from the bore to the first row of it.
     pub thickness_m: f64,
-    /// Number of teeth; they carry no mass or stiffness in the model.
+    /// Thickness at ascending radii, straight between the rows and constant beyond the last; two
+    /// rows of one radius make a step, and so does a first row of another thickness. By default
+    /// the blade has one thickness.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub profile: Vec<ThicknessRow>,
+    /// Number of teeth; they carry no stiffness in the model, and mass where `rim` gives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub teeth: Option<u32>,
+    /// Mass of teeth or carbide tips. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rim: Option<RimFile>,
     /// Linear elastic, isotropic.
     pub material: Material,
 }

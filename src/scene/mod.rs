@@ -14,6 +14,7 @@ mod read;
 mod residual;
 mod runup;
 mod spline;
+mod thickness;
 mod validate;
 mod validated;
 
@@ -37,6 +38,7 @@ pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use residual::{ResidualStress, ResidualStressRow};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
+pub use thickness::{RimFile, RimMass, ThicknessProfile, ThicknessRow};
 pub use validated::{Blade, Bore, Damping, Scene, SpeedRange};
 
 /// Rotation speed in rad/s from revolutions per minute.

@@ -36,11 +36,15 @@ const fn q(
 /// machines that are built: from slitting saws of 50 mm to saws for stone of 4 m, from aluminium
 /// to tungsten carbide, from a felt pad to a steel one.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 65] = [
+pub const QUANTITIES: [Quantity; 69] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
+    q("blade.profile[].radius_m", "radius", "m", 1e-3, 2.5),
+    q("blade.profile[].thickness_m", "thickness", "m", 1e-4, 0.04),
     q("blade.teeth", "number of teeth", "", 1.0, 1000.0),
+    q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", 1e-6, 10.0),
+    q("blade.rim.radius_m", "radius of the mass of teeth", "m", 0.02, 2.5),
     q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", 4e10, 7.5e11),
     q("blade.material.poisson_ratio", "Poisson's ratio", "", 0.15, 0.45),
     q("blade.material.density_kg_per_m3", "density", "kg/m³", 2e3, 2e4),
@@ -106,10 +110,11 @@ pub const QUANTITIES: [Quantity; 65] = [
 
 /// What people write instead, and what one of it is in the unit of the quantity: in the order in
 /// which it is asked about.
-const MISTAKEN: [(&str, &str, f64); 13] = [
+const MISTAKEN: [(&str, &str, f64); 14] = [
     ("m", "mm", 1e-3),
     ("m", "cm", 1e-2),
     ("m", "inches", 0.0254),
+    ("kg", "g", 1e-3),
     ("kg/m³", "g/cm³", 1e3),
     ("kg/m³", "kg/mm³", 1e9),
     ("kg/m³", "t/mm³", 1e12),

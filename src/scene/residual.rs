@@ -72,7 +72,7 @@ impl ResidualStress {
 
     fn balanced(hoop_pa: Profile, blade: &Blade) -> Result<Self, SceneError> {
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-        let (force, size) = (hoop_pa.integral(a, b), hoop_pa.size(a, b));
+        let (force, size) = (force(&hoop_pa, blade, a), hoop_pa.size(a, b));
         if matches!(blade.bore, Bore::Clamped(_)) || size == 0.0 {
             return Ok(ResidualStress {
                 hoop_pa,
@@ -82,13 +82,13 @@ impl ResidualStress {
         let imbalance = force / size;
         if imbalance.abs() > MAX_IMBALANCE {
             let allowed = format!(
-                "in balance: ∫hoop_pa dr over a blade with free edges is zero, and here it is \
+                "in balance: ∫hoop_pa dr (times the thickness, where it varies) over a blade with free edges is zero, and here it is \
                  {:.1} % of ∫|hoop_pa| dr, more than {:.0} %",
                 100.0 * imbalance,
                 100.0 * MAX_IMBALANCE
             );
             let remedy = "measure closer to the edges, where the stress is steepest";
-            let mean = force / (b - a);
+            let mean = force / even_force(blade);
             return Err(refuse(
                 "the mean of membrane.residual_stress",
                 mean,
@@ -97,7 +97,7 @@ impl ResidualStress {
             ));
         }
         Ok(ResidualStress {
-            hoop_pa: hoop_pa.raised(-force / (b - a)),
+            hoop_pa: hoop_pa.raised(-force / even_force(blade)),
             imbalance,
         })
     }
@@ -127,8 +127,40 @@ impl ResidualStress {
         Ok(())
     }
 
-    /// σ_rr = −(1/r) ∫_r^b σ_θθ dr, in Pa.
+    /// σ_rr = −(1/rh) ∫_r^b h σ_θθ dr, in Pa.
     pub fn radial_pa(&self, blade: &Blade, radius_m: f64) -> f64 {
-        -self.hoop_pa.integral(radius_m, blade.outer_radius_m) / radius_m
+        let thickness = blade.thickness_ratio(radius_m);
+        -force(&self.hoop_pa, blade, radius_m) / (radius_m * thickness)
+    }
+}
+
+/// ∫ h/h₀ σ dr from a radius to the rim.
+fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
+    let to = blade.outer_radius_m;
+    if blade.profile.is_none() {
+        return hoop_pa.integral(from, to);
+    }
+    // Both are straight between these: two Gauss points are exact.
+    let mut ends = [blade.edges_m(), hoop_pa.knots_m().to_vec()].concat();
+    ends.retain(|r| from < *r && *r < to);
+    ends.extend([from, to]);
+    ends.sort_by(f64::total_cmp);
+    let pieces = ends.windows(2).map(|pair| {
+        let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+        let off_middle = half / 3.0_f64.sqrt();
+        let points = [middle - off_middle, middle + off_middle];
+        half * points
+            .map(|r| blade.thickness_ratio(r) * hoop_pa.at(r))
+            .iter()
+            .sum::<f64>()
+    });
+    pieces.sum()
+}
+
+/// The same of a stress of one everywhere.
+fn even_force(blade: &Blade) -> f64 {
+    match Profile::new(&[(blade.outer_radius_m, 1.0)]).filter(|_| blade.profile.is_some()) {
+        Some(one) => force(&one, blade, blade.inner_radius_m),
+        None => blade.outer_radius_m - blade.inner_radius_m,
     }
 }

@@ -6,6 +6,7 @@ use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::runup::{Probe, RunUp};
+use super::thickness::{RimMass, ThicknessProfile};
 use super::validated::{Blade, Bore, Damping, Scene, SpeedRange};
 use super::{DampingFile, Material, Mount, SceneError, SceneFile, Spline, SweepFile, rad_per_s};
 
@@ -108,12 +109,19 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         let remedy = "a body thicker than wide is no plate; is the thickness in metres?";
         return Err(refuse("blade.thickness_m", thickness_m, allowed, remedy));
     }
-    Ok(Blade {
+    let plain = Blade {
         inner_radius_m: 0.5 * inner,
         outer_radius_m: 0.5 * outer,
         thickness_m,
+        profile: None,
+        rim: None,
         material,
         bore,
+    };
+    Ok(Blade {
+        profile: ThicknessProfile::new(&typed.profile, &plain)?,
+        rim: RimMass::new(file, &plain)?,
+        ..plain
     })
 }
 

@@ -1,8 +1,8 @@
 //! A [`Scene`]: a saw whose numbers have all been checked, in SI units and radians.
 
 use super::{
-    Accuracy, Cut, Guide, InPlane, Material, Membrane, Probe, RunUp, SceneError, SceneFile, Spline,
-    SweepFile, rpm,
+    Accuracy, Cut, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp, SceneError,
+    SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
 };
 
 /// A validated saw. It holds the scene as typed and the numbers made from it, which is why it
@@ -36,8 +36,12 @@ pub struct Blade {
     pub inner_radius_m: f64,
     /// Outer radius b.
     pub outer_radius_m: f64,
-    /// Thickness h.
+    /// Thickness h; with a profile that of the hub, to which mass and stiffness are referred.
     pub thickness_m: f64,
+    /// Thickness over the radius, where it is not the same everywhere.
+    pub profile: Option<ThicknessProfile>,
+    /// Mass of teeth and tips.
+    pub rim: Option<RimMass>,
     /// Material.
     pub material: Material,
     /// What happens at r = a.
@@ -176,7 +180,7 @@ impl Scene {
 }
 
 impl Blade {
-    /// Bending stiffness D = E h³ / 12(1 − ν²), in N·m.
+    /// Bending stiffness D = E h³ / 12(1 − ν²) of the thickness `thickness_m`, in N·m.
     pub fn flexural_rigidity_n_m(&self) -> f64 {
         let Material {
             youngs_modulus_pa: e,
@@ -186,7 +190,7 @@ impl Blade {
         e * self.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Mass per area ρh, in kg/m².
+    /// Mass per area ρh of the thickness `thickness_m`, in kg/m².
     pub fn mass_per_area_kg_per_m2(&self) -> f64 {
         self.material.density_kg_per_m3 * self.thickness_m
     }

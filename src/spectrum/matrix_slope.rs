@@ -61,8 +61,17 @@ pub fn matrix_slopes<E>(
             terms.push((weight / step, component.full));
         }
     }
-    let combined = terms.iter();
-    Ok(combined
-        .filter_map(|terms| GyroscopicSystem::combination(terms))
-        .collect())
+    let combined = terms.iter_mut().map(|terms| {
+        // A step of the thickness that leaves the ring takes its functions with it: no slope.
+        let order = terms.first().map(|(_, system)| system.order());
+        if terms
+            .iter()
+            .any(|(_, system)| Some(system.order()) != order)
+        {
+            terms.truncate(1);
+            terms[0].0 = 0.0;
+        }
+        GyroscopicSystem::combination(terms)
+    });
+    Ok(combined.flatten().collect())
 }

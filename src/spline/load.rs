@@ -1,7 +1,5 @@
 //! Resultant of what acts on the blade in its plane.
 
-use std::f64::consts::PI;
-
 use crate::plate::RimForce;
 use crate::scene::Blade;
 
@@ -22,7 +20,7 @@ impl PlaneLoad {
     pub fn new(blade: &Blade, loads: &[RimForce], weight_angle_rad: Option<f64>) -> Self {
         let mut sum = PlaneLoad::default();
         if let Some(angle) = weight_angle_rad {
-            let weight = mass_kg(blade) * GRAVITY_M_PER_S2;
+            let weight = blade.mass_kg() * GRAVITY_M_PER_S2;
             sum.force_n = [weight * angle.cos(), weight * angle.sin()];
         }
         for load in loads {
@@ -33,10 +31,4 @@ impl PlaneLoad {
         }
         sum
     }
-}
-
-/// Mass of the annulus.
-pub fn mass_kg(blade: &Blade) -> f64 {
-    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    blade.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a)
 }

@@ -8,7 +8,7 @@ use nalgebra::{Vector2, Vector3};
 use crate::scene::{Blade, Spline};
 
 use super::contact::{Contact, Touch};
-use super::load::{PlaneLoad, mass_kg};
+use super::load::PlaneLoad;
 use super::reaction::{Accumulator, MeanReaction};
 use super::{Run, SplineError, SplineRun, Start};
 
@@ -69,14 +69,9 @@ impl InPlaneMotion {
                 rad_per_s: speed_rad_per_s,
             });
         }
-        let (a, b, r) = (
-            blade.inner_radius_m,
-            blade.outer_radius_m,
-            spline.pitch_radius_m,
-        );
-        let mass = mass_kg(blade);
-        // J = m (a² + b²)/2 of an annulus.
-        let rotary = 0.5 * mass * (a * a + b * b) / (r * r);
+        let r = spline.pitch_radius_m;
+        let mass = blade.mass_kg();
+        let rotary = blade.polar_inertia_kg_m2() / (r * r);
         let contact = Contact::new(spline);
         let load_n = Vector3::new(load.force_n[0], load.force_n[1], load.torque_n_m / r);
         let length_m = contact.length_m(load_n.norm());

@@ -142,6 +142,10 @@ impl Variation {
         ] {
             add(format!("blade.{name}"), By::Percent);
         }
+        for index in 0..scene.blade.profile.len() {
+            add(format!("blade.profile[{index}].thickness_m"), By::Percent);
+        }
+        add("blade.rim.mass_per_tooth_kg".into(), By::Percent);
         for index in 0..scene.guides.len() {
             for (name, by) in [
                 ("radius_m", By::Percent),

@@ -5,12 +5,17 @@
 //! how large it becomes does not.
 
 use crate::plate::Plate;
-use crate::scene::Probe;
+use crate::scene::{Blade, Probe};
 
 use super::reduced::{ReducedBlade, at_point};
 
 /// Deflections beyond this many thicknesses of the blade are not given.
 pub const LINEAR_THICKNESSES: f64 = 5.0;
+
+/// Largest deflection that is given, by the thinnest part of the blade.
+pub fn linear_limit_m(blade: &Blade) -> f64 {
+    LINEAR_THICKNESSES * blade.thickness_range_m().0
+}
 
 /// Reads the deflection at the probe.
 #[derive(Debug)]
@@ -24,7 +29,7 @@ impl Gauge {
         let reading = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
         Gauge {
             probe: reading.iter().copied().collect(),
-            limit_m: LINEAR_THICKNESSES * plate.blade.thickness_m,
+            limit_m: linear_limit_m(&plate.blade),
         }
     }
 

@@ -21,7 +21,7 @@ mod teeth;
 mod verdict_map;
 
 pub use cut::{CutHistory, Growth, cut_history};
-pub use linear::LINEAR_THICKNESSES;
+pub use linear::{LINEAR_THICKNESSES, linear_limit_m};
 pub use newmark::{Motion, Newmark};
 pub use on_spline::{OnSpline, on_spline};
 pub use propagator::{Propagator, State};

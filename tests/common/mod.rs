@@ -85,6 +85,14 @@ pub fn in_units(file: &SceneFile, [length, mass, time]: [f64; 3]) -> SceneFile {
     blade.outer_diameter_m *= length;
     blade.inner_diameter_m *= length;
     blade.thickness_m *= length;
+    for row in &mut blade.profile {
+        row.radius_m *= length;
+        row.thickness_m *= length;
+    }
+    if let Some(rim) = &mut blade.rim {
+        rim.mass_per_tooth_kg *= mass;
+        rim.radius_m = rim.radius_m.map(|radius_m| radius_m * length);
+    }
     blade.material.youngs_modulus_pa *= mass / (length * time * time);
     blade.material.density_kg_per_m3 *= mass / length.powi(3);
     if let Mount::Collar { diameter_m, .. } = &mut file.mount {

@@ -21,4 +21,5 @@ mod rigid_motions;
 mod saws;
 mod sensitivity;
 mod spline;
+mod thickness_profile;
 mod witness;

@@ -1,8 +1,9 @@
 //! Derivatives of eigenvalues, critical speeds and onsets against central differences
 //! of whole analyses, with the numbers of the scene really moved.
 
-use sawflutter::plate::Resolution;
-use sawflutter::scene::{GuideFile, Parameter, Scene, rad_per_s};
+use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::{GuideFile, Parameter, RimFile, Scene, ThicknessRow, rad_per_s};
+use sawflutter::spectrum::SpectralModel;
 use sawflutter::stability::{Analysis, sensitivities};
 
 use super::saws::dense_analysis;
@@ -47,6 +48,41 @@ fn they_agree_where_a_rigid_motion_is_free() {
     };
     let springs = vec![spring(0.2, -55.0), spring(0.25, 40.0)];
     assert_central_differences(&paper.edited(|saw| saw.guides = springs).unwrap());
+}
+
+/// A step of the thickness and the mass of teeth change the functions of the basis with the
+/// matrices. Bands of this saw are too narrow for differences of their onsets.
+#[test]
+fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
+    let stepped = Scene::paper().edited(|saw| {
+        saw.blade.profile = vec![ThicknessRow {
+            radius_m: 0.26,
+            thickness_m: 2.4e-3,
+        }];
+        saw.blade.rim = Some(RimFile {
+            mass_per_tooth_kg: 0.004,
+            radius_m: Some(0.345),
+        });
+    });
+    let stepped = stepped.unwrap();
+    let found = sensitivities(&analysis_of(&stepped), rad_per_s(1000.0)).unwrap();
+    let critical = |scene: &Scene| SpectralModel::critical_speeds(&Plate::new(scene, RESOLUTION));
+    let middle = critical(&stepped).unwrap();
+    let share = 0.01;
+    for path in [
+        "blade.thickness_m",
+        "blade.profile[0].thickness_m",
+        "blade.rim.mass_per_tooth_kg",
+    ] {
+        let told = found.iter().find(|own| own.parameter == path).expect(path);
+        let [low, high] = [-share, share].map(|s| critical(&moved(&stepped, path, s)).unwrap());
+        for (k, told) in told.critical_speeds.iter().enumerate() {
+            let difference = high[k].speed_rad_per_s - low[k].speed_rad_per_s;
+            let difference = difference / (2.0 * share * middle[k].speed_rad_per_s);
+            let error = (told - difference).abs();
+            assert!(error < 1e-6 * 0.01, "{path} {k}: {told} for {difference}");
+        }
+    }
 }
 
 /// Every sensitivity against the difference of two analyses; returns the number of bands.

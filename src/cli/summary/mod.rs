@@ -10,6 +10,7 @@ use std::fmt::Write;
 use textwrap::{Options, WordSeparator, WordSplitter};
 
 use crate::report::{Report, RestMode};
+use crate::scene::BladeFile;
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 12;
@@ -36,13 +37,22 @@ fn header(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     writeln!(
         text,
-        "{:.1} mm outside, {:.1} mm bore, {:.2} mm thick; {} to {} rpm",
+        "{:.1} mm outside, {:.1} mm bore, {} thick; {} to {} rpm",
         1e3 * blade.outer_diameter_m,
         1e3 * blade.inner_diameter_m,
-        1e3 * blade.thickness_m,
+        thickness(blade),
         report.campbell.from_rpm.round(),
         report.campbell.to_rpm.round()
     )
+}
+
+fn thickness(blade: &BladeFile) -> String {
+    let (least, largest) = blade.thickness_range_m();
+    let [least, largest] = [least, largest].map(|thickness_m| 1e3 * thickness_m);
+    match least == largest {
+        true => format!("{largest:.2} mm"),
+        false => format!("{least:.2} to {largest:.2} mm"),
+    }
 }
 
 fn modes(text: &mut String, report: &Report) -> std::fmt::Result {

@@ -134,14 +134,13 @@ fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
     let (near, far, half) = sides(pad);
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut cuts = vec![
-        a,
-        b,
         near.abs(),
         far.abs(),
         half,
         near.hypot(half),
         far.hypot(half),
     ];
+    cuts.extend(blade.edges_m());
     cuts.retain(|r| (a..=b).contains(r));
     cuts.sort_by(f64::total_cmp);
     cuts.windows(2)

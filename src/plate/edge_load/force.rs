@@ -41,7 +41,8 @@ impl HarmonicTraction {
         let forces = loads
             .iter()
             .map(|load| (load.angle_rad, load.radial_n, load.tangential_n));
-        Self::of_forces(blade.outer_radius_m * blade.thickness_m, forces, order)
+        let b = blade.outer_radius_m;
+        Self::of_forces(b * blade.thickness_at_m(b), forces, order)
     }
 
     /// Of order m at the bore, where the outward normal is −r: a force outwards presses.
@@ -49,7 +50,8 @@ impl HarmonicTraction {
         let forces = reaction
             .iter()
             .map(|force| (force.angle_rad, -force.radial_n, -force.tangential_n));
-        Self::of_forces(blade.inner_radius_m * blade.thickness_m, forces, order)
+        let area_per_angle_m2 = blade.inner_radius_m * blade.thickness_at_bore_m();
+        Self::of_forces(area_per_angle_m2, forces, order)
     }
 
     /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and the

@@ -58,13 +58,13 @@ impl Term {
     }
 }
 
-/// R, H and T as functions of the radius.
+/// R, H and T as functions of the radius in a blade of one thickness.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct Series {
     terms: Vec<Term>,
 }
 
-impl Profile {
+impl Series {
     /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and
     /// q cos mθ, s sin mθ at the bore. For m = 0, where sin mθ is absent, t and s are
     /// uniform shears. What the bore lacks to balance the torque of m = 0 and the net
@@ -75,7 +75,7 @@ impl Profile {
             1 => net_force(blade, rim, bore),
             _ => self_balanced(blade, order as f64, rim, bore),
         };
-        Profile { terms }
+        Series { terms }
     }
 
     /// The stresses at a radius.

@@ -10,6 +10,8 @@
 //! |n₁ ± n₂| of the stress only, so orders up to 2 n_max give the exact K_e of
 //! point forces although their stress is singular at the rim.
 //!
+//! Where the thickness varies the harmonics are found by finite elements over the radius instead.
+//!
 //! References: J. H. Michell, *On the direct determination of stress in an elastic
 //! solid*, Proc. London Math. Soc. 31 (1899) 100–124; Timoshenko & Goodier, *Theory of
 //! Elasticity*, 3rd ed., sections 28, 42 and 43.
@@ -17,6 +19,7 @@
 mod angular;
 mod force;
 mod michell;
+mod profile;
 mod stiffness;
 
 pub use force::{BoreForce, RimForce};
@@ -25,7 +28,7 @@ pub use stiffness::edge_stiffness;
 use crate::scene::Blade;
 
 use force::HarmonicTraction;
-use michell::Profile;
+use profile::Profile;
 
 /// Factors of cos mθ and sin mθ of the three stresses at one radius, in Pa.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -12,7 +12,7 @@ const PHASES: [Phase; 2] = [Phase::Cosine, Phase::Sine];
 
 /// K_e in the mass-normalised basis of the plate, in 1/s², symmetric:
 ///
-/// K_e,ij = h ∫∫ [σ_rr φᵢ,r φⱼ,r + σ_θθ φᵢ,θ φⱼ,θ / r² + σ_rθ S_ij / r] r dr dθ,
+/// K_e,ij = ∫∫ h [σ_rr φᵢ,r φⱼ,r + σ_θθ φᵢ,θ φⱼ,θ / r² + σ_rθ S_ij / r] r dr dθ,
 /// S_ij = φᵢ,r φⱼ,θ + φᵢ,θ φⱼ,r.
 ///
 /// With a tension K_e is positive, with a thrust negative. On the rigid tilts it is
@@ -157,6 +157,7 @@ fn sufficient_points(functions: usize, max_order: usize) -> usize {
 /// The radial functions shared by all n ≠ 1 at a point of the quadrature rule.
 struct Sample {
     radius_m: f64,
+    /// Of the rule, times the thickness over that of the hub.
     weight_m: f64,
     value: DVector<f64>,
     slope: DVector<f64>,
@@ -164,14 +165,13 @@ struct Sample {
 
 impl Sample {
     fn on_blade(plate: &Plate, points: usize) -> Vec<Sample> {
-        let (a, b) = (plate.blade.inner_radius_m, plate.blade.outer_radius_m);
-        quadrature::graded(a, b, points)
+        quadrature::piecewise(&plate.blade.edges_m(), points)
             .iter()
             .map(|(r, w)| {
                 let functions = plate.basis.evaluate(0, r);
                 Sample {
                     radius_m: r,
-                    weight_m: w,
+                    weight_m: w * plate.blade.thickness_ratio(r),
                     value: DVector::from_vec(functions.value),
                     slope: DVector::from_vec(functions.slope),
                 }

@@ -21,6 +21,7 @@ pub use eigenstrain::Eigenstrain;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::in_plane::{InPlaneField, InPlaneLoad};
 use super::quadrature;
 use super::radial::RadialBasis;
 use crate::scene::{Blade, Bore, InPlane, Membrane, ResidualStress, Temperature};
@@ -55,6 +56,7 @@ pub struct MembraneStress {
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
     Eigen(EigenStress),
+    Varying(VaryingStress),
     Residual(ResidualStress),
 }
 
@@ -100,6 +102,51 @@ impl EigenStress {
     }
 }
 
+/// Stress of one eigenstrain in a blade whose thickness varies.
+#[derive(Debug, Clone, PartialEq)]
+struct VaryingStress {
+    eigenstrain: Eigenstrain,
+    field: InPlaneField,
+}
+
+impl VaryingStress {
+    fn new(blade: &Blade, eigenstrain: Eigenstrain) -> Self {
+        let load = InPlaneLoad {
+            eigenstrain: &|r| eigenstrain.at(r),
+            knots_m: &eigenstrain.knots_m(),
+            bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),
+            ..InPlaneLoad::default()
+        };
+        let field = InPlaneField::new(blade, 0, &load);
+        VaryingStress { eigenstrain, field }
+    }
+
+    fn at(&self, r: f64) -> PlaneStress {
+        let stress = self.field.at(r, self.eigenstrain.at(r));
+        PlaneStress {
+            radial_pa: stress.radial_pa,
+            hoop_pa: stress.hoop_pa,
+        }
+    }
+}
+
+impl Part {
+    fn of_eigenstrain(blade: &Blade, strain: Eigenstrain) -> Self {
+        match blade.profile {
+            None => Part::Eigen(EigenStress::new(blade, strain)),
+            Some(_) => Part::Varying(VaryingStress::new(blade, strain)),
+        }
+    }
+
+    fn eigenstrain(&self) -> Option<&Eigenstrain> {
+        match self {
+            Part::Eigen(EigenStress { eigenstrain, .. })
+            | Part::Varying(VaryingStress { eigenstrain, .. }) => Some(eigenstrain),
+            Part::Residual(_) => None,
+        }
+    }
+}
+
 impl MembraneStress {
     /// Every stress that a scene names and that is not zero; `None` without any.
     pub fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
@@ -115,7 +162,7 @@ impl MembraneStress {
             .into_iter()
             .chain(rolled)
             .filter(|(_, strain)| !strain.is_zero())
-            .map(|(source, strain)| (source, Part::Eigen(EigenStress::new(blade, strain))));
+            .map(|(source, strain)| (source, Part::of_eigenstrain(blade, strain)));
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let residual = membrane
             .residual_stress
@@ -132,7 +179,7 @@ impl MembraneStress {
     /// The stress of a temperature of the given peak alone.
     pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let strain = Eigenstrain::of_heat(blade, temperature, peak_rise_k);
-        let part = Part::Eigen(EigenStress::new(blade, strain));
+        let part = Part::of_eigenstrain(blade, strain);
         MembraneStress {
             blade: *blade,
             parts: vec![(MembraneSource::Heat, part)],
@@ -150,6 +197,7 @@ impl MembraneStress {
         for (_, part) in &self.parts {
             let stress = match part {
                 Part::Eigen(eigen) => eigen.at(&self.blade, radius_m),
+                Part::Varying(varying) => varying.at(radius_m),
                 Part::Residual(residual) => PlaneStress {
                     radial_pa: residual.radial_pa(&self.blade, radius_m),
                     hoop_pa: residual.hoop_pa.at(radius_m),
@@ -165,12 +213,14 @@ impl MembraneStress {
     pub fn knots_m(&self) -> Vec<f64> {
         let (a, b) = (self.blade.inner_radius_m, self.blade.outer_radius_m);
         let of_part = |(_, part): &(MembraneSource, Part)| match part {
-            Part::Eigen(eigen) => eigen.eigenstrain.knots_m(),
             Part::Residual(residual) => residual.hoop_pa.knots_m().to_vec(),
+            Part::Eigen(_) | Part::Varying(_) => {
+                part.eigenstrain().map_or(Vec::new(), Eigenstrain::knots_m)
+            }
         };
         let mut knots: Vec<f64> = self.parts.iter().flat_map(of_part).collect();
         knots.retain(|r| a < *r && *r < b);
-        knots.extend([a, b]);
+        knots.extend(self.blade.edges_m());
         knots.sort_by(f64::total_cmp);
         // Of two that rounding parts the panel between would be empty.
         knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
@@ -179,10 +229,8 @@ impl MembraneStress {
 
     /// Gauss points a panel that integrate products of two of J functions with it.
     fn points(&self, functions: usize) -> usize {
-        let degree = |(_, part): &(MembraneSource, Part)| match part {
-            Part::Eigen(eigen) => eigen.eigenstrain.degree(),
-            Part::Residual(_) => 1,
-        };
+        let degree =
+            |(_, part): &(MembraneSource, Part)| part.eigenstrain().map_or(1, Eigenstrain::degree);
         let degree = self.parts.iter().map(degree).max().unwrap_or(0);
         functions + degree / 2 + 12
     }
@@ -192,7 +240,7 @@ impl MembraneStress {
 const MERGED: f64 = 1e-12;
 
 /// Geometric stiffness K_m of n = 0 … n_max in the mass-normalised basis, in 1/s²:
-/// (1/ρ) ∫ [σ_rr R′R′ + n² σ_θθ RR/r²] r dr. Panels end where the stress is not smooth.
+/// (1/ρ) ∫ h/h₀ [σ_rr R′R′ + n² σ_θθ RR/r²] r dr. Panels end where the stress is not smooth.
 pub fn membrane_stiffness(
     basis: &RadialBasis,
     stress: &MembraneStress,
@@ -218,6 +266,7 @@ fn stiffness_with(
             let value = DVector::from_vec(functions.value);
             let slope = DVector::from_vec(functions.slope);
             let at = stress.at(r);
+            let w = w * stress.blade.thickness_ratio(r);
             radial.ger(w * r * at.radial_pa / density, &slope, &slope, 1.0);
             hoop.ger(w / r * at.hoop_pa / density, &value, &value, 1.0);
         }

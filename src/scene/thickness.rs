@@ -1,0 +1,403 @@
+//! Thickness over the radius, and the mass of teeth and tips.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{positive, refuse, within};
+use super::{Blade, BladeFile, SceneError, SceneFile};
+
+/// Thickness at one radius.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ThicknessRow {
+    /// Distance from the axis.
+    pub radius_m: f64,
+    /// Thickness of the plate there.
+    pub thickness_m: f64,
+}
+
+/// Mass of teeth or of carbide tips, taken as spread evenly along a circle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RimFile {
+    /// Mass of one tooth, or of one tip; blade.teeth says how many there are.
+    pub mass_per_tooth_kg: f64,
+    /// Distance of its centre from the axis; by default that of the rim.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
+}
+
+/// Rows of a profile: each adds functions to the basis.
+const MAX_ROWS: usize = 8;
+/// A step to a tenth leaves a thousandth of the bending stiffness.
+const RATIOS: (f64, f64) = (0.1, 10.0);
+/// Heavier than any saw.
+const MAX_TOOTH_KG: f64 = 1e3;
+
+/// Validated thickness: that of the hub up to the first row, straight between the rows, constant
+/// beyond the last. Two rows of one radius make a step, and so does a first row unlike the hub.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThicknessProfile {
+    hub_m: f64,
+    /// (radius, thickness), the first `count` of them.
+    rows: [(f64, f64); MAX_ROWS],
+    count: usize,
+}
+
+/// Validated mass on a circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RimMass {
+    /// Of all teeth together.
+    pub mass_kg: f64,
+    /// Distance from the axis.
+    pub radius_m: f64,
+}
+
+impl ThicknessProfile {
+    /// `None` without rows. `blade` is the blade of uniform thickness.
+    pub(super) fn new(rows: &[ThicknessRow], blade: &Blade) -> Result<Option<Self>, SceneError> {
+        let key = "blade.profile";
+        if rows.is_empty() {
+            return Ok(None);
+        }
+        if rows.len() > MAX_ROWS {
+            let allowed = format!("at most {MAX_ROWS} rows");
+            let remedy = "thickness is straight between rows: a step takes one or two, a taper two";
+            return Err(refuse(key, rows.len() as f64, allowed, remedy));
+        }
+        let mut profile = ThicknessProfile {
+            hub_m: blade.thickness_m,
+            rows: [(0.0, 0.0); MAX_ROWS],
+            count: rows.len(),
+        };
+        for (index, row) in rows.iter().enumerate() {
+            let key = |name: &str| format!("{key}[{index}].{name}");
+            check_radius(&key("radius_m"), rows, index, blade)?;
+            let thickness = positive(&key("thickness_m"), row.thickness_m)?;
+            check_thickness(&key("thickness_m"), thickness, blade)?;
+            profile.rows[index] = (row.radius_m, thickness);
+        }
+        Ok(Some(profile))
+    }
+
+    fn rows(&self) -> &[(f64, f64)] {
+        &self.rows[..self.count]
+    }
+
+    /// Thickness at a radius; at a step that of its inner side.
+    pub fn at_m(&self, radius_m: f64) -> f64 {
+        self.between(
+            self.rows().partition_point(|(r, _)| *r < radius_m),
+            radius_m,
+        )
+    }
+
+    /// Thickness just outside a radius.
+    fn outside_m(&self, radius_m: f64) -> f64 {
+        self.between(
+            self.rows().partition_point(|(r, _)| *r <= radius_m),
+            radius_m,
+        )
+    }
+
+    /// Thickness at a radius before the row `next`.
+    fn between(&self, next: usize, radius_m: f64) -> f64 {
+        let rows = self.rows();
+        let Some(before) = next.checked_sub(1) else {
+            return self.hub_m;
+        };
+        let (from, start) = rows[before];
+        match rows.get(next) {
+            Some((to, end)) => start + (end - start) * ((radius_m - from) / (to - from)),
+            None => start,
+        }
+    }
+
+    /// Radii at which it is not smooth, ascending.
+    fn knots_m(&self) -> Vec<f64> {
+        let mut knots: Vec<f64> = self.rows().iter().map(|(radius, _)| *radius).collect();
+        knots.dedup();
+        knots
+    }
+}
+
+fn check_radius(
+    key: &str,
+    rows: &[ThicknessRow],
+    index: usize,
+    blade: &Blade,
+) -> Result<(), SceneError> {
+    let radius = rows[index].radius_m;
+    let radius_of = |place: Option<usize>| place.map_or(0.0, |place| rows[place].radius_m);
+    let least = radius_of(index.checked_sub(1));
+    let twice = index >= 2 && radius_of(index.checked_sub(2)) == radius;
+    if radius > 0.0 && radius >= least && radius <= blade.outer_radius_m && !twice {
+        return Ok(());
+    }
+    let allowed = format!(
+        "from {least} to the radius of the rim ({}), and each radius at most twice",
+        blade.outer_radius_m
+    );
+    let remedy = "list the rows from the bore to the rim; two rows of one radius make a step";
+    Err(refuse(key, radius, allowed, remedy))
+}
+
+fn check_thickness(key: &str, thickness_m: f64, blade: &Blade) -> Result<(), SceneError> {
+    let width = blade.outer_radius_m - blade.inner_radius_m;
+    let hub = blade.thickness_m;
+    let (low, high) = (RATIOS.0 * hub, (RATIOS.1 * hub).min(width));
+    if (low..=high).contains(&thickness_m) {
+        return Ok(());
+    }
+    let allowed = format!(
+        "from {low:e} to {high:e}: a tenth to ten times blade.thickness_m, and not more than the \
+         width of the moving ring"
+    );
+    let remedy = "give the thickness of the plate at this radius in metres";
+    Err(refuse(key, thickness_m, allowed, remedy))
+}
+
+impl RimMass {
+    /// `None` where there is no mass.
+    pub(super) fn new(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
+        let Some(typed) = file.blade.rim else {
+            return Ok(None);
+        };
+        let key = "blade.rim.mass_per_tooth_kg";
+        let each = within(key, typed.mass_per_tooth_kg, (0.0, MAX_TOOTH_KG))?;
+        let Some(teeth) = file.blade.teeth.filter(|teeth| *teeth > 0) else {
+            return Err(SceneError::Value {
+                key: "blade.teeth".into(),
+                value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
+                allowed: "at least 1 where blade.rim gives a mass for each".into(),
+                remedy: "give the number of teeth",
+            });
+        };
+        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+        let radius_m = typed.radius_m.unwrap_or(outer);
+        if !(radius_m > inner && radius_m <= outer) {
+            let allowed = format!("on the moving blade, above {inner} and at most {outer}");
+            let remedy = "what stands out beyond the rim counts at the rim";
+            return Err(refuse("blade.rim.radius_m", radius_m, allowed, remedy));
+        }
+        let mass_kg = each * f64::from(teeth);
+        Ok((mass_kg > 0.0).then_some(RimMass { mass_kg, radius_m }))
+    }
+}
+
+impl BladeFile {
+    /// Least and largest thickness as typed.
+    pub fn thickness_range_m(&self) -> (f64, f64) {
+        let rows = self.profile.iter().map(|row| row.thickness_m);
+        rows.fold((self.thickness_m, self.thickness_m), |(low, high), own| {
+            (low.min(own), high.max(own))
+        })
+    }
+}
+
+impl Blade {
+    /// Thickness at a radius; at a step that of its inner side.
+    pub fn thickness_at_m(&self, radius_m: f64) -> f64 {
+        self.profile
+            .map_or(self.thickness_m, |profile| profile.at_m(radius_m))
+    }
+
+    /// Thickness over [`Blade::thickness_m`].
+    pub fn thickness_ratio(&self, radius_m: f64) -> f64 {
+        self.profile
+            .map_or(1.0, |profile| profile.at_m(radius_m) / self.thickness_m)
+    }
+
+    /// Thickness at the inner edge of the moving ring.
+    pub fn thickness_at_bore_m(&self) -> f64 {
+        self.profile.map_or(self.thickness_m, |profile| {
+            profile.outside_m(self.inner_radius_m)
+        })
+    }
+
+    /// Whether mass and stiffness are those of a plate of one thickness.
+    pub fn is_plain(&self) -> bool {
+        self.profile.is_none() && self.rim.is_none()
+    }
+
+    /// Radii within the moving ring at which the thickness is not smooth, ascending.
+    pub fn knots_m(&self) -> Vec<f64> {
+        let mut knots = self.profile.map_or(Vec::new(), |profile| profile.knots_m());
+        let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
+        knots.retain(|radius| inner < *radius && *radius < outer);
+        knots
+    }
+
+    /// The edges of the moving ring and, ascending between them, the radii at which its thickness or
+    /// its load jumps.
+    pub fn edges_m(&self) -> Vec<f64> {
+        let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
+        let teeth = self.rim.map(|rim| rim.radius_m).filter(|r| *r < outer);
+        let mut edges = self.knots_m();
+        edges.extend(teeth.into_iter().chain([inner, outer]));
+        edges.sort_by(f64::total_cmp);
+        edges.dedup();
+        edges
+    }
+
+    /// Least and largest thickness of the moving ring.
+    pub fn thickness_range_m(&self) -> (f64, f64) {
+        let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
+        let mut range = (self.thickness_at_bore_m(), self.thickness_at_bore_m());
+        for radius in self.knots_m().into_iter().chain([inner, outer]) {
+            let outside = (radius < outer).then(|| self.profile.map(|p| p.outside_m(radius)));
+            let inside = (radius > inner).then(|| self.thickness_at_m(radius));
+            for thickness in inside.into_iter().chain(outside.flatten()) {
+                range = (range.0.min(thickness), range.1.max(thickness));
+            }
+        }
+        range
+    }
+
+    /// Mass of the moving ring with its teeth.
+    pub fn mass_kg(&self) -> f64 {
+        self.mass_moment(0) + self.rim.map_or(0.0, |rim| rim.mass_kg)
+    }
+
+    /// Moment of inertia about the axis.
+    pub fn polar_inertia_kg_m2(&self) -> f64 {
+        let of_teeth = |rim: RimMass| rim.mass_kg * rim.radius_m.powi(2);
+        self.mass_moment(2) + self.rim.map_or(0.0, of_teeth)
+    }
+
+    /// ∫ r^p dm of the plate, p ≤ 3: three Gauss points are exact between edges.
+    fn mass_moment(&self, power: i32) -> f64 {
+        let off_middle = 0.6_f64.sqrt();
+        let points = [(-off_middle, 5.0), (0.0, 8.0), (off_middle, 5.0)];
+        let edges = self.edges_m();
+        let panels = edges.windows(2).map(|pair| {
+            let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
+            let at = |(x, weight): (f64, f64)| {
+                let r = middle + half * x;
+                half * weight / 9.0 * self.thickness_at_m(r) * r.powi(power + 1)
+            };
+            points.map(at).iter().sum::<f64>()
+        });
+        std::f64::consts::TAU * self.material.density_kg_per_m3 * panels.sum::<f64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn rows(list: &[(f64, f64)]) -> Vec<ThicknessRow> {
+        let row = |&(radius_m, thickness_m): &(f64, f64)| ThicknessRow {
+            radius_m,
+            thickness_m,
+        };
+        list.iter().map(row).collect()
+    }
+
+    fn blade_with(list: &[(f64, f64)]) -> Result<Blade, SceneError> {
+        let scene = Scene::paper().edited(|saw| saw.blade.profile = rows(list));
+        scene.map(|scene| *scene.blade())
+    }
+
+    /// Hub 2.8 mm, from 0.2 m a taper to 2 mm at 0.3 m, there a step to 1.6 mm.
+    #[test]
+    fn thickness_is_that_of_the_hub_then_straight_between_rows_then_constant() {
+        let blade = blade_with(&[(0.2, 2.8e-3), (0.3, 2.0e-3), (0.3, 1.6e-3)]).expect("a blade");
+        for (radius, expected) in [
+            (0.11, 2.8e-3),
+            (0.25, 2.4e-3),
+            (0.3, 2.0e-3),
+            (0.35, 1.6e-3),
+        ] {
+            assert!(
+                (blade.thickness_at_m(radius) - expected).abs() < 1e-15,
+                "{radius}"
+            );
+        }
+        assert_eq!(blade.knots_m(), [0.2, 0.3]);
+        assert_eq!(
+            blade.edges_m(),
+            [blade.inner_radius_m, 0.2, 0.3, blade.outer_radius_m]
+        );
+        let (least, largest) = blade.thickness_range_m();
+        assert!((least - 1.6e-3).abs() < 1e-15 && (largest - 2.8e-3).abs() < 1e-15);
+    }
+
+    /// A taper's volume by Pappus, and a step by hand.
+    #[test]
+    fn the_mass_is_that_of_the_rings() {
+        let step = blade_with(&[(0.2, 1.4e-3)]).expect("a blade");
+        let (a, b) = (step.inner_radius_m, step.outer_radius_m);
+        let expected =
+            7800.0 * std::f64::consts::PI * (2.8e-3 * (0.04 - a * a) + 1.4e-3 * (b * b - 0.04));
+        assert!((step.mass_kg() / expected - 1.0).abs() < 1e-14);
+        let plain = *Scene::paper().blade();
+        let inertia = 0.5 * plain.mass_kg() * (a * a + b * b);
+        assert!((plain.polar_inertia_kg_m2() / inertia - 1.0).abs() < 1e-14);
+        let taper = blade_with(&[(a, 2.8e-3), (b, 1.4e-3)]).expect("a blade");
+        // Trapezium with sides 2.8 and 1.4 mm: area times the way of its centroid.
+        let width = b - a;
+        let area = 2.1e-3 * width;
+        let centroid = a + width / 3.0 * (2.8 + 2.0 * 1.4) / (2.8 + 1.4);
+        let expected = 7800.0 * std::f64::consts::TAU * area * centroid;
+        assert!((taper.mass_kg() / expected - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn rows_that_no_blade_has_are_refused_by_name() {
+        let cases: [(&[(f64, f64)], &str); 5] = [
+            (&[(0.3, 2e-3), (0.2, 2e-3)], "blade.profile[1].radius_m"),
+            (&[(0.4, 2e-3)], "blade.profile[0].radius_m"),
+            (
+                &[(0.2, 2e-3), (0.2, 3e-3), (0.2, 2e-3)],
+                "blade.profile[2].radius_m",
+            ),
+            (&[(0.2, 2e-4)], "blade.profile[0].thickness_m"),
+            (&[(0.2, f64::NAN)], "blade.profile[0].thickness_m"),
+        ];
+        for (list, expected) in cases {
+            match blade_with(list) {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+        let many = [(0.2, 2e-3); 9];
+        let error = blade_with(&many).expect_err("too many").to_string();
+        assert!(error.contains("blade.profile is 9"), "{error}");
+    }
+
+    #[test]
+    fn the_mass_of_teeth_needs_their_number_and_a_place_on_the_blade() {
+        let with = |mass: f64, radius_m: Option<f64>, teeth: Option<u32>| {
+            Scene::paper().edited(|saw| {
+                saw.cut = None;
+                saw.blade.teeth = teeth;
+                saw.blade.rim = Some(RimFile {
+                    mass_per_tooth_kg: mass,
+                    radius_m,
+                });
+            })
+        };
+        let scene = with(0.002, None, Some(40)).expect("a saw");
+        let rim = scene.blade().rim.expect("a mass");
+        assert_eq!((rim.mass_kg, rim.radius_m), (0.08, 0.355));
+        assert!(
+            with(0.0, None, Some(40))
+                .expect("a saw")
+                .blade()
+                .rim
+                .is_none()
+        );
+        for (result, expected) in [
+            (with(0.002, None, None), "blade.teeth"),
+            (with(0.002, Some(0.4), Some(40)), "blade.rim.radius_m"),
+            (with(-0.002, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
+        ] {
+            match result {
+                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                other => panic!("{expected}: {other:?}"),
+            }
+        }
+    }
+}
