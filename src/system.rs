@@ -8,7 +8,8 @@
 //!
 //! It is the plate's equation ρh D²w/Dt² + … = 0 with the convective derivative D/Dt = ∂t + Ω∂θ:
 //! D² gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the
-//! strain rate of the turning blade, η K_b Dq/Dt, hence its part η K_b in C and K_circ = η K_b G.
+//! strain rate of the turning blade, η K_b Dq/Dt, hence its part η K_b in C and K_circ = η K_b G; air
+//! that turns with the share s of the speed resists w_t + sΩw_θ.
 //!
 //! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster,
 //! *Strongly stable gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for the signs
@@ -31,7 +32,8 @@ pub struct GyroscopicSystem {
     pub gyroscopic: Mat<f64>,
     /// C, in 1/s, symmetric: pads, air and material.
     pub damping: Option<Mat<f64>>,
-    /// K_circ = η K_b G, in 1/s: material damping turns with the blade.
+    /// K_circ = η K_b G + s C_a G, in 1/s: material damping turns with the blade, and air, whose
+    /// part of C is C_a, with the share s of its speed.
     pub circulatory: Option<Mat<f64>>,
     /// K_n, in 1/s², of no symmetry: contact forces that have no potential.
     pub nonconservative: Option<Mat<f64>>,
@@ -116,16 +118,26 @@ impl GyroscopicSystem {
         };
         let size = self.order();
         let mut total: Mat<f64> = Mat::zeros(size, size);
+        // Resistance that turns with the blade, or with a share of its speed.
+        let mut turning: Option<Mat<f64>> = None;
         let retardation = damping.material_retardation_time_s;
         if retardation > 0.0 {
             total += Scale(retardation) * &self.stiffness;
-            self.circulatory = Some(Scale(retardation) * &self.stiffness * &self.gyroscopic);
+            turning = Some(Scale(retardation) * &self.stiffness);
         }
         let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-        match air_area(plate, range) {
+        let area = air_area(plate, range);
+        match &area {
             Some(area) => total += Scale(air) * area,
             None => (0..size).for_each(|i| total[(i, i)] += air),
         }
+        let turning_air = air * damping.air_rotation_share;
+        if turning_air > 0.0 {
+            let area = area.unwrap_or_else(|| Mat::identity(size, size));
+            let air = Scale(turning_air) * area;
+            turning = Some(turning.map_or_else(|| air.clone(), |material| material + &air));
+        }
+        self.circulatory = turning.map(|turning| turning * &self.gyroscopic);
         self.damping = Some(total);
     }
 

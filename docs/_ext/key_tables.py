@@ -81,6 +81,8 @@ def full_scene() -> dict[str, Any]:
         "roll_tension": [{"radius_m": 0.2, "width_m": 0.02, "eigenstrain": 1e-4}],
     }
     data["damping"] = {"air_n_s_per_m3": 1.0}
+    data["blade"]["profile"] = [{"radius_m": 0.3, "thickness_m": 2e-3}]
+    data["blade"]["rim"] = {"mass_per_tooth_kg": 1e-3}
     return data
 
 

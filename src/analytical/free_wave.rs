@@ -45,27 +45,41 @@ pub fn critical_speed_rad_per_s(
         nodal_diameters,
         rest_frequency_rad_per_s,
         spin_stiffening,
-        0.0,
+        LightDamping::default(),
     )
 }
 
-/// The speed in rad/s from which light damping makes the backward wave grow: air that stands in
-/// space, c per area on a blade of mass ρh per area, and a material with the retardation time η.
+/// Light damping of a wave by air and by the material of the blade.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LightDamping {
+    /// η ω₀² ρh/c, the ratio of the two dampings of the wave at rest: the material has the
+    /// retardation time η, the air the resistance c per area on a blade of mass ρh per area.
+    pub material_to_air: f64,
+    /// s, the speed with which the air turns over that of the blade: 0 for air at rest in space.
+    pub air_rotation_share: f64,
+}
+
+/// The speed in rad/s from which light damping makes the backward wave grow.
 ///
-/// The work of both, η ω₀² ω_b + (c/ρh)(ω_b − nΩ), vanishes at Ω = q ω₀/√(n² − κq²) with
-/// q = 1 + η ω₀² ρh/c. Material damping delays the onset beyond the critical speed (q = 1), and
-/// alone it never comes. `None` where there is none, κq² ≥ n².
+/// Seen from the blade the backward wave has the frequency ω_b; seen from air that turns at sΩ it is
+/// carried along with the difference of the two speeds and has ω_b − n(1 − s)Ω. The work of both
+/// dampings, η ω₀² ω_b + (c/ρh)(ω_b − n(1 − s)Ω), vanishes at Ω = q ω₀/√(n²(1 − s)² − κq²) with
+/// q = 1 + η ω₀² ρh/c. Without material damping and in air at rest that is the critical speed; both
+/// the material and the turning of the air delay the onset beyond it, and with either alone (no
+/// air, or s = 1) it never comes. `None` where there is none, κq² ≥ n²(1 − s)².
 ///
-/// `material_to_air` is η ω₀² ρh/c = q − 1: the ratio of the two dampings of the wave at rest.
-/// Exact to first order in the damping ratios.
+/// Exact to first order in the damping ratios. Air that turns relative to the disk: M. H. Hansen, A.
+/// Raman & C. D. Mote, *Estimation of nonconservative aerodynamic pressure leading to flutter of
+/// spinning disks*, J. Fluids Struct. 15 (2001), 39–57.
 pub fn damped_onset_rad_per_s(
     nodal_diameters: usize,
     rest_frequency_rad_per_s: f64,
     spin_stiffening: f64,
-    material_to_air: f64,
+    damping: LightDamping,
 ) -> Option<f64> {
-    let q = 1.0 + material_to_air;
-    let rest = (nodal_diameters as f64).powi(2) - spin_stiffening * q * q;
+    let q = 1.0 + damping.material_to_air;
+    let carried = nodal_diameters as f64 * (1.0 - damping.air_rotation_share);
+    let rest = carried.powi(2) - spin_stiffening * q * q;
     (rest > 0.0).then(|| q * rest_frequency_rad_per_s / rest.sqrt())
 }
 
@@ -86,15 +100,22 @@ mod tests {
     /// The work of the two dampings, put down for itself, changes its sign at the onset.
     #[test]
     fn no_work_is_done_at_the_onset() {
-        let (n, rest, stiffening, ratio) = (3, 200.0, 2.6, 0.4);
-        let speed = damped_onset_rad_per_s(n, rest, stiffening, ratio).unwrap();
+        let (n, rest, stiffening, ratio, share) = (3, 200.0, 2.6, 0.1, 0.3);
+        let light = |material_to_air, air_rotation_share| LightDamping {
+            material_to_air,
+            air_rotation_share,
+        };
+        let onset = |damping| damped_onset_rad_per_s(n, rest, stiffening, damping);
+        let speed = onset(light(ratio, share)).unwrap();
         let body = body_frequency_rad_per_s(rest, stiffening, speed);
-        let [_, backward] = space_frequencies_rad_per_s(n, body, speed);
+        // Seen from the air the wave is carried by what the blade is faster.
+        let [_, backward] = space_frequencies_rad_per_s(n, body, (1.0 - share) * speed);
         assert!((ratio * body + backward).abs() < 1e-12 * body);
         let critical = critical_speed_rad_per_s(n, rest, stiffening).unwrap();
         let body = body_frequency_rad_per_s(rest, stiffening, critical);
         assert!((body - 3.0 * critical).abs() < 1e-12 * body && critical < speed);
         assert_eq!(critical_speed_rad_per_s(1, rest, 1.0), None);
-        assert_eq!(damped_onset_rad_per_s(n, rest, stiffening, 5.0), None);
+        assert_eq!(onset(light(5.0, 0.0)), None);
+        assert_eq!(onset(light(0.0, 1.0)), None);
     }
 }

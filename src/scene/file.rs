@@ -161,9 +161,13 @@ pub struct DampingFile {
     /// Kelvin–Voigt retardation time η of the material (turns with the blade).
     #[serde(default, skip_serializing_if = "is_zero")]
     pub material_retardation_time_s: f64,
-    /// Viscous resistance of the surrounding air per area (fixed in space).
+    /// Viscous resistance of the surrounding air per area (at rest in space, unless it turns).
     #[serde(default, skip_serializing_if = "is_zero")]
     pub air_n_s_per_m3: f64,
+    /// Share of the blade's speed with which this air turns: 0 for air at rest, by default; 1 for
+    /// air that goes with the blade.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub air_rotation_share: f64,
 }
 
 fn is_zero(value: &f64) -> bool {

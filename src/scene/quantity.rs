@@ -36,7 +36,7 @@ const fn q(
 /// machines that are built: from slitting saws of 50 mm to saws for stone of 4 m, from aluminium
 /// to tungsten carbide, from a felt pad to a steel one.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 69] = [
+pub const QUANTITIES: [Quantity; 70] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -57,6 +57,7 @@ pub const QUANTITIES: [Quantity; 69] = [
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
     q("damping.air_n_s_per_m3", "air damping", "N·s/m³", 1e-3, 1e5),
+    q("damping.air_rotation_share", "speed of the air over that of the blade", "", 0.0, 1.0),
     q("membrane.temperature.expansion_per_k", "thermal expansion", "1/K", 3e-6, 3e-5),
     q("membrane.temperature.rim_rise_k", "temperature rise of the rim", "K", -200.0, 600.0),
     q("membrane.temperature.from_radius_m", "radius where the rise begins", "m", 1e-3, 2.5),

@@ -151,6 +151,11 @@ fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {
             typed.air_n_s_per_m3,
             (0.0, SPAN.1),
         )?,
+        air_rotation_share: within(
+            "damping.air_rotation_share",
+            typed.air_rotation_share,
+            (0.0, 1.0),
+        )?,
     };
     let any = damping.material_retardation_time_s > 0.0 || damping.air_n_s_per_m3 > 0.0;
     Ok(any.then_some(damping))

@@ -62,8 +62,10 @@ pub enum Bore {
 pub struct Damping {
     /// Kelvin–Voigt retardation time η, in the body frame.
     pub material_retardation_time_s: f64,
-    /// Air resistance per area, in the space-fixed frame.
+    /// Air resistance per area, in the frame of the air.
     pub air_n_s_per_m3: f64,
+    /// Speed at which the air turns, over that of the blade.
+    pub air_rotation_share: f64,
 }
 
 /// Range of rotation speeds.

@@ -29,6 +29,7 @@ prop_compose! {
         let is_damped = air.is_some() || material.is_some();
         file.damping = is_damped.then(|| DampingFile {
             air_n_s_per_m3: power(air),
+            air_rotation_share: if pads.is_some() { 0.3 } else { 0.0 },
             material_retardation_time_s: power(material),
         });
         if pads.is_none() && !is_damped {

@@ -6,7 +6,7 @@
 //! for rotating shafts and disks.)
 
 use nalgebra::DMatrix;
-use sawflutter::analytical::free_wave::damped_onset_rad_per_s;
+use sawflutter::analytical::free_wave::{LightDamping, damped_onset_rad_per_s};
 use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
 use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -31,6 +31,7 @@ fn analysis_of(air: f64, material: f64) -> Analysis {
     let damping = DampingFile {
         air_n_s_per_m3: air,
         material_retardation_time_s: material,
+        ..DampingFile::default()
     };
     Analysis::new(&free_blade(damping)).unwrap()
 }
@@ -80,7 +81,7 @@ fn air_destabilises_exactly_the_reflected_waves() {
 
 /// Onset of a wave whose shape x changes with the speed: the closed form of the shape at the
 /// speed itself.
-fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64) -> f64 {
+fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64, share: f64) -> f64 {
     let size = block.spin.nrows();
     let tension = &block.spin + DMatrix::identity(size, size) * block.diameters.pow(2) as f64;
     let from_shape_at = |speed: f64| {
@@ -88,8 +89,12 @@ fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64) -> f
         let x = eigen.eigenvectors.column(eigen.eigenvalues.imin());
         let quotient = |matrix: &DMatrix<f64>| (x.transpose() * matrix * x)[(0, 0)];
         let bending = quotient(&block.bending);
-        let to_air = eta * bending / air_per_mass;
-        damped_onset_rad_per_s(block.diameters, bending.sqrt(), quotient(&tension), to_air).unwrap()
+        let damping = LightDamping {
+            material_to_air: eta * bending / air_per_mass,
+            air_rotation_share: share,
+        };
+        let (rest, stiffening) = (bending.sqrt(), quotient(&tension));
+        damped_onset_rad_per_s(block.diameters, rest, stiffening, damping).unwrap()
     };
     let mut speed = rad_per_s(1500.0);
     for _ in 0..20 {
@@ -104,7 +109,7 @@ fn with_both_the_onset_agrees_with_its_closed_form() {
     let analysis = analysis_of(AIR, MATERIAL);
     let plate = &analysis.model.plate;
     let air_per_mass = AIR / plate.blade.mass_per_area_kg_per_m2();
-    let expected = onset_in_closed_form(&plate.harmonics[2], MATERIAL, air_per_mass);
+    let expected = onset_in_closed_form(&plate.harmonics[2], MATERIAL, air_per_mass, 0.0);
     let first = &analysis.chart.instabilities[0];
     // The closed form is of first order in damping ratios of 1e-4.
     assert!(
@@ -120,6 +125,41 @@ fn with_both_the_onset_agrees_with_its_closed_form() {
     );
 }
 
+/// Air that turns with a share of the speed feeds a wave later, with and without damping of the
+/// material. The wave of two diameters is the first to grow.
+#[test]
+fn turning_air_delays_the_onset_as_its_closed_form_says() {
+    for (material, share) in [(0.0, 0.05), (0.0, 0.1), (MATERIAL, 0.02)] {
+        let analysis = Analysis::new(&free_blade(DampingFile {
+            air_n_s_per_m3: AIR,
+            material_retardation_time_s: material,
+            air_rotation_share: share,
+        }))
+        .unwrap();
+        let plate = &analysis.model.plate;
+        let air_per_mass = AIR / plate.blade.mass_per_area_kg_per_m2();
+        let first = &analysis.chart.instabilities[0];
+        let expected = onset_in_closed_form(&plate.harmonics[2], material, air_per_mass, share);
+        assert!(
+            (first.from_rad_per_s / expected - 1.0).abs() < 1e-6,
+            "{} {}",
+            rpm(first.from_rad_per_s),
+            rpm(expected)
+        );
+        assert!(first.from_rad_per_s > 1.05 * analysis.model.critical[0].speed_rad_per_s);
+    }
+    let with_blade = DampingFile {
+        air_n_s_per_m3: AIR,
+        air_rotation_share: 1.0,
+        ..DampingFile::default()
+    };
+    let analysis = Analysis::new(&free_blade(with_blade)).unwrap();
+    assert!(
+        analysis.chart.instabilities.is_empty(),
+        "air that goes with the blade only damps"
+    );
+}
+
 /// λ of the guided saw tends to the undamped one linearly in the damping.
 #[test]
 fn the_undamped_limit_is_continuous() {
@@ -128,6 +168,7 @@ fn the_undamped_limit_is_continuous() {
             saw.damping = Some(DampingFile {
                 material_retardation_time_s: 1e-6 * share,
                 air_n_s_per_m3: 5.0 * share,
+                air_rotation_share: 0.4,
             });
         });
         let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
