@@ -293,6 +293,9 @@ class Work(Entry):
     refined_pairs: int
     """Pairs of modes refined by inverse iteration, with a factorization each."""
 
+    heat_solves: int
+    """Symmetric, of the whole basis under other temperatures: limits of heat."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mismatch(Entry):

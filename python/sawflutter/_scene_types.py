@@ -138,7 +138,12 @@ class DampingDict(TypedDict, total=False):
     """Kelvin–Voigt retardation time η of the material (turns with the blade)."""
 
     air_n_s_per_m3: float
-    """Viscous resistance of the surrounding air per area (fixed in space)."""
+    """Viscous resistance of the surrounding air per area (at rest in space, unless it
+    turns)."""
+
+    air_rotation_share: float
+    """Share of the blade's speed with which this air turns: 0 for air at rest, by default; 1
+    for air that goes with the blade."""
 
 
 class TemperatureRowDict(TypedDict):
