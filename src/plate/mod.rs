@@ -24,11 +24,12 @@ mod radial;
 mod stress;
 
 pub use contact::{Contact, ContactTerms};
-pub use edge_load::{BoreForce, EdgeStress, HarmonicStress, RimForce, edge_stiffness};
+#[doc(hidden)]
+pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
+#[doc(hidden)]
 pub use harmonic::HarmonicBlock;
-pub use membrane::{Eigenstrain, MembraneSource, MembraneStress, PlaneStress, membrane_stiffness};
-pub use radial::{RadialBasis, RadialValues};
-pub use stress::CentrifugalStress;
+pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
+pub use radial::RadialBasis;
 
 use faer::Mat;
 

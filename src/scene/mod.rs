@@ -24,15 +24,19 @@ pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
-pub use freed::{Freed, common_turn, scene_at, spread};
+pub use freed::Freed;
+#[doc(hidden)]
+pub use freed::spread;
+pub(crate) use freed::{common_turn, scene_at};
 pub use guide::Guide;
 pub use membrane::{
     Membrane, MembraneFile, RollBand, RollBandFile, Temperature, TemperatureFile, TemperatureRow,
     TemperatureShape,
 };
 pub use parameter::Parameter;
-pub use profile::Profile;
-pub use quantity::{QUANTITIES, Quantity, unusual, unusual_number};
+pub(crate) use profile::Profile;
+pub use quantity::{QUANTITIES, Quantity};
+pub(crate) use quantity::{unusual, unusual_number};
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use residual::{ResidualStress, ResidualStressRow};

@@ -1,6 +1,6 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 
-pub mod derivative;
+pub(crate) mod derivative;
 
 mod arnoldi;
 mod at_rest;
@@ -28,26 +28,35 @@ mod residual;
 mod vectors;
 mod work;
 
+#[doc(hidden)]
 pub use arnoldi::lowest_eigenpairs;
 pub(crate) use at_rest::modes_at_rest;
-pub use buckling::{AddedStress, SingularStress, first_singular};
-pub use companion::{companion_eigenpairs, time_scale};
+pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
+#[doc(hidden)]
+pub use companion::companion_eigenpairs;
+pub(crate) use companion::time_scale;
+#[doc(hidden)]
 pub use component::Component;
 pub(crate) use component::frequency_scale;
+pub use critical::NamedCriticalSpeed;
 pub(crate) use critical::standing_name;
-pub use critical::{CriticalSpeed, NamedCriticalSpeed, critical_speeds};
+#[doc(hidden)]
+pub use critical::{CriticalSpeed, critical_speeds};
 pub use error::SpectrumError;
-pub use generalized::singular_multiples;
-pub use growth::{fastest_growing, fastest_growing_of};
-pub use hamiltonian::{HamiltonianReduction, State};
-pub use larger_basis::LargerBasis;
+pub(crate) use growth::fastest_growing;
+#[doc(hidden)]
+pub use growth::fastest_growing_of;
+pub(crate) use hamiltonian::{HamiltonianReduction, State};
+pub(crate) use larger_basis::LargerBasis;
+#[doc(hidden)]
 pub use lowest::LowestModes;
-pub use matrix_slope::{Differences, matrix_slopes};
+pub(crate) use matrix_slope::{Differences, matrix_slopes};
 pub use mode::{Mode, ModeKind};
-pub use mode_name::{Direction, HarmonicShare, ModeName, in_words};
-pub use mode_pair::ModePair;
+pub use mode_name::{Direction, ModeName};
+pub(crate) use mode_name::{HarmonicShare, in_words};
+pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
-pub use projection::Projection;
-pub use reflected::{ReflectedModel, ReflectedModes};
+pub(crate) use reflected::{ReflectedModel, ReflectedModes};
+#[doc(hidden)]
 pub use vectors::{orthonormal, split};
 pub use work::{Cancellation, WorkCounters};

@@ -26,10 +26,12 @@ mod motion;
 mod reaction;
 mod stiffness;
 
-pub use contact::{Contact, Touch};
-pub use load::PlaneLoad;
-pub use motion::{InPlaneMotion, OrbitPoint};
-pub use reaction::{MeanReaction, ToothForces};
+#[doc(hidden)]
+pub use contact::Contact;
+pub(crate) use load::PlaneLoad;
+pub(crate) use motion::{InPlaneMotion, OrbitPoint};
+pub(crate) use reaction::MeanReaction;
+#[doc(hidden)]
 pub use stiffness::{ReactionEffect, reaction_effect};
 
 use crate::plate::RimForce;
@@ -63,7 +65,7 @@ pub enum Start {
 
 impl Default for Run {
     /// Ten revolutions let the shock of the first touch of a damped contact die out
-    /// (a light damping never does: see [`MeanReaction::unsteadiness`]).
+    /// (a light damping never does).
     fn default() -> Self {
         Run {
             start: Start::Seated,

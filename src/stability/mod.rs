@@ -27,17 +27,23 @@ mod undamped;
 mod verdict;
 
 pub use analysis::{Analysis, AnalysisOptions, OPERATING_LIMIT};
-pub use band::{CurvePoint, Instability, InstabilityKind};
+pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::resolved_plate;
 pub use certificate::{Certificate, Mismatch};
-pub use chart::{Detail, StabilityChart, chart};
+#[doc(hidden)]
+pub use chart::chart;
+pub use chart::{Detail, StabilityChart};
 pub use error::AnalysisError;
-pub use estimate::{BandError, Estimates};
+pub use estimate::Estimates;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
-pub use loci::RootLoci;
-pub use onsets::{Onsets, search_bands};
+pub use onsets::Onsets;
+#[doc(hidden)]
+pub use onsets::search_bands;
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
-pub use tradeoff::{Method, Setting, recommended, tradeoff};
+pub(crate) use tradeoff::recommended;
+pub use tradeoff::{Method, Setting, tradeoff};
+#[doc(hidden)]
 pub use undamped::undamped_bands;
-pub use verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
+pub use verdict::{StabilityState, Verdict, verdict};
+pub(crate) use verdict::{flutter_onsets, safe_window};

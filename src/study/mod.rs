@@ -47,7 +47,6 @@ mod tally;
 
 pub use csv::CsvTable;
 pub use file::{DistributionFile, LimitsFile, ParameterFile, StudyError, StudyFile, json_schema};
-pub use finished::Finished;
 pub use inputs::Inputs;
 pub use log::{Log, LogError, read_inputs, rows_of};
 #[cfg(feature = "parquet")]

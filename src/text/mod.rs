@@ -8,7 +8,8 @@ mod problem;
 mod token;
 
 pub(crate) use fault::KeyedError;
-pub use file::{FileError, Kind, OtherEncodings, read_path, read_stream};
+pub(crate) use file::read_stream;
+pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
 
 /// Characters that steer a terminal, or turn the direction of what follows, as their escapes.

@@ -4,7 +4,7 @@
 //! At a constant speed a step is the exponential of the state matrix, exact for loads that
 //! change linearly ([`Propagator`]); while the speed changes it is Newmark's average
 //! acceleration ([`Newmark`]). Both work on the blade's lowest modes and its static
-//! answers to the loads ([`ReducedBlade`]).
+//! answers to the loads.
 
 mod cut;
 mod linear;
@@ -20,19 +20,31 @@ mod sinusoids;
 mod teeth;
 mod verdict_map;
 
-pub use cut::{CutHistory, Growth, cut_history};
-pub use linear::{LINEAR_THICKNESSES, linear_limit_m};
+pub use cut::CutHistory;
+#[doc(hidden)]
+pub use cut::{Growth, cut_history};
+pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
+#[doc(hidden)]
 pub use newmark::{Motion, Newmark};
-pub use on_spline::{OnSpline, on_spline};
+pub(crate) use on_spline::{OnSpline, on_spline};
+#[doc(hidden)]
 pub use propagator::{Propagator, State};
-pub use reduced::ReducedBlade;
-pub use response::{ResponseMap, response_map};
-pub use runup::{BandGrowth, RunUpHistory, band_growths, run_up};
+pub use response::ResponseMap;
+pub(crate) use response::response_map;
+pub use runup::RunUpHistory;
+#[doc(hidden)]
+pub use runup::run_up;
+pub(crate) use runup::{BandGrowth, band_growths};
+#[doc(hidden)]
 pub use saw_in_cut::{SawInCut, in_cut_plate};
 pub use scenario::{Cutting, CuttingRun, RunningUp};
-pub use sinusoids::{FitError, Sinusoid, damped_sinusoids, fitted_growth};
+#[doc(hidden)]
+pub use sinusoids::{FitError, fitted_growth};
+#[doc(hidden)]
 pub use teeth::{ToothPassing, tooth_passing};
-pub use verdict_map::{VerdictMap, verdict_map};
+pub use verdict_map::VerdictMap;
+#[doc(hidden)]
+pub use verdict_map::verdict_map;
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
