@@ -4,12 +4,13 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::check::{Check, Limits};
-use sawflutter::figure;
+use sawflutter::figure::Figures;
 use sawflutter::fit::{Compared, Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, RunUpReport};
 use sawflutter::scene::{Freed, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
+use sawflutter::study::StudyReport;
 use sawflutter::transient::{Cutting, RunningUp};
 
 fn main() -> anyhow::Result<()> {
@@ -33,8 +34,10 @@ fn main() -> anyhow::Result<()> {
     // was made.
     let figures = root.join("figures");
     let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
-    let report = serde_json::from_str(&report)?;
-    std::fs::write(figures.join("paper-study.png"), figure::study_png(&report)?)?;
+    let report: StudyReport = serde_json::from_str(&report)?;
+    for (name, png) in pngs(&report)? {
+        std::fs::write(figures.join(format!("paper-{name}")), png)?;
+    }
     println!("paper-study");
     Ok(())
 }
@@ -46,35 +49,28 @@ type Figure = (&'static str, Vec<u8>);
 fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     if scene.spline().is_some() {
         // Another scene's saw on its spline: only that is new.
-        return Ok(vec![("orbit.png", orbit(scene)?)]);
+        let figures = pngs(&cut(scene)?)?.into_iter();
+        let orbit = figures.filter(|(name, _)| *name == "spline-orbit.png");
+        return Ok(orbit.map(|(_, png)| ("orbit.png", png)).collect());
     }
     let report = Analysis::new(scene)?.report();
-    let mut figures = vec![
-        ("campbell.png", figure::campbell_png(&report)?),
-        ("campbell.svg", figure::campbell_svg(&report)?.into_bytes()),
-    ];
-    figures.extend(figure::root_loci_png(&report)?.map(|png| ("root-loci.png", png)));
-    figures.extend(figure::membrane_png(&report)?.map(|png| ("membrane.png", png)));
+    let mut figures = vec![("campbell.svg", report.campbell_svg()?.into_bytes())];
+    figures.extend(pngs(&report)?);
     if scene.cut().is_some() {
-        let report = cut(scene)?;
-        figures.push(("cut.png", figure::cut_png(&report)?));
-        figures.push(("cut-map.png", figure::cut_map_png(&report)?));
+        figures.extend(pngs(&cut(scene)?)?);
     }
     if let Some(runup) = &scene.runup() {
         let found = RunningUp::new(scene, runup, &|_, _| ())?;
-        let report = RunUpReport::new(&found)?;
-        figures.push(("runup.png", figure::runup_png(&report)?));
-        figures.push(("response-map.png", figure::response_map_png(&report)?));
+        figures.extend(pngs(&RunUpReport::new(&found))?);
     }
     if scene.operating_rad_per_s().is_some() && scene.guides().len() == 1 {
-        figures.push(("check.png", figure::check_png(&check(scene)?)?));
+        figures.extend(pngs(&check(scene)?)?);
     }
     if scene.file().measured.is_some() {
-        figures.push(("fit.png", figure::fit_png(&fit(scene)?)?));
+        figures.extend(pngs(&fit(scene)?)?);
     }
     if scene.guides().len() > 1 {
-        let png = figure::place_png(&place(scene)?)?.context("it has a map")?;
-        figures.push(("place.png", png));
+        figures.extend(pngs(&place(scene)?)?);
     }
     Ok(figures)
 }
@@ -86,8 +82,11 @@ fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     Ok(CutReport::new(&cutting))
 }
 
-fn orbit(scene: &Scene) -> anyhow::Result<Vec<u8>> {
-    figure::spline_orbit_png(&cut(scene)?)?.context("it has a spline")
+fn pngs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
+    let figures = report.figures().into_iter();
+    figures
+        .map(|figure| Ok((figure.names()[0], figure.png()?)))
+        .collect()
 }
 
 /// `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.

@@ -147,7 +147,7 @@ pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) ->
             missing("runup", allowed)
         })?;
         let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
-        json(&RunUpReport::new(&found)?)
+        json(&RunUpReport::new(&found))
     })
 }
 

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sawflutter::figure;
+use sawflutter::figure::Figures;
 use sawflutter::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
@@ -178,14 +178,15 @@ impl Study {
         };
         let tables = tables().map_err(LogError::Tables)?;
         let report = study::sum_up(&rows, folder, tables)?;
-        Ok(vec![
-            ("study.png", figure::study_png(&report)?),
-            ("study.svg", figure::study_svg(&report)?.into_bytes()),
-            (
-                "study.json",
-                serde_json::to_string_pretty(&report)?.into_bytes(),
-            ),
-        ])
+        let mut files = Vec::new();
+        for figure in report.figures() {
+            let [png, svg] = figure.names();
+            files.push((png, figure.png()?));
+            files.push((svg, figure.svg()?.into_bytes()));
+        }
+        let json = serde_json::to_string_pretty(&report)?;
+        files.push(("study.json", json.into_bytes()));
+        Ok(files)
     }
 }
 

@@ -2,16 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::figure;
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, rad_per_s};
 use crate::stability::{Analysis, AnalysisOptions, sensitivities};
 use anyhow::bail;
 use clap::Args;
-use rayon::prelude::*;
 
 use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
 use super::output::OutputFolder;
+use super::pictures::{drawn, figure_names};
 use super::several;
 use super::summary::summary;
 
@@ -66,7 +65,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let report = report(arguments, scene)?;
     let (files, json) = files(&report)?;
     // The table of several scenes is not this run's.
-    let optional = [&OPTIONAL[..], &several::FILES].concat();
+    let optional = [&figure_names::<Report>()[..], &several::FILES].concat();
     let words = || summary(&report);
     arguments
         .output
@@ -77,7 +76,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
 fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
     let folder = OutputFolder::open(path)?;
     let report = report(arguments, scene)?;
-    folder.write_together(&files(&report)?.0, &OPTIONAL)?;
+    folder.write_together(&files(&report)?.0, &figure_names::<Report>())?;
     Ok(report)
 }
 
@@ -107,7 +106,7 @@ fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
 /// The files of a report, and the last one as text.
 fn files(report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
     let json = serde_json::to_string_pretty(report)?;
-    let mut files = figures(report)?;
+    let mut files = drawn(report)?;
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     Ok((files, json))
@@ -123,40 +122,4 @@ fn within_sweep(rpm: f64, report: &Report) -> anyhow::Result<f64> {
         "--at-rpm is {rpm}, but must be from {from:.0} to {to:.0}, the speeds of the sweep; name \
          one of these, or widen `sweep` in the scene"
     )
-}
-
-/// Figures that not every saw has.
-const OPTIONAL: [&str; 4] = [
-    "root-loci.png",
-    "root-loci.svg",
-    "membrane.png",
-    "membrane.svg",
-];
-
-/// Every figure of a report, drawn side by side: a picture takes as long as a hundred spectra.
-fn figures(report: &Report) -> Result<Vec<(&'static str, Vec<u8>)>, figure::FigureError> {
-    type Draw = fn(&Report) -> Result<Option<Vec<u8>>, figure::FigureError>;
-    let all: [(&'static str, Draw); 6] = [
-        ("campbell.png", |r| figure::campbell_png(r).map(Some)),
-        ("campbell.svg", |r| {
-            Ok(Some(figure::campbell_svg(r)?.into_bytes()))
-        }),
-        ("root-loci.png", figure::root_loci_png),
-        ("root-loci.svg", |r| {
-            Ok(figure::root_loci_svg(r)?.map(String::into_bytes))
-        }),
-        ("membrane.png", figure::membrane_png),
-        ("membrane.svg", |r| {
-            Ok(figure::membrane_svg(r)?.map(String::into_bytes))
-        }),
-    ];
-    let drawn: Vec<_> = all
-        .into_par_iter()
-        .map(|(name, draw)| (name, draw(report)))
-        .collect();
-    let mut files = Vec::new();
-    for (name, content) in drawn {
-        files.extend(content?.map(|content| (name, content)));
-    }
-    Ok(files)
 }

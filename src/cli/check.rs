@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use crate::check::{Check, Limits};
-use crate::figure;
 use crate::report::CheckReport;
 use crate::scene::{Scene, rad_per_s};
 use anyhow::{Context, bail};
@@ -12,6 +11,7 @@ use clap::Args;
 
 use super::common::{Input, say};
 use super::output::OutputFolder;
+use super::pictures::drawn;
 use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
@@ -65,11 +65,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let report = CheckReport::new(&scene, &limits, &check);
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {
-        let files = [
-            ("check.svg", figure::check_svg(&report)?.into_bytes()),
-            ("check.png", figure::check_png(&report)?),
-            ("check.json", json.clone().into_bytes()),
-        ];
+        let mut files = drawn(&report)?;
+        files.push(("check.json", json.clone().into_bytes()));
         folder.write_together(&files, &[])?;
     }
     match arguments.json {

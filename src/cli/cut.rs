@@ -2,16 +2,15 @@
 
 use std::fmt::Write;
 
-use crate::figure;
 use crate::report::{CutCriterion, CutReport, CutRunEntry, Verdict};
 use crate::scene::CutRun;
 use crate::transient::Cutting;
 use anyhow::bail;
 use clap::Args;
-use rayon::prelude::*;
 
-use super::common::{Common, NamedFile, progress_bar, show};
+use super::common::{Common, progress_bar, show};
 use super::paste::cut_block;
+use super::pictures::{drawn, figure_names};
 use super::summary::{WIDTH, shortened, wrapped};
 
 pub const EXAMPLES: &str = "\
@@ -55,33 +54,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let report = CutReport::new(&cutting);
     let json = serde_json::to_string_pretty(&report)?;
-    let mut files = figures(&report)?;
-    if let Some(png) = figure::spline_orbit_png(&report)? {
-        files.push((OPTIONAL[0], png));
-    }
-    if let Some(svg) = figure::spline_orbit_svg(&report)? {
-        files.push((OPTIONAL[1], svg.into_bytes()));
-    }
+    let mut files = drawn(&report)?;
     files.push(("cut.json", json.clone().into_bytes()));
     arguments
         .common
-        .print(&folder, &files, &OPTIONAL, &json, || summary(&report))
-}
-
-/// Figures that not every scene has.
-const OPTIONAL: [&str; 2] = ["spline-orbit.png", "spline-orbit.svg"];
-
-fn figures(report: &CutReport) -> Result<Vec<NamedFile>, figure::FigureError> {
-    type Draw = fn(&CutReport) -> Result<Vec<u8>, figure::FigureError>;
-    let all: [(&'static str, Draw); 4] = [
-        ("cut.png", figure::cut_png),
-        ("cut.svg", |r| Ok(figure::cut_svg(r)?.into_bytes())),
-        ("cut-map.png", figure::cut_map_png),
-        ("cut-map.svg", |r| Ok(figure::cut_map_svg(r)?.into_bytes())),
-    ];
-    all.into_par_iter()
-        .map(|(name, draw)| Ok((name, draw(report)?)))
-        .collect()
+        .print(&folder, &files, &figure_names::<CutReport>(), &json, || {
+            summary(&report)
+        })
 }
 
 fn summary(report: &CutReport) -> String {

@@ -3,7 +3,6 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use crate::figure;
 use crate::fit::{Compared, Fit, Measurement, Options};
 use crate::report::{FitReport, ParameterEntry};
 use crate::scene::{Freed, Scene};
@@ -13,6 +12,7 @@ use clap::Args;
 
 use super::common::{Common, progress_bar, read_text, refused, show};
 use super::free::{freed, number};
+use super::pictures::drawn;
 use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
@@ -93,15 +93,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let report = FitReport::new(&fit, &Compared::new(&fit)?);
     let json = serde_json::to_string_pretty(&report)?;
-    let files = [
-        ("fit.png", figure::fit_png(&report)?),
-        ("fit.svg", figure::fit_svg(&report)?.into_bytes()),
-        (
-            "fitted-scene.json",
-            serde_json::to_string_pretty(&report.scene)?.into_bytes(),
-        ),
-        ("fit.json", json.clone().into_bytes()),
-    ];
+    let mut files = drawn(&report)?;
+    let fitted = serde_json::to_string_pretty(&report.scene)?;
+    files.push(("fitted-scene.json", fitted.into_bytes()));
+    files.push(("fit.json", json.clone().into_bytes()));
     arguments
         .common
         .print(&folder, &files, &[], &json, || summary(&report))

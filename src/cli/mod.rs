@@ -12,6 +12,7 @@ mod free;
 mod output;
 mod paint;
 mod paste;
+mod pictures;
 mod place;
 mod runup;
 mod scheduler;

@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use crate::figure;
 use crate::place::{Demands, Goal, Options, Placement};
 use crate::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
 use crate::scene::{Freed, Scene, rad_per_s};
@@ -12,6 +11,7 @@ use indicatif::ProgressBar;
 
 use super::common::{Common, progress_bar, show};
 use super::free::{freed, number};
+use super::pictures::{drawn, figure_names};
 use super::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
@@ -96,24 +96,19 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     bar.finish_and_clear();
     let report = PlaceReport::new(&demands, &found);
     let json = serde_json::to_string_pretty(&report)?;
-    let mut files = Vec::new();
-    if let Some(png) = figure::place_png(&report)? {
-        files.push((OPTIONAL[0], png));
-    }
-    if let Some(svg) = figure::place_svg(&report)? {
-        files.push((OPTIONAL[1], svg.into_bytes()));
-    }
+    let mut files = drawn(&report)?;
     let placed = serde_json::to_string_pretty(&report.scene)?;
     files.push(("placed-scene.json", placed.into_bytes()));
     files.push(("place.json", json.clone().into_bytes()));
-    arguments
-        .common
-        .print(&folder, &files, &OPTIONAL, &json, || summary(&report))?;
+    arguments.common.print(
+        &folder,
+        &files,
+        &figure_names::<PlaceReport>(),
+        &json,
+        || summary(&report),
+    )?;
     Ok(report.kept)
 }
-
-/// Figures that not every search has.
-const OPTIONAL: [&str; 2] = ["place.png", "place.svg"];
 
 fn told(bar: &ProgressBar, what: &'static str, done: usize, of: usize) {
     bar.set_message(what);

@@ -2,15 +2,14 @@
 
 use std::fmt::Write;
 
-use crate::figure;
 use crate::report::{InstabilityKind, RunUpReport};
 use crate::transient::{LINEAR_THICKNESSES, RunningUp};
 use anyhow::bail;
 use clap::Args;
-use rayon::prelude::*;
 
-use super::common::{Common, NamedFile, progress_bar, show};
+use super::common::{Common, progress_bar, show};
 use super::paste::runup_block;
+use super::pictures::drawn;
 use super::summary::{WIDTH, shortened, wrapped};
 
 pub const EXAMPLES: &str = "\
@@ -41,28 +40,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let bar = progress_bar("steps");
     let found = RunningUp::new(&scene, runup, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
-    let report = RunUpReport::new(&found)?;
+    let report = RunUpReport::new(&found);
     let json = serde_json::to_string_pretty(&report)?;
-    let mut files = figures(&report)?;
+    let mut files = drawn(&report)?;
     files.push(("runup.json", json.clone().into_bytes()));
     arguments
         .common
         .print(&folder, &files, &[], &json, || summary(&report))
-}
-
-fn figures(report: &RunUpReport) -> Result<Vec<NamedFile>, figure::FigureError> {
-    type Draw = fn(&RunUpReport) -> Result<Vec<u8>, figure::FigureError>;
-    let all: [(&'static str, Draw); 4] = [
-        ("runup.png", figure::runup_png),
-        ("runup.svg", |r| Ok(figure::runup_svg(r)?.into_bytes())),
-        ("response-map.png", figure::response_map_png),
-        ("response-map.svg", |r| {
-            Ok(figure::response_map_svg(r)?.into_bytes())
-        }),
-    ];
-    all.into_par_iter()
-        .map(|(name, draw)| Ok((name, draw(report)?)))
-        .collect()
 }
 
 fn summary(report: &RunUpReport) -> String {

@@ -4,7 +4,6 @@ use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use crate::figure;
 use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
     self, CsvTable, Log, Rows, Shard, Study, StudyFile, Table, read_inputs, sum_up,
@@ -15,6 +14,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::common::{Finely, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
+use super::pictures::drawn;
 use super::scheduler;
 use super::study_summary::summary;
 
@@ -185,8 +185,9 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     ];
     let report = sum_up(rows, folder.path(), tables)?;
     let json = serde_json::to_string_pretty(&report)?;
-    writing.stage_bytes("study.png", &figure::study_png(&report)?)?;
-    writing.stage_bytes("study.svg", figure::study_svg(&report)?.as_bytes())?;
+    for (name, content) in drawn(&report)? {
+        writing.stage_bytes(name, &content)?;
+    }
     #[cfg(feature = "parquet")]
     writing.stage("study.parquet", parquet)?;
     writing.stage("study.csv", csv)?;

@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let settings = tradeoff(&scene, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let json = serde_json::to_string_pretty(&settings)?;
-    let png = figure::tradeoff_png(&scene.file().name, &settings)?;
+    let png = figure::tradeoff(&scene.file().name, &settings).png()?;
     let files = [
         ("tradeoff.png", png),
         ("tradeoff.json", json.clone().into_bytes()),

@@ -226,9 +226,9 @@ impl SavedFile {
         match self {
             SavedFile::Scene | SavedFile::Report => pretty(&report),
             SavedFile::Table => report.campbell_csv().map_err(|error| Refusal::of(&error)),
-            SavedFile::Png => figure::campbell_png(&report).map_err(undrawn),
+            SavedFile::Png => report.campbell_png().map_err(undrawn),
             SavedFile::Svg => {
-                let svg = figure::campbell_svg(&report).map_err(undrawn)?;
+                let svg = report.campbell_svg().map_err(undrawn)?;
                 Ok(svg.into_bytes())
             }
         }

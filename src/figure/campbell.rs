@@ -13,11 +13,10 @@ pub(super) use waves::draw_measured_mark;
 
 use band_labels::BandLabels;
 
-use super::FigureError;
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, MARGIN, QUIET};
-use super::{bands, heading, render};
+use super::{bands, heading};
 use crate::report::{InstabilityKind, Report};
 
 const WIDTH: u32 = 1200;
@@ -38,16 +37,6 @@ const CERTIFICATE_ABOVE_FOOT: f64 = 14.0;
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
-/// The Campbell diagram as PNG, 1200 × 900 pixels.
-pub fn campbell_png(report: &Report) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The Campbell diagram as SVG.
-pub fn campbell_svg(report: &Report) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
 /// What the parts of the figure share.
 struct Chart<'a> {
     report: &'a Report,
@@ -57,7 +46,7 @@ struct Chart<'a> {
     lower: Frame,
 }
 
-pub(super) fn sheet(report: &Report) -> Sheet {
+pub fn sheet(report: &Report) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let chart = Chart::new(report);
     heading::draw(&mut sheet, &report.scene.name, &key_facts(report));

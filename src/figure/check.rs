@@ -7,7 +7,7 @@ use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD,
     GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
 };
-use super::{FigureError, bands, heading, render};
+use super::{bands, heading};
 use crate::report::{CheckReport, CriterionEntry};
 
 const WIDTH: u32 = 1200;
@@ -19,17 +19,7 @@ const ROW: f64 = 66.0;
 const BELOW: f64 = 92.0;
 const PASS: Colour = FORWARD;
 
-/// The check as PNG, 1200 pixels wide.
-pub fn check_png(report: &CheckReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The check as SVG.
-pub fn check_svg(report: &CheckReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-fn sheet(report: &CheckReport) -> Sheet {
+pub fn sheet(report: &CheckReport) -> Sheet {
     let rows = 1 + report.criteria.len();
     let bottom = TOP + ROW * rows as f64;
     let mut sheet = Sheet::new(WIDTH, (bottom + BELOW) as u32);

@@ -9,7 +9,6 @@ use super::style::{
     ALARM, AXIS_SIZE, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, shorten, tint,
 };
-use super::{FigureError, render};
 use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, Verdict};
 
 const PANELS: Columns = Columns {
@@ -20,17 +19,7 @@ const PANELS: Columns = Columns {
     row: 470.0,
 };
 
-/// The cut as PNG, 1200 pixels wide.
-pub fn cut_png(report: &CutReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The cut as SVG.
-pub fn cut_svg(report: &CutReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-pub(super) fn sheet(report: &CutReport) -> Sheet {
+pub fn sheet(report: &CutReport) -> Sheet {
     let title = "Deflection at the probe before, during and after the cut";
     let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
     for (index, run) in report.runs.iter().enumerate() {

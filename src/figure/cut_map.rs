@@ -9,7 +9,6 @@ use super::style::{
     AXIS_SIZE, CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET,
     SUBTITLE_SIZE, Weight, shorten,
 };
-use super::{FigureError, render};
 use crate::report::{CutReport, CutRunEntry};
 
 const PANELS: Columns = Columns {
@@ -33,17 +32,7 @@ const GROWING: [Colour; 4] = [
     plotters::style::RGBColor(92, 18, 32),
 ];
 
-/// The map as PNG, 1200 pixels wide.
-pub fn cut_map_png(report: &CutReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The map as SVG.
-pub fn cut_map_svg(report: &CutReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-pub(super) fn sheet(report: &CutReport) -> Sheet {
+pub fn sheet(report: &CutReport) -> Sheet {
     if report.scene.guides.is_empty() {
         return over_load(report);
     }

@@ -103,7 +103,7 @@ fn the_figures_of_a_run_up_are_tidy() {
         ..*scene.runup().unwrap()
     };
     let found = RunningUp::new(&scene, &runup, &|_, _| ()).unwrap();
-    let report = RunUpReport::new(&found).unwrap();
+    let report = RunUpReport::new(&found);
     assert_tidy(&runup::sheet(&report));
     assert_tidy(&response_map::sheet(&report));
     let chart = found.analysis.report();

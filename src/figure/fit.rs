@@ -4,12 +4,12 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
+use super::heading;
 use super::key::Key;
 use super::style::{
     ALARM, AXIS_SIZE, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE,
     INK, LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
 };
-use super::{FigureError, heading, render};
 use crate::report::{FitReport, ResidualEntry};
 
 const WIDTH: u32 = 1200;
@@ -45,17 +45,7 @@ enum Shape {
     Cross,
 }
 
-/// The fit as PNG, 1200 × 820 pixels.
-pub fn fit_png(report: &FitReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The fit as SVG.
-pub fn fit_svg(report: &FitReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-pub(super) fn sheet(report: &FitReport) -> Sheet {
+pub fn sheet(report: &FitReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);

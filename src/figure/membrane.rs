@@ -4,11 +4,11 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, round_up, tick_l
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::clip::clip;
 use super::declutter::{Wish, push_apart};
+use super::heading;
 use super::style::{
     ALARM, AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, PAPER, QUIET,
 };
-use super::{FigureError, heading, render};
 use crate::report::{HeatEntry, MembraneEntry, Report};
 
 const HEIGHT: u32 = 560;
@@ -29,17 +29,7 @@ const SPEEDS: Frame = Frame {
 /// Height of a line of labels.
 const LINE: f64 = 16.0;
 
-/// The membrane stress as PNG; `None` for a scene without.
-pub fn membrane_png(report: &Report) -> Result<Option<Vec<u8>>, FigureError> {
-    sheet(report).as_ref().map(render::png).transpose()
-}
-
-/// The membrane stress as SVG; `None` for a scene without.
-pub fn membrane_svg(report: &Report) -> Result<Option<String>, FigureError> {
-    sheet(report).as_ref().map(render::svg).transpose()
-}
-
-fn sheet(report: &Report) -> Option<Sheet> {
+pub fn sheet(report: &Report) -> Option<Sheet> {
     let membrane = report.membrane.as_ref()?;
     let heat = membrane.heat.as_ref();
     let heat = heat.filter(|heat| !heat.critical_speeds.is_empty());

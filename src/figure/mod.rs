@@ -16,6 +16,7 @@ mod cut_map;
 #[cfg(test)]
 mod cutting_tests;
 mod declutter;
+mod drawn;
 #[cfg(test)]
 mod drawn_tests;
 #[cfg(test)]
@@ -43,40 +44,10 @@ mod style;
 mod tidy;
 mod tradeoff;
 
-pub use campbell::{campbell_png, campbell_svg};
-pub use check::{check_png, check_svg};
-pub use cut::{cut_png, cut_svg};
-pub use cut_map::{cut_map_png, cut_map_svg};
-pub use fit::{fit_png, fit_svg};
-pub use membrane::{membrane_png, membrane_svg};
+pub use drawn::{Figure, Figures, Names, tradeoff};
 pub use palette::{PALETTE, Palette, Rgb};
-pub use place::{place_png, place_svg};
-pub use response_map::{response_map_png, response_map_svg};
-pub use root_loci::{root_loci_png, root_loci_svg};
-pub use runup::{runup_png, runup_svg};
-pub use spline_orbit::{spline_orbit_png, spline_orbit_svg};
-pub use study::{study_png, study_svg};
-pub use tradeoff::tradeoff_png;
 
 use crate::report::Report;
-
-impl Report {
-    /// The Campbell diagram as SVG, see [`campbell_svg`].
-    ///
-    /// # Errors
-    /// [`FigureError`].
-    pub fn campbell_svg(&self) -> Result<String, FigureError> {
-        campbell_svg(self)
-    }
-
-    /// The Campbell diagram as PNG, see [`campbell_png`].
-    ///
-    /// # Errors
-    /// [`FigureError`].
-    pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
-        campbell_png(self)
-    }
-}
 
 /// Whether any term of the equation of motion takes energy out of the saw.
 fn is_damped(report: &Report) -> bool {

@@ -3,10 +3,10 @@
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::fit::four_digits;
+use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::key::Key;
 use super::style::{ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, INK, PAPER, STRONG_CURVE};
-use super::{FigureError, heading, render};
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
 
 const WIDTH: u32 = 1100;
@@ -28,16 +28,6 @@ const LOW_TO_HIGH: [Colour; 5] = [
 ];
 /// Saws that break the limit, and places without a saw.
 const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
-
-/// The map as PNG, 1100 × 760 pixels; `None` where none was drawn.
-pub fn place_png(report: &PlaceReport) -> Result<Option<Vec<u8>>, FigureError> {
-    sheet(report).as_ref().map(render::png).transpose()
-}
-
-/// The map as SVG.
-pub fn place_svg(report: &PlaceReport) -> Result<Option<String>, FigureError> {
-    sheet(report).as_ref().map(render::svg).transpose()
-}
 
 /// An axis of a number that may be spread by decades.
 struct Along {
@@ -95,7 +85,7 @@ const UNITS: [(&str, &str); 8] = [
     ("_m", "m"),
 ];
 
-pub(super) fn sheet(report: &PlaceReport) -> Option<Sheet> {
+pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
     let map = report.map.as_ref()?;
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = match report.goal {

@@ -5,9 +5,9 @@ use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
+use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{AXIS_SIZE, Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, Weight, shorten};
-use super::{FigureError, heading, render};
 use crate::report::RunUpReport;
 
 const WIDTH: u32 = 1200;
@@ -31,17 +31,7 @@ const RESPONSE: [Colour; 5] = [
 ];
 const BRANCH: Colour = plotters::style::RGBColor(216, 96, 60);
 
-/// The response map as PNG, 1200 × 760 pixels.
-pub fn response_map_png(report: &RunUpReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The response map as SVG.
-pub fn response_map_svg(report: &RunUpReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-pub(super) fn sheet(report: &RunUpReport) -> Sheet {
+pub fn sheet(report: &RunUpReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = "Response at the probe over speed and frequency";
     heading::draw(&mut sheet, title, &report.scene.name);

@@ -12,7 +12,7 @@ use super::style::{
     AXIS_SIZE, BACKWARD, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID,
     HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, tint,
 };
-use super::{FigureError, heading, is_damped, render};
+use super::{heading, is_damped};
 use crate::report::Report;
 use tracks::{Loci, Look, Sample, Track};
 
@@ -26,16 +26,6 @@ const SIGN_SIZE: f64 = 15.0;
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
-/// The root loci as PNG, 1200 × 800 pixels; `None` if the report has none.
-pub fn root_loci_png(report: &Report) -> Result<Option<Vec<u8>>, FigureError> {
-    sheet(report).map(|sheet| render::png(&sheet)).transpose()
-}
-
-/// The root loci as SVG; `None` if the report has none.
-pub fn root_loci_svg(report: &Report) -> Result<Option<String>, FigureError> {
-    sheet(report).map(|sheet| render::svg(&sheet)).transpose()
-}
-
 /// What the parts of the figure share.
 struct Chart {
     loci: Loci,
@@ -48,7 +38,7 @@ struct Chart {
     decimals: usize,
 }
 
-pub(super) fn sheet(report: &Report) -> Option<Sheet> {
+pub fn sheet(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
     let chart = Chart::new(Loci::new(entry, is_damped(report))?);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);

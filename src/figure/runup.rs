@@ -10,7 +10,7 @@ use super::style::{
     ALARM, AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width,
 };
-use super::{FigureError, bands, heading, render};
+use super::{bands, heading};
 use crate::report::RunUpReport;
 use crate::transient::LINEAR_THICKNESSES;
 
@@ -23,17 +23,7 @@ const PANEL: Frame = Frame {
     bottom: 540.0,
 };
 
-/// The run-up as PNG, 1200 × 640 pixels.
-pub fn runup_png(report: &RunUpReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The run-up as SVG.
-pub fn runup_svg(report: &RunUpReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
-pub(super) fn sheet(report: &RunUpReport) -> Sheet {
+pub fn sheet(report: &RunUpReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = format!(
         "Deflection at the probe in a run-up at {:.1} rpm/s",

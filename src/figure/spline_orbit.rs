@@ -7,7 +7,6 @@ use super::style::{
     AXIS_SIZE, CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING,
     SUBTITLE_SIZE, Weight, tint,
 };
-use super::{FigureError, render};
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
 /// Panels are square: a length is as long in x as in y.
@@ -19,17 +18,7 @@ const PANELS: Columns = Columns {
     row: 560.0,
 };
 
-/// The orbits as PNG, 1200 pixels wide; `None` if no spline was simulated.
-pub fn spline_orbit_png(report: &CutReport) -> Result<Option<Vec<u8>>, FigureError> {
-    sheet(report).map(|sheet| render::png(&sheet)).transpose()
-}
-
-/// The orbits as SVG; `None` if no spline was simulated.
-pub fn spline_orbit_svg(report: &CutReport) -> Result<Option<String>, FigureError> {
-    sheet(report).map(|sheet| render::svg(&sheet)).transpose()
-}
-
-pub(super) fn sheet(report: &CutReport) -> Option<Sheet> {
+pub fn sheet(report: &CutReport) -> Option<Sheet> {
     let runs: Vec<(&CutRunEntry, &SplineEntry)> = report
         .runs
         .iter()

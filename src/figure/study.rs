@@ -3,11 +3,11 @@
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::declutter::{Wish, push_apart};
+use super::heading;
 use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, Weight, text_width, tint,
 };
-use super::{FigureError, heading, render};
 use crate::study::{Passing, SpeedEntry, StudyReport};
 
 const WIDTH: u32 = 1000;
@@ -29,23 +29,13 @@ const NAMED: [f64; 5] = [0.5, 0.05, 0.95, 0.01, 0.99];
 /// Room beside the outermost bars.
 const ASIDE: f64 = 0.04;
 
-/// The distributions as PNG, 1000 × 700 pixels.
-pub fn study_png(report: &StudyReport) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(report))
-}
-
-/// The distributions as SVG.
-pub fn study_svg(report: &StudyReport) -> Result<String, FigureError> {
-    render::svg(&sheet(report))
-}
-
 /// A limit that is drawn: the speed asked for, and of whom.
 struct Limit {
     rpm: f64,
     word: &'static str,
 }
 
-fn sheet(report: &StudyReport) -> Sheet {
+pub fn sheet(report: &StudyReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let count = format!("{} × {}", report.all.saws, report.scene.name);
     let passing = report.all.passing.as_ref().map(verdict);

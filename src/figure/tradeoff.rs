@@ -2,12 +2,12 @@
 
 use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::heading;
 use super::key::Key;
 use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
     PAPER, QUIET, STANDING, STRONG_CURVE, tint,
 };
-use super::{FigureError, heading, render};
 use crate::stability::{Method, Setting};
 
 const WIDTH: u32 = 900;
@@ -26,12 +26,7 @@ const METHODS: [Method; 4] = [
     Method::CriticalSpeedsSingle,
 ];
 
-/// The measured settings of a saw as PNG, 900 × 660 pixels.
-pub fn tradeoff_png(scene: &str, settings: &[Setting]) -> Result<Vec<u8>, FigureError> {
-    render::png(&sheet(scene, settings))
-}
-
-fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
+pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, "What digits cost", scene);
     let decades = |value: fn(&Setting) -> f64| {

@@ -33,6 +33,8 @@ pub use radial::RadialBasis;
 
 use faer::Mat;
 
+use stress::CentrifugalStress;
+
 use crate::scene::{Accuracy, Blade, Damping, Scene};
 
 /// How many functions describe the deflection.

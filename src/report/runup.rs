@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 
 use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
 use crate::scene::{SceneFile, rpm};
-use crate::spectrum::SpectrumError;
 use crate::transient::{RunningUp, linear_limit_m};
 
 /// `runup.json`.
@@ -77,10 +76,7 @@ pub struct ResponseEntry {
 
 impl RunUpReport {
     /// Reports a run-up.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the modes at rest cannot be computed.
-    pub fn new(found: &RunningUp) -> Result<Self, SpectrumError> {
+    pub fn new(found: &RunningUp) -> Self {
         let (scene, runup) = (&found.scene, &found.runup);
         let chart = found.analysis.report();
         let history = &found.history;
@@ -102,7 +98,7 @@ impl RunUpReport {
             })
             .collect();
         let response = &found.response;
-        Ok(RunUpReport {
+        RunUpReport {
             sawflutter: chart.sawflutter,
             scene: scene.file().clone(),
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
@@ -127,7 +123,7 @@ impl RunUpReport {
             },
             warnings: chart.warnings,
             rpm: speeds,
-        })
+        }
     }
 }
 

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 use std::sync::OnceLock;
 
-use sawflutter::figure;
 use sawflutter::report::Report;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
@@ -168,7 +167,7 @@ fn campbell_csv_holds_every_point_of_every_branch() {
 #[test]
 fn the_figure_can_be_redrawn_from_the_report_alone() {
     let run = default_run();
-    let redrawn = figure::campbell_svg(&run.report).unwrap();
+    let redrawn = run.report.campbell_svg().unwrap();
     let written = read(run.folder.join("campbell.svg"));
     assert!(redrawn.as_bytes() == written, "the figures differ");
 }

@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use sawflutter::figure;
 use sawflutter::report::Report;
 use sawflutter::scene::SceneFile;
 use tempfile::TempDir;
@@ -62,7 +61,7 @@ fn assert_sound(out: &Path) -> Option<String> {
     }
     let csv = read("campbell.csv");
     let report: Report = serde_json::from_slice(&read("report.json")?).expect("a whole report");
-    assert!(figure::campbell_svg(&report).unwrap().into_bytes() == svg.unwrap());
+    assert!(report.campbell_svg().unwrap().into_bytes() == svg.unwrap());
     assert!(report.campbell_csv().unwrap() == csv.unwrap());
     let files = [
         "campbell.csv",

@@ -6,7 +6,7 @@ use crate::report::CriticalSpeedEntry;
 
 #[test]
 fn every_critical_speed_is_labelled() {
-    let svg = campbell_svg(&busy_report()).unwrap();
+    let svg = busy_report().campbell_svg().unwrap();
     for rpm in ["1531", "1552", "2091", "2130", "2560", "2608"] {
         assert!(svg.contains(rpm), "{rpm}");
     }
@@ -43,8 +43,8 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
 fn svg_is_the_same_each_time_and_well_formed() {
     let mut report = busy_report();
     report.scene.name = "Säge <&> \"β\"\u{1} 鋸".to_owned();
-    let svg = campbell_svg(&report).unwrap();
-    assert_eq!(svg, campbell_svg(&report).unwrap());
+    let svg = report.campbell_svg().unwrap();
+    assert_eq!(svg, report.campbell_svg().unwrap());
     assert!(svg.starts_with("<svg width=\"1200\" height=\"900\""));
     assert!(svg.contains("Säge &lt;&amp;&gt; &quot;β&quot;  鋸"));
     assert!(!svg.contains("NaN") && !svg.contains('\u{1}'));
@@ -56,18 +56,18 @@ fn svg_is_the_same_each_time_and_well_formed() {
 
 #[test]
 fn png_has_the_promised_size_and_is_the_same_each_time() {
-    let bytes = campbell_png(&busy_report()).unwrap();
+    let bytes = busy_report().campbell_png().unwrap();
     let decoder = png::Decoder::new(std::io::Cursor::new(&bytes));
     let info = decoder.read_info().unwrap();
     assert_eq!((info.info().width, info.info().height), (WIDTH, HEIGHT));
-    assert_eq!(bytes, campbell_png(&busy_report()).unwrap());
+    assert_eq!(bytes, busy_report().campbell_png().unwrap());
 }
 
 #[test]
 fn an_empty_report_says_that_nothing_grows() {
     let report = empty_report("");
     assert_tidy(&sheet(&report));
-    let svg = campbell_svg(&report).unwrap();
+    let svg = report.campbell_svg().unwrap();
     assert!(svg.contains("no growth: stable at every speed shown"));
     assert!(svg.contains("no critical speed"));
 }
@@ -96,7 +96,7 @@ fn odd_input_is_drawn_without_complaint() {
         odd.campbell.to_rpm = to;
         odd.campbell.complete_to_hz = complete;
         assert_tidy(&sheet(&odd));
-        assert!(!campbell_svg(&odd).unwrap().contains("\"NaN"));
+        assert!(!odd.campbell_svg().unwrap().contains("\"NaN"));
     }
 }
 
@@ -125,7 +125,7 @@ fn growth_is_drawn_within_the_bands_and_never_below_zero() {
 #[test]
 fn the_certificate_is_told_and_violations_are_red() {
     let mut report = busy_report();
-    let svg = campbell_svg(&report).unwrap();
+    let svg = report.campbell_svg().unwrap();
     assert!(svg.contains("Krein index matches at 567 of 567 speeds"));
     assert!(svg.contains("backward error below 2·10⁻⁸"));
     assert!(svg.contains("68 functions, critical speeds within 0.14 %"));
@@ -133,9 +133,9 @@ fn the_certificate_is_told_and_violations_are_red() {
     report.certificate.krein_violations = 2;
     report.certificate.statement = wrong.to_owned();
     assert_tidy(&sheet(&report));
-    let svg = campbell_svg(&report).unwrap();
+    let svg = report.campbell_svg().unwrap();
     assert!(svg.contains(wrong));
     assert!(svg.contains("fill=\"#C8102E\""));
     report.certificate.speeds_checked = 0;
-    assert!(!campbell_svg(&report).unwrap().contains("Krein"));
+    assert!(!report.campbell_svg().unwrap().contains("Krein"));
 }

@@ -1,0 +1,175 @@
+//! Which figures a report has, and their names.
+
+use super::canvas::Sheet;
+use super::{
+    FigureError, campbell, check, cut, cut_map, fit, membrane, place, render, response_map,
+    root_loci, runup, spline_orbit, study,
+};
+use crate::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use crate::stability::Setting;
+use crate::study::StudyReport;
+
+/// A figure, laid out.
+#[derive(Debug)]
+pub struct Figure {
+    names: Names,
+    sheet: Sheet,
+}
+
+/// Names of the files of a figure, PNG and SVG.
+pub type Names = [&'static str; 2];
+
+impl Figure {
+    /// Names of its files, PNG and SVG.
+    pub fn names(&self) -> Names {
+        self.names
+    }
+
+    /// The figure as PNG. Equal reports give equal bytes.
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        render::png(&self.sheet)
+    }
+
+    /// The figure as SVG. Equal reports give equal text.
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn svg(&self) -> Result<String, FigureError> {
+        render::svg(&self.sheet)
+    }
+
+    /// The bytes of one of its files; `None` for another name.
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn file(&self, name: &str) -> Option<Result<Vec<u8>, FigureError>> {
+        match self.names.iter().position(|own| *own == name)? {
+            0 => Some(self.png()),
+            _ => Some(self.svg().map(String::into_bytes)),
+        }
+    }
+}
+
+/// A report that can be drawn.
+pub trait Figures {
+    /// Names of the figures that such a report may have.
+    const NAMES: &'static [Names];
+
+    /// The figures that this one has something to show in.
+    fn figures(&self) -> Vec<Figure>;
+}
+
+fn named<const N: usize>(names: &[Names], sheets: [Option<Sheet>; N]) -> Vec<Figure> {
+    let pairs = names.iter().zip(sheets);
+    pairs
+        .filter_map(|(names, sheet)| {
+            Some(Figure {
+                names: *names,
+                sheet: sheet?,
+            })
+        })
+        .collect()
+}
+
+impl Figures for Report {
+    const NAMES: &'static [Names] = &[
+        ["campbell.png", "campbell.svg"],
+        ["root-loci.png", "root-loci.svg"],
+        ["membrane.png", "membrane.svg"],
+    ];
+
+    fn figures(&self) -> Vec<Figure> {
+        let campbell = Some(campbell::sheet(self));
+        named(
+            Self::NAMES,
+            [campbell, root_loci::sheet(self), membrane::sheet(self)],
+        )
+    }
+}
+
+impl Report {
+    /// The Campbell diagram as SVG.
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn campbell_svg(&self) -> Result<String, FigureError> {
+        render::svg(&campbell::sheet(self))
+    }
+
+    /// The Campbell diagram as PNG, 1200 × 900 pixels.
+    ///
+    /// # Errors
+    /// [`FigureError`].
+    pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
+        render::png(&campbell::sheet(self))
+    }
+}
+
+impl Figures for CutReport {
+    const NAMES: &'static [Names] = &[
+        ["cut.png", "cut.svg"],
+        ["cut-map.png", "cut-map.svg"],
+        ["spline-orbit.png", "spline-orbit.svg"],
+    ];
+
+    fn figures(&self) -> Vec<Figure> {
+        let always = [cut::sheet(self), cut_map::sheet(self)].map(Some);
+        let [cut, map] = always;
+        named(Self::NAMES, [cut, map, spline_orbit::sheet(self)])
+    }
+}
+
+impl Figures for RunUpReport {
+    const NAMES: &'static [Names] = &[
+        ["runup.png", "runup.svg"],
+        ["response-map.png", "response-map.svg"],
+    ];
+
+    fn figures(&self) -> Vec<Figure> {
+        let sheets = [runup::sheet(self), response_map::sheet(self)];
+        named(Self::NAMES, sheets.map(Some))
+    }
+}
+
+impl Figures for CheckReport {
+    const NAMES: &'static [Names] = &[["check.png", "check.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(check::sheet(self))])
+    }
+}
+
+impl Figures for FitReport {
+    const NAMES: &'static [Names] = &[["fit.png", "fit.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(fit::sheet(self))])
+    }
+}
+
+impl Figures for PlaceReport {
+    const NAMES: &'static [Names] = &[["place.png", "place.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [place::sheet(self)])
+    }
+}
+
+impl Figures for StudyReport {
+    const NAMES: &'static [Names] = &[["study.png", "study.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(study::sheet(self))])
+    }
+}
+
+/// Errors and times of the settings that were measured of a scene.
+pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
+    Figure {
+        names: ["tradeoff.png", "tradeoff.svg"],
+        sheet: super::tradeoff::sheet(scene, settings),
+    }
+}
