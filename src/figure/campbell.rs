@@ -2,6 +2,7 @@
 
 mod band_labels;
 mod certificate;
+mod excitation;
 mod growth;
 mod legend;
 mod speeds;
@@ -60,6 +61,7 @@ pub fn sheet(report: &Report) -> Sheet {
     speeds::draw_operating(&mut sheet, &chart);
 
     waves::draw_branches(&mut sheet, &chart);
+    excitation::draw(&mut sheet, &chart);
     waves::draw_measured(&mut sheet, &chart);
     speeds::dot_critical(&mut sheet, &chart);
     match growth_axis {

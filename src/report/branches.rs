@@ -143,7 +143,7 @@ impl<'a> Numbered<'a> {
     }
 
     /// Number of the branch through a point.
-    fn at(&self, point: (usize, usize)) -> Option<usize> {
+    pub fn at(&self, point: (usize, usize)) -> Option<usize> {
         let branches = &self.campbell().branches;
         let through = |branch: &Branch| branch.points.binary_search_by_key(&point.0, |p| p.0);
         let is_through = |b: &Branch| through(b).is_ok_and(|at| b.points[at] == point);

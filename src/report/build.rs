@@ -8,9 +8,9 @@ use faer::c64;
 use super::branches::{Numbered, standing};
 use super::remarks::{reached, terms, warnings};
 use super::{
-    AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, HarmonicEntry,
-    InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode, RootLociEntry,
-    RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
+    AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, ExcitationEntry,
+    HarmonicEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
+    RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
 use crate::scene::rpm;
@@ -51,6 +51,7 @@ impl Analysis {
             operating: scene
                 .operating_rad_per_s()
                 .map(|speed| operating(analysis, speed)),
+            excitation: ExcitationEntry::new(scene, &self.crossings, &branches),
             whirl: None,
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),

@@ -7,6 +7,7 @@ mod certificate;
 mod check;
 mod csv;
 mod cut;
+mod excitation;
 mod fit;
 mod membrane;
 mod mode;
@@ -26,6 +27,7 @@ pub use self::cut::{
     ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
     Verdict, VerdictMapEntry,
 };
+pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
@@ -61,6 +63,10 @@ pub struct Report {
     pub first_merge_rpm: Option<f64>,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
+    /// Multiples of the rotation speed and where they meet natural frequencies, when the scene
+    /// asks for them.
+    #[serde(default)]
+    pub excitation: Option<ExcitationEntry>,
     /// The operating speed against the 85 % rule, when the scene gives one.
     pub operating: Option<OperatingEntry>,
     /// The modes of one speed, when asked for.

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::cut::CutFile;
+use super::excitation::ExcitationFile;
 use super::membrane::MembraneFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
@@ -40,6 +41,9 @@ pub struct SceneFile {
     /// Speed at which the saw is run, held against the 85 % rule.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
+    /// Lines of the Campbell diagram at multiples of the rotation speed. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub excitation: Option<ExcitationFile>,
     /// Range of speeds; by default from rest to twice the lowest critical speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<SweepFile>,

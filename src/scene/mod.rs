@@ -3,6 +3,7 @@
 
 mod check;
 mod cut;
+mod excitation;
 mod file;
 mod freed;
 mod guide;
@@ -20,6 +21,7 @@ mod validated;
 
 pub(crate) use check::MAX_RPM;
 pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
+pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,

@@ -36,7 +36,7 @@ const fn q(
 /// machines that are built: from slitting saws of 50 mm to saws for stone of 4 m, from aluminium
 /// to tungsten carbide, from a felt pad to a steel one.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 70] = [
+pub const QUANTITIES: [Quantity; 72] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -78,6 +78,8 @@ pub const QUANTITIES: [Quantity; 70] = [
     q("spline.pitch_radius_m", "pitch radius of the spline", "m", 1e-3, 1.0),
     q("spline.weight_angle_deg", "direction of the weight", "°", -360.0, 360.0),
     q("operating_rpm", "operating speed", "rpm", 30.0, 6e4),
+    q("excitation.orders", "largest multiple of the speed", "", 0.0, 60.0),
+    q("excitation.tooth_passing", "largest multiple of tooth passing", "", 0.0, 10.0),
     q("sweep.from_rpm", "first speed of the sweep", "rpm", 0.0, 1e5),
     q("sweep.to_rpm", "last speed of the sweep", "rpm", 30.0, 2e5),
     q("flutter_threshold_per_s", "growth rate that counts as flutter", "1/s", 1e-6, 1e3),

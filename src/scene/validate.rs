@@ -8,7 +8,10 @@ use super::membrane::Membrane;
 use super::runup::{Probe, RunUp};
 use super::thickness::{RimMass, ThicknessProfile};
 use super::validated::{Blade, Bore, Damping, Scene, SpeedRange};
-use super::{DampingFile, Material, Mount, SceneError, SceneFile, Spline, SweepFile, rad_per_s};
+use super::{
+    DampingFile, ExcitationLine, Material, Mount, SceneError, SceneFile, Spline, SweepFile,
+    rad_per_s,
+};
 
 /// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-6.
 const TOLERANCES: (f64, f64) = (1e-6, 0.1);
@@ -50,6 +53,7 @@ impl TryFrom<SceneFile> for Scene {
                 .collect(),
             damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
             spline: Spline::of(&file, &blade)?,
+            excitation: ExcitationLine::of(&file)?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
             operating_rad_per_s: file
                 .operating_rpm

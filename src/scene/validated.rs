@@ -1,8 +1,8 @@
 //! A [`Scene`]: a saw whose numbers have all been checked, in SI units and radians.
 
 use super::{
-    Accuracy, Cut, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp, SceneError,
-    SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
+    Accuracy, Cut, ExcitationLine, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp,
+    SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
 };
 
 /// A validated saw. It holds the scene as typed and the numbers made from it, which is why it
@@ -20,6 +20,7 @@ pub struct Scene {
     pub(super) damping: Option<Damping>,
     pub(super) membrane: Option<Membrane>,
     pub(super) spline: Option<Spline>,
+    pub(super) excitation: Vec<ExcitationLine>,
     pub(super) sweep: Option<SpeedRange>,
     pub(super) operating_rad_per_s: Option<f64>,
     pub(super) tolerance: f64,
@@ -138,6 +139,11 @@ impl Scene {
     /// Contact between bore and arbor, if its motion is asked for.
     pub fn spline(&self) -> Option<&Spline> {
         self.spline.as_ref()
+    }
+
+    /// Lines of the Campbell diagram, by order.
+    pub fn excitation(&self) -> &[ExcitationLine] {
+        &self.excitation
     }
 
     /// Speeds asked for; `None` leaves the choice to the program.

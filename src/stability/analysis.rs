@@ -7,6 +7,7 @@ use super::basis::ChosenBasis;
 use super::chart::{CHART_SPEEDS, Detail, StabilityChart, chart, drawn};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
+use super::excitation::{Crossing, crossings};
 use super::heat::HeatLimits;
 use super::loci::RootLoci;
 use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
@@ -71,6 +72,8 @@ pub struct Analysis {
     pub fastest_operating: Option<c64>,
     /// How hot the blade may become, of a scene with temperature.
     pub heat: Option<HeatLimits>,
+    /// Where the lines of the scene's excitation cross branches, by line and speed.
+    pub crossings: Vec<Crossing>,
 }
 
 impl Analysis {
@@ -124,6 +127,7 @@ impl Analysis {
             Some(sample) if sample.speed_rad_per_s == 0.0 => sample.modes.clone(),
             _ => model.describe(0.0, model.modes(0.0)?),
         };
+        let crossings = crossings(&model, &chart, scene.excitation())?;
         let mut analysis = Analysis {
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
@@ -137,6 +141,7 @@ impl Analysis {
             modes_at_rest,
             fastest_operating: None,
             heat,
+            crossings,
         };
         if let Some(speed) = scene.operating_rad_per_s() {
             analysis.fastest_operating = analysis.fastest(speed)?;

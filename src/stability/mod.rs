@@ -10,6 +10,7 @@ mod divergence;
 mod error;
 mod estimate;
 mod evaluator;
+mod excitation;
 mod flutter;
 mod heat;
 mod interpolation;
@@ -36,6 +37,9 @@ pub use chart::chart;
 pub use chart::{Detail, StabilityChart};
 pub use error::AnalysisError;
 pub use estimate::Estimates;
+pub use excitation::Crossing;
+#[doc(hidden)]
+pub use excitation::crossings;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use onsets::Onsets;
 #[doc(hidden)]

@@ -10,6 +10,7 @@ mod cutting;
 mod damping;
 mod edge_load;
 mod even_springs;
+mod excitation;
 mod floquet;
 mod follower;
 mod heat_limits;

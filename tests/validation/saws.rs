@@ -76,5 +76,6 @@ pub fn dense_analysis(
         modes_at_rest: Vec::new(),
         fastest_operating: None,
         heat: None,
+        crossings: Vec::new(),
     }
 }

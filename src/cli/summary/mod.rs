@@ -2,6 +2,7 @@
 
 mod answer;
 mod bands;
+mod excitation;
 mod influences;
 mod whirl;
 
@@ -25,6 +26,7 @@ pub fn summary(report: &Report) -> String {
     let _ = modes(&mut text, report);
     let _ = critical_speeds(&mut text, report);
     let _ = bands::bands(&mut text, report);
+    let _ = excitation::crossings(&mut text, report);
     let _ = influences::heat(&mut text, report);
     let _ = influences::sensitivity(&mut text, report);
     let _ = whirl::whirl(&mut text, report);

@@ -176,6 +176,7 @@ export class Charts {
     if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, ghost: true });
     drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.highlighted });
     if (this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
+    this.#drawExcitation(ctx, place, scale);
     this.#dotCritical(ctx, place, scale);
     this.#drawSpot(ctx, place, scale);
     ctx.restore();
@@ -191,6 +192,27 @@ export class Charts {
     if (operating) {
       const good = operating.within_limit !== false && operating.verdict === "stable";
       verticalLine(ctx, x(operating.rpm), box, good ? this.colours.ink : this.colours.alarm, 1.6 * scale, []);
+    }
+  }
+
+  // Lines at multiples of the speed, and rings where they cross branches.
+  #drawExcitation(ctx, place, scale) {
+    const { excitation, campbell } = this.report;
+    if (!excitation) return;
+    ctx.strokeStyle = this.colours.quiet;
+    ctx.lineWidth = scale;
+    for (const { order } of excitation.lines) {
+      ctx.setLineDash([4 * scale, 4 * scale]);
+      ctx.beginPath();
+      ctx.moveTo(...place(campbell.from_rpm, (order * campbell.from_rpm) / 60));
+      ctx.lineTo(...place(campbell.to_rpm, (order * campbell.to_rpm) / 60));
+      ctx.stroke();
+    }
+    ctx.setLineDash([]);
+    for (const { rpm, frequency_hz } of excitation.crossings) {
+      ctx.beginPath();
+      ctx.arc(...place(rpm, frequency_hz), 3 * scale, 0, 2 * Math.PI);
+      ctx.stroke();
     }
   }
 

@@ -1,0 +1,128 @@
+//! Excitation whose frequency is a multiple of the rotation speed.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::refuse;
+use super::{SceneError, SceneFile};
+
+/// Lines of the Campbell diagram at multiples of the rotation speed, and where they cross the
+/// natural frequencies.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ExcitationFile {
+    /// Lines 1×, 2×, … up to this multiple of the rotation speed: a warp or an unbalance of the
+    /// blade as the guides see it. None by default.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub orders: u32,
+    /// Lines at the tooth passing frequency, which is the number of teeth times the rotation speed,
+    /// and at its multiples up to this one. None by default.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub tooth_passing: u32,
+}
+
+fn is_zero(value: &u32) -> bool {
+    *value == 0
+}
+
+/// More lines than these hide the branches.
+const MAX_ORDERS: u32 = 60;
+const MAX_TOOTH_PASSING: u32 = 10;
+
+/// A validated line: a frequency that is a multiple of the rotation speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExcitationLine {
+    /// The multiple.
+    pub order: u32,
+    /// Which multiple of the tooth passing frequency it is, if it is asked for as one.
+    pub tooth_passing: Option<u32>,
+}
+
+impl ExcitationLine {
+    /// The lines that a scene asks for, ascending, each once.
+    pub(super) fn of(file: &SceneFile) -> Result<Vec<Self>, SceneError> {
+        let Some(typed) = file.excitation else {
+            return Ok(Vec::new());
+        };
+        few("excitation.orders", typed.orders, MAX_ORDERS)?;
+        few(
+            "excitation.tooth_passing",
+            typed.tooth_passing,
+            MAX_TOOTH_PASSING,
+        )?;
+        let mut lines: Vec<Self> = (1..=typed.orders)
+            .map(|order| ExcitationLine {
+                order,
+                tooth_passing: None,
+            })
+            .collect();
+        if typed.tooth_passing > 0 {
+            let teeth = file.blade.teeth.filter(|teeth| *teeth > 0);
+            let teeth = teeth.ok_or_else(|| SceneError::Value {
+                key: "blade.teeth".into(),
+                value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
+                allowed: "at least 1 where excitation.tooth_passing asks for it".into(),
+                remedy: "give the number of teeth",
+            })?;
+            let multiples = (1..=typed.tooth_passing).map(|multiple| ExcitationLine {
+                order: multiple.saturating_mul(teeth),
+                tooth_passing: Some(multiple),
+            });
+            // A line that is asked for both ways is one of the teeth.
+            let multiples: Vec<Self> = multiples.collect();
+            lines.retain(|line| multiples.iter().all(|other| other.order != line.order));
+            lines.extend(multiples);
+        }
+        lines.sort_by_key(|line| line.order);
+        Ok(lines)
+    }
+}
+
+fn few(key: &str, count: u32, most: u32) -> Result<(), SceneError> {
+    if count <= most {
+        return Ok(());
+    }
+    let remedy = "ask for the lines that something excites";
+    Err(refuse(
+        key,
+        f64::from(count),
+        format!("at most {most}"),
+        remedy,
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn lines(orders: u32, tooth_passing: u32, teeth: Option<u32>) -> Result<Vec<u32>, String> {
+        let scene = Scene::paper().edited(|saw| {
+            saw.cut = None;
+            saw.blade.teeth = teeth;
+            saw.excitation = Some(ExcitationFile {
+                orders,
+                tooth_passing,
+            });
+        });
+        let scene = scene.map_err(|error| error.to_string())?;
+        Ok(scene.excitation().iter().map(|line| line.order).collect())
+    }
+
+    #[test]
+    fn lines_are_multiples_of_the_speed_and_of_the_teeth() {
+        assert_eq!(lines(3, 0, None).unwrap(), [1, 2, 3]);
+        assert_eq!(lines(2, 2, Some(42)).unwrap(), [1, 2, 42, 84]);
+        assert_eq!(lines(4, 2, Some(2)).unwrap(), [1, 2, 3, 4]);
+        assert!(
+            lines(0, 1, None)
+                .unwrap_err()
+                .contains("blade.teeth is missing")
+        );
+        assert!(
+            lines(61, 0, None)
+                .unwrap_err()
+                .contains("excitation.orders is 61")
+        );
+    }
+}

@@ -1,0 +1,110 @@
+//! Where excitation at multiples of the rotation speed meets the natural frequencies.
+//!
+//! On the line of order k the frequency seen from space is kΩ. Between two speeds of the chart at
+//! which a branch lies on different sides of it, the crossing is a root of ω(Ω) − kΩ, found on the
+//! modes of the speeds between. It makes L(ikΩ) singular: without damping
+//! K₀x = Ω²[k² − 2ikG − (K_σ − N)]x, of which a critical speed is the case k = 0.
+
+use rayon::prelude::*;
+
+use super::chart::StabilityChart;
+use super::root::{Look, bracketed};
+use crate::scene::ExcitationLine;
+use crate::spectrum::{SpectralModel, SpectrumError};
+
+/// A speed at which a mode has the frequency of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// The line.
+    pub line: ExcitationLine,
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// The point of the chart before it: speed and mode.
+    pub point: (usize, usize),
+}
+
+/// Relative error of a crossing's speed.
+const TOLERANCE: f64 = 1e-9;
+/// A branch that stays this close to a line is the line: a rigid tilt that nothing holds turns with
+/// twice the speed, whatever the speed.
+const ON_THE_LINE: f64 = 1e-7;
+
+/// Every crossing of the lines with the branches of a chart, by line and speed.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub fn crossings(
+    model: &SpectralModel,
+    chart: &StabilityChart,
+    lines: &[ExcitationLine],
+) -> Result<Vec<Crossing>, SpectrumError> {
+    let campbell = &chart.campbell;
+    let at = |&(sample, mode): &(usize, usize)| {
+        let sample = &campbell.samples[sample];
+        let mode = &sample.modes[mode].mode;
+        (sample.speed_rad_per_s, mode.lambda.im.abs(), mode.component)
+    };
+    let mut brackets = Vec::new();
+    for line in lines {
+        let off = |(speed, frequency): (f64, f64)| {
+            let carried = f64::from(line.order) * speed;
+            let off = frequency - carried;
+            if off.abs() > ON_THE_LINE * (frequency + carried) {
+                off
+            } else {
+                0.0
+            }
+        };
+        for branch in &campbell.branches {
+            for pair in branch.points.windows(2) {
+                let (low, high) = (at(&pair[0]), at(&pair[1]));
+                if off((low.0, low.1)) * off((high.0, high.1)) < 0.0 {
+                    brackets.push((*line, pair[0], low, high));
+                }
+            }
+        }
+    }
+    let mut found: Vec<Crossing> = brackets
+        .into_par_iter()
+        .map(|(line, point, low, high)| {
+            let ends = [(low.0, low.1), (high.0, high.1)];
+            Ok(Crossing {
+                line,
+                speed_rad_per_s: root(model, line, low.2, ends)?,
+                point,
+            })
+        })
+        .collect::<Result<_, SpectrumError>>()?;
+    found.sort_by(|x, y| {
+        let speeds = x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s);
+        x.line.order.cmp(&y.line.order).then(speeds)
+    });
+    Ok(found)
+}
+
+/// The speed between two at which a frequency of a component is that of the line; `ends` are the
+/// speeds and frequencies of a branch.
+fn root(
+    model: &SpectralModel,
+    line: ExcitationLine,
+    component: usize,
+    ends: [(f64, f64); 2],
+) -> Result<f64, SpectrumError> {
+    let seen = |(speed, frequency): (f64, f64)| Look {
+        at: speed,
+        value: frequency - f64::from(line.order) * speed,
+        point: (speed, frequency),
+    };
+    let found = bracketed(ends.map(seen), TOLERANCE, |[from, to], share| {
+        let between = |from: f64, to: f64| from + share * (to - from);
+        let speed = between(from.0, to.0);
+        let expected = between(from.1, to.1);
+        let modes = model.modes(speed)?;
+        let own = modes.iter().filter(|mode| mode.component == component);
+        let frequencies = own.map(|mode| mode.lambda.im.abs());
+        let far = |frequency: &f64| (frequency - expected).abs();
+        let nearest = frequencies.min_by(|x, y| far(x).total_cmp(&far(y)));
+        Ok::<_, SpectrumError>(seen((speed, nearest.unwrap_or(expected))))
+    });
+    found.map(|look| look.at)
+}
