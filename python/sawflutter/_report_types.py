@@ -165,6 +165,49 @@ class Instability(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class ExcitationLine(Entry):
+    """A frequency that is a multiple of the rotation speed."""
+
+    order: int
+    """The multiple."""
+
+    name: str
+    """"1×", "tooth passing, 42×"."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Crossing(Entry):
+    """A speed at which a natural frequency is a multiple of it."""
+
+    order: int
+    """The multiple."""
+
+    rpm: float
+    """Rotation speed."""
+
+    frequency_hz: float
+    """Frequency in space, the multiple of that speed."""
+
+    branch: int | None
+    """Number of the branch."""
+
+    mode: str
+    """Its name."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Excitation(Entry):
+    """Excitation at multiples of the rotation speed."""
+
+    lines: tuple[ExcitationLine, ...]
+    """The lines, ascending."""
+
+    crossings: tuple[Crossing, ...]
+    """Where they cross branches of the chart, by line and speed. Frequencies above
+    `campbell.complete_to_hz` are not looked at."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Operating(Entry):
     """The operating speed against the lowest critical speed."""
 
@@ -580,6 +623,10 @@ class CampbellReport(Entry):
 
     flutter_threshold_per_s: float
     """Growth rate from which a band counts as flutter of the saw."""
+
+    excitation: Excitation | None
+    """Multiples of the rotation speed and where they meet natural frequencies, when the scene
+    asks for them."""
 
     operating: Operating | None
     """The operating speed against the 85 % rule, when the scene gives one."""

@@ -271,6 +271,19 @@ class SplineDict(_SplineDict, total=False):
     rotation. Without it the weight does not act in the plane of the blade."""
 
 
+class ExcitationDict(TypedDict, total=False):
+    """Lines of the Campbell diagram at multiples of the rotation speed, and where they cross
+    the natural frequencies."""
+
+    orders: int
+    """Lines 1×, 2×, … up to this multiple of the rotation speed: a warp or an unbalance of the
+    blade as the guides see it. None by default."""
+
+    tooth_passing: int
+    """Lines at the tooth passing frequency, which is the number of teeth times the rotation
+    speed, and at its multiples up to this one. None by default."""
+
+
 class _SweepDict(TypedDict):
     """Range of rotation speeds."""
 
@@ -440,6 +453,9 @@ class SceneDict(_SceneDict, total=False):
 
     operating_rpm: float | None
     """Speed at which the saw is run, held against the 85 % rule."""
+
+    excitation: ExcitationDict | None
+    """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
 
     sweep: SweepDict | None
     """Range of speeds; by default from rest to twice the lowest critical speed."""
