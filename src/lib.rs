@@ -56,6 +56,7 @@ pub mod study;
 pub mod system;
 pub mod text;
 pub mod transient;
+mod tuned;
 
 /// What most programs that use the library need.
 pub mod prelude {

@@ -17,6 +17,7 @@ use crate::system::GyroscopicSystem;
 use super::error::SpectrumError;
 use super::mode::rigid_noise;
 use super::vectors::{Eigenpair, by_magnitude, split, unit};
+use crate::tuned::Tuned;
 
 /// (A − σ)⁻¹ in units of σ: eigenvalues σ/(λ − σ).
 struct ShiftedInverse {
@@ -95,15 +96,15 @@ impl ShiftedInverse {
 /// Share of a vector that is left beside the span of the others, below which it is rounding.
 const BREAKDOWN: f64 = 1e-14;
 /// Relative residual at which a Krylov vector is good enough to span a mode.
-const TOLERANCE: f64 = 1e-10;
+const TOLERANCE: Tuned = Tuned::new("spectrum/arnoldi::TOLERANCE", 1e-10);
 /// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
 /// all steps before it: most saws need no second one.
-const STEPS_BEYOND: usize = 44;
+const STEPS_BEYOND: Tuned = Tuned::new("spectrum/arnoldi::STEPS_BEYOND", 44.0);
 /// Steps at least from one look to the next; later looks cost more, and are further apart.
 const MORE_STEPS: usize = 16;
 /// Steps for each eigenvalue wanted, at most. A soft blade on a stiff bed has a cluster of
 /// modes next to its lowest one, where four are not enough.
-const STEPS_EACH: usize = 12;
+const STEPS_EACH: Tuned = Tuned::new("spectrum/arnoldi::STEPS_EACH", 12.0);
 
 /// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,
 /// ordered by |λ|. Fewer come back when the iteration stalls.
@@ -119,9 +120,9 @@ pub fn lowest_eigenpairs(
     let operator = ShiftedInverse::new(system, speed_rad_per_s, shift_per_s);
     let order = operator.order();
     let wanted = (2 * count).min(order);
-    let most = (STEPS_EACH * wanted + 2 * STEPS_BEYOND).min(order);
+    let most = (STEPS_EACH.count() * wanted + 2 * STEPS_BEYOND.count()).min(order);
     let mut krylov = Krylov::new(order, most);
-    let mut steps = (wanted + STEPS_BEYOND).min(most);
+    let mut steps = (wanted + STEPS_BEYOND.count()).min(most);
     loop {
         krylov.extend(&operator, steps);
         let finished = krylov.exhausted || steps == most;
@@ -221,7 +222,7 @@ impl Krylov {
         let converged = |i: &usize| {
             let y = eigen.U().col(*i);
             let residual = last * y[m - 1].norm() / y.norm_l2();
-            residual <= TOLERANCE * eigen.S()[*i].norm()
+            residual <= TOLERANCE.get() * eigen.S()[*i].norm()
         };
         let all = order.len();
         order.retain(converged);

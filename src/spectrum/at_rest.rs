@@ -6,6 +6,7 @@ use faer::{Col, Mat, Scale, Side};
 use super::component::Component;
 use super::error::SpectrumError;
 use crate::system::GyroscopicSystem;
+use crate::tuned::Tuned;
 
 /// A natural frequency at rest.
 #[derive(Debug, Clone)]
@@ -22,8 +23,8 @@ pub struct RestingMode {
 const SMALL: usize = 64;
 /// Vectors iterated beyond the number of modes wanted: the error of a frequency falls by the
 /// fourth power of its ratio to the first one left out, each time.
-const MORE: usize = 10;
-const ITERATIONS: usize = 8;
+const MORE: Tuned = Tuned::new("spectrum/at_rest::MORE", 10.0);
+const ITERATIONS: Tuned = Tuned::new("spectrum/at_rest::ITERATIONS", 8.0);
 
 /// The lowest `count` modes at rest of the components of a plate, ascending; without damping, and
 /// without the rigid motions that nothing holds.
@@ -66,7 +67,7 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
             *vectors -= z * shares;
         }
     };
-    let width = count + MORE;
+    let width = count + MORE.count();
     let (span, flexibility) = if order <= SMALL.max(2 * width) {
         let mut inverse = factor.inverse();
         free(&mut inverse);
@@ -75,7 +76,7 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
         let mut span = Mat::from_fn(order, width, |i, k| {
             ((1.3 * i as f64 + 0.3) * (k + 1) as f64).sin() / (1.0 + i as f64).sqrt()
         });
-        for _ in 0..ITERATIONS {
+        for _ in 0..ITERATIONS.count() {
             free(&mut span);
             span = factor.solve(&span).qr().compute_thin_Q();
         }

@@ -17,20 +17,22 @@ use super::projection::Projection;
 use super::vectors::{Eigenpair, orthonormal, split};
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
+use crate::tuned::Tuned;
 
 /// Modes a chart shows at the lowest speed.
 const CHART_MODES: usize = 12;
 /// Vectors closer than this to the span of the others are left out. Eigenvalues of
 /// a projected symmetric problem are off by the square of it.
-const SPAN_TOLERANCE: f64 = 1e-6;
+const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERANCE", 1e-6);
 /// Largest estimated error of a projected frequency, relative to the chart's height.
-const FREQUENCY_TOLERANCE: f64 = 1e-8;
+const FREQUENCY_TOLERANCE: Tuned =
+    Tuned::new("spectrum/guided_reduction::FREQUENCY_TOLERANCE", 1e-8);
 /// The same for modes that are only drawn: a chart has three digits, its numbers six.
-const DRAWN_TOLERANCE: f64 = 1e-7;
+const DRAWN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::DRAWN_TOLERANCE", 1e-7);
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
-const REFLECTED_MARGIN: f64 = 1.3;
+const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
-const SNAPSHOT_MARGIN: f64 = 1.5;
+const SNAPSHOT_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::SNAPSHOT_MARGIN", 1.5);
 /// Length given to vectors of which no part may be left out.
 const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
@@ -228,7 +230,7 @@ impl<'a> Builder<'a> {
             if found >= index || 2 * count >= self.system.order() {
                 let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
                 let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
-                let height = REFLECTED_MARGIN * height.max(0.1 * self.scale);
+                let height = REFLECTED_MARGIN.get() * height.max(0.1 * self.scale);
                 return Ok((height, (!is_damped).then_some(Snapshot { speed, pairs })));
             }
             count *= 2;
@@ -271,13 +273,13 @@ impl<'a> Builder<'a> {
         let kept = standing.map(|c| &c.shape).chain(&self.system.free_rigid);
         let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
         for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
-            if lambda.norm() <= SNAPSHOT_MARGIN * height {
+            if lambda.norm() <= SNAPSHOT_MARGIN.get() * height {
                 let (re, im) = split(q);
                 vectors.push(re);
                 vectors.push(im);
             }
         }
-        orthonormal(self.system.order(), &vectors, SPAN_TOLERANCE)
+        orthonormal(self.system.order(), &vectors, SPAN_TOLERANCE.get())
     }
 
     /// One projection for all speeds, from the modes up to a height at every snapshot;
@@ -302,7 +304,7 @@ impl<'a> Builder<'a> {
             let (coarse, fine): (Vec<_>, Vec<_>) = halfway
                 .into_iter()
                 .zip(errors)
-                .partition(|(_, error)| *error > FREQUENCY_TOLERANCE * self.window);
+                .partition(|(_, error)| *error > FREQUENCY_TOLERANCE.get() * self.window);
             settled.extend(fine.into_iter().map(|(speed, _)| speed));
             if coarse.is_empty() {
                 return Ok(projection);
@@ -335,7 +337,7 @@ impl<'a> Builder<'a> {
                     let middle = 0.5 * (pair[0].speed + pair[1].speed);
                     let pairs = self.pairs(&piece, middle)?;
                     let error = self.frequency_error(&piece, middle, self.window, &pairs);
-                    let is_wrong = error > DRAWN_TOLERANCE * self.window;
+                    let is_wrong = error > DRAWN_TOLERANCE.get() * self.window;
                     let is_kept = last_round || !is_wrong;
                     if is_kept && self.system.is_conservative() && self.system.free_rigid.is_empty()
                     {

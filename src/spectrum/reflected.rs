@@ -14,6 +14,7 @@ use super::mode::{Mode, classify};
 use super::mode_pair::{ModePair, standing_states};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
+use crate::tuned::Tuned;
 
 /// A projected system with the frequency up to which its modes are complete.
 #[derive(Debug, Clone)]
@@ -41,7 +42,7 @@ pub struct ReflectedModes {
 }
 
 /// Modes up to this multiple of the height help to span those below it.
-const SPAN_MARGIN: f64 = 1.2;
+const SPAN_MARGIN: Tuned = Tuned::new("spectrum/reflected::SPAN_MARGIN", 1.2);
 
 impl<'a> ReflectedModel<'a> {
     pub(super) fn new(
@@ -75,7 +76,7 @@ impl<'a> ReflectedModel<'a> {
                 companion_eigenpairs(self.system, speed_rad_per_s)?
             }
         };
-        let low = |pair: &&Eigenpair| pair.0.im <= SPAN_MARGIN * self.height_rad_per_s;
+        let low = |pair: &&Eigenpair| pair.0.im <= SPAN_MARGIN.get() * self.height_rad_per_s;
         let states = pairs
             .iter()
             .filter(low)

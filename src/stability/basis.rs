@@ -13,6 +13,7 @@ use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
 use crate::spectrum::{
     Cancellation, Component, LargerBasis, NamedCriticalSpeed, SpectralModel, modes_at_rest,
 };
+use crate::tuned::Tuned;
 
 /// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
 /// polynomials lose digits on narrow rings.
@@ -36,7 +37,7 @@ const fn steps_ahead(rung: usize) -> usize {
 }
 /// What that size leaves out in its turn: on ten drawn saws the true error was up to 2.5 times
 /// what two steps ahead tell, on the smallest sizes.
-pub(super) const REMAINDER: f64 = 1.8;
+pub(super) const REMAINDER: Tuned = Tuned::new("stability/basis::REMAINDER", 1.8);
 /// Modes at rest that keep the tolerance: those that a chart shows.
 const MODES_AT_REST: usize = 12;
 /// The error is taken to fall by a factor between these from one size to the next. Over
@@ -45,9 +46,9 @@ const MODES_AT_REST: usize = 12;
 const FALL: (f64, f64) = (0.5, 0.8);
 /// What extrapolation gives was up to 2.1 times too small on thirty saws, and up to 3.2 times
 /// on the first fifteen of the others in `tests/convergence/tolerance.rs`.
-const SAFETY: f64 = 4.0;
+const SAFETY: Tuned = Tuned::new("stability/basis::SAFETY", 4.0);
 /// Ten times the strain at which the strongest steel yields.
-const LARGEST_STRETCH: f64 = 0.1;
+const LARGEST_STRETCH: Tuned = Tuned::new("stability/basis::LARGEST_STRETCH", 0.1);
 /// Differences below this are the rounding of the eigenproblem.
 const ROUNDING: f64 = 1e-10;
 
@@ -182,13 +183,13 @@ fn ahead(rung: usize) -> Resolution {
 fn resting_error(plate: &Plate, larger: &LargerBasis) -> Result<f64, AnalysisError> {
     let modes = modes_at_rest(&Component::of(plate), MODES_AT_REST)?;
     let errors = modes.iter().map(|mode| larger.resting_error(mode));
-    Ok(REMAINDER * errors.fold(0.0, f64::max))
+    Ok(REMAINDER.get() * errors.fold(0.0, f64::max))
 }
 
 /// What is left after two differences that fall like a geometric series, with a margin.
 fn extrapolated(before: f64, latest: f64) -> f64 {
     let fall = (latest / before.max(f64::MIN_POSITIVE)).clamp(FALL.0, FALL.1);
-    (SAFETY * latest * fall / (1.0 - fall)).max(ROUNDING)
+    (SAFETY.get() * latest * fall / (1.0 - fall)).max(ROUNDING)
 }
 
 /// Largest relative difference of the critical speeds up to a speed, and of the first.
@@ -238,7 +239,7 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
         density_kg_per_m3,
         ..
     } = blade.material;
-    (LARGEST_STRETCH * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
+    (LARGEST_STRETCH.get() * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
 }
 
 /// Twice the lowest critical speed, rounded up to two digits.
@@ -256,7 +257,7 @@ mod tests {
     /// Errors 1, 0.6, 0.36 … have differences 0.4, 0.24 and leave 0.36.
     #[test]
     fn a_geometric_series_is_extrapolated_to_its_limit() {
-        assert!((extrapolated(0.4, 0.24) - SAFETY * 0.36).abs() < 1e-15);
+        assert!((extrapolated(0.4, 0.24) - SAFETY.get() * 0.36).abs() < 1e-15);
     }
 
     /// A blade of a third of the thickness reflects the waves of many more diameters below

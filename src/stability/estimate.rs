@@ -12,6 +12,7 @@ use crate::spectrum::{
     State, companion_eigenpairs, critical_speeds, orthonormal, split,
 };
 use crate::system::GyroscopicSystem;
+use crate::tuned::Tuned;
 
 /// Estimated errors, from what a larger basis would change.
 #[derive(Debug)]
@@ -43,12 +44,12 @@ impl BandError {
     fn of(self, band: &Instability, critical: f64) -> Self {
         let growth = self
             .growth
-            .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical);
+            .map(|difference| GROWTH_REMAINDER.get() * difference + 2.0 * critical);
         // A band may begin at rest, never end there.
         let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
         let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
         BandError {
-            speed: Some(REMAINDER * self.speed.unwrap_or(0.0) + critical + by_growth),
+            speed: Some(REMAINDER.get() * self.speed.unwrap_or(0.0) + critical + by_growth),
             growth,
         }
     }
@@ -56,7 +57,7 @@ impl BandError {
 
 /// What the larger basis in its turn leaves out of a growth rate, which converges less evenly than
 /// speeds do: on twelve drawn saws the true error was up to 2.9 times what it tells.
-const GROWTH_REMAINDER: f64 = 3.0;
+const GROWTH_REMAINDER: Tuned = Tuned::new("stability/estimate::GROWTH_REMAINDER", 3.0);
 /// Where the drawn frequencies are looked at, as shares of the range: speeds that a chart has
 /// however closely it is drawn.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -76,7 +77,7 @@ impl Estimates {
         let within = model.critical.iter();
         let within = within.filter(|c| c.speed_rad_per_s <= range.1);
         let critical: Vec<f64> = within
-            .map(|critical| REMAINDER * larger.critical_error(&model.components, critical))
+            .map(|critical| REMAINDER.get() * larger.critical_error(&model.components, critical))
             .collect();
         let samples = &chart.campbell.samples;
         let looks = LOOKS.map(|share| range.0 + share * (range.1 - range.0));
@@ -87,7 +88,7 @@ impl Estimates {
         let drawn = looks.flat_map(|sample| {
             larger.frequency_errors(&model.components, sample.speed_rad_per_s, &sample.modes)
         });
-        let drawn = REMAINDER * drawn.flatten().fold(0.0, f64::max);
+        let drawn = REMAINDER.get() * drawn.flatten().fold(0.0, f64::max);
         let least = critical.iter().copied().fold(0.0, f64::max);
         let mut estimates = Estimates {
             larger,
@@ -124,7 +125,7 @@ impl Estimates {
         let errors = self
             .larger
             .frequency_errors(&model.components, speed_rad_per_s, modes);
-        let with_remainder = |error: Option<f64>| error.map(|error| REMAINDER * error);
+        let with_remainder = |error: Option<f64>| error.map(|error| REMAINDER.get() * error);
         errors.into_iter().map(with_remainder).collect()
     }
 

@@ -10,10 +10,11 @@ use faer::c64;
 use super::certificate::Certificate;
 use super::signature::Signature;
 use crate::spectrum::{ModePair, ReflectedModel, ReflectedModes, SpectralModel, SpectrumError};
+use crate::tuned::Tuned;
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
 /// known to 1e-15 of the stiffness only.
-pub const CRITICAL_GAP: f64 = 5e-6;
+pub const CRITICAL_GAP: Tuned = Tuned::new("stability/evaluator::CRITICAL_GAP", 5e-6);
 /// Critical speeds closer than this are passed in one step. The divergence between them
 /// grows by less than a hundredth of 1/s; that it is there follows from the inertia.
 pub const CRITICAL_GROUP: f64 = 2e-5;
@@ -27,7 +28,7 @@ const MOST_FULL_SOLVES: usize = 200;
 
 /// Speeds at which the search solves the whole projected system; between two of them it goes
 /// by their modes.
-const ANCHORS: usize = 13;
+const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
 
 /// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
@@ -225,7 +226,7 @@ fn anchors(speeds: &[f64]) -> Vec<f64> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Vec::new();
     };
-    let spacing = (last - first) / ANCHORS as f64;
+    let spacing = (last - first) / ANCHORS.count() as f64;
     let mut chosen = vec![first];
     for &speed in speeds {
         let latest = chosen[chosen.len() - 1];

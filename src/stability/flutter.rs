@@ -10,9 +10,10 @@ use super::pair_continuation::{Edge, NarrowBand, PairContinuation};
 use super::search::{Event, Path};
 use super::signature::SignedMode;
 use crate::spectrum::SpectrumError;
+use crate::tuned::Tuned;
 
 /// Share of a band's width from its end at which a peak at the end is said to be.
-const BESIDE_END: f64 = 1e-3;
+const BESIDE_END: Tuned = Tuned::new("stability/flutter::BESIDE_END", 1e-3);
 
 /// A quadruple followed over speed.
 #[derive(Debug, Clone)]
@@ -186,7 +187,7 @@ impl Quadruple {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at
             {
-                let inside = at + BESIDE_END * (other.speed() - at);
+                let inside = at + BESIDE_END.get() * (other.speed() - at);
                 return Ok((
                     inside,
                     (edge.growth_square.sqrt(), edge.frequency_rad_per_s),

@@ -7,15 +7,16 @@
 
 use super::interpolation::Cubic;
 use super::signature::SignedMode;
+use crate::tuned::Tuned;
 
 /// A continuation must fit this much better than any other.
-const CLEARANCE: f64 = 0.25;
+const CLEARANCE: Tuned = Tuned::new("stability/matching::CLEARANCE", 0.25);
 /// Largest misfit of a continuation, as a share of the growth rate: half of it would be no
 /// continuation at all, and a tenth is met after a few halvings of any interval.
-const LARGEST_MISFIT: f64 = 0.1;
+const LARGEST_MISFIT: Tuned = Tuned::new("stability/matching::LARGEST_MISFIT", 0.1);
 /// A square that sinks below this share of its smaller end between two speeds may have passed
 /// through zero there: the pair may have split and coalesced again.
-const LEAST_DIP: f64 = 0.25;
+const LEAST_DIP: Tuned = Tuned::new("stability/matching::LEAST_DIP", 0.25);
 
 /// How the quadruples of two speeds belong together.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -80,13 +81,13 @@ pub fn matched(before: &[SignedMode], after: &[SignedMode], width: f64) -> Match
         let Some(k) = best else { continue };
         let found = misfits[i][k];
         let growth = a.lambda.re.max(after[k].lambda.re);
-        if found > LARGEST_MISFIT * growth {
+        if found > LARGEST_MISFIT.get() * growth {
             continue;
         }
         let in_row = (0..after.len()).filter(|&j| j != k).map(|j| misfits[i][j]);
         let in_column = (0..before.len()).filter(|&j| j != i).map(|j| misfits[j][k]);
         let next = in_row.chain(in_column).fold(f64::INFINITY, f64::min);
-        matching.is_certain &= found <= CLEARANCE * next && !dips(a, &after[k], width);
+        matching.is_certain &= found <= CLEARANCE.get() * next && !dips(a, &after[k], width);
         if matching.pairs.iter().all(|(_, taken)| *taken != k) {
             matching.pairs.push((i, k));
         }
@@ -101,7 +102,7 @@ pub fn matched(before: &[SignedMode], after: &[SignedMode], width: f64) -> Match
 fn dips(a: &SignedMode, b: &SignedMode, width: f64) -> bool {
     squares(a, b, width).iter().any(|square| {
         let [from, to] = square.values;
-        square.lowest() < LEAST_DIP * from.min(to)
+        square.lowest() < LEAST_DIP.get() * from.min(to)
     })
 }
 

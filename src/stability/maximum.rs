@@ -2,6 +2,7 @@
 
 use super::interpolation::Cubic;
 use crate::spectrum::SpectrumError;
+use crate::tuned::Tuned;
 
 /// A value of the function with its slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +16,7 @@ pub struct Sample {
 }
 
 /// The maximum is refined until the cubics promise no more than this share of it.
-const TOLERANCE: f64 = 1e-5;
+const TOLERANCE: Tuned = Tuned::new("stability/maximum::TOLERANCE", 1e-5);
 /// Samples added at most.
 const MOST_SAMPLES: usize = 24;
 
@@ -45,7 +46,7 @@ pub fn maximise(
         let Some((place, speed, value)) = promised else {
             break;
         };
-        if value <= best.value * (1.0 + TOLERANCE) {
+        if value <= best.value * (1.0 + TOLERANCE.get()) {
             break;
         }
         let Some(sample) = f(speed)? else { break };

@@ -79,7 +79,7 @@ pub fn search_bands(
 ) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
     if plate.is_conservative() {
         let model = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
-        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
+        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS.count())?);
     }
     let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
     let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;

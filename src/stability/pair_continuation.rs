@@ -11,11 +11,12 @@ use super::evaluator::SignatureEvaluator;
 use super::maximum::{Sample, maximise};
 use super::signature::SignedMode;
 use crate::spectrum::{ModePair, SpectrumError};
+use crate::tuned::Tuned;
 
 /// Relative differences of speed for the slope and the curvature of σ²: its rounding is 1e-15
 /// of ω², and the pair is exact to the square of the distance.
-const NEWTON_DIFFERENCE: f64 = 1e-6;
-const VERTEX_DIFFERENCE: f64 = 1e-5;
+const NEWTON_DIFFERENCE: Tuned = Tuned::new("stability/pair_continuation::NEWTON_DIFFERENCE", 1e-6);
+const VERTEX_DIFFERENCE: Tuned = Tuned::new("stability/pair_continuation::VERTEX_DIFFERENCE", 1e-5);
 /// A last step of this relative length leaves its square, times how many widths of the
 /// band the speed is: below the accuracy asked.
 const NEWTON_TOLERANCE: f64 = 1e-8;
@@ -29,12 +30,12 @@ const MAX_NEWTON: usize = 8;
 const SHORT_OF_REAL: f64 = 0.999;
 /// Share of σ² and, of the speed, the shift of an edge by which the coarser models between the
 /// anchors of the search may be off.
-const LIKENESS: f64 = 0.05;
-pub const VICINITY: f64 = 3e-5;
+const LIKENESS: Tuned = Tuned::new("stability/pair_continuation::LIKENESS", 0.05);
+pub const VICINITY: Tuned = Tuned::new("stability/pair_continuation::VICINITY", 3e-5);
 
 /// Bands wider than this share of their speed are sampled in so many parts for a second hump.
-const NARROW: f64 = 1e-4;
-const PARTS: usize = 6;
+const NARROW: Tuned = Tuned::new("stability/pair_continuation::NARROW", 1e-4);
+const PARTS: Tuned = Tuned::new("stability/pair_continuation::PARTS", 6.0);
 
 /// How a quadruple begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -155,9 +156,10 @@ impl<'a> PairContinuation<'a> {
     fn is_mode(&self, mode: &SignedMode) -> bool {
         let [growth, frequency] = self.squares();
         let (sigma, omega) = (mode.lambda.re, mode.lambda.im);
-        let shift = VICINITY * self.speed;
+        let shift = VICINITY.get() * self.speed;
         let off = |square: f64, part: f64, slope: f64| {
-            let allowed = LIKENESS * sigma * sigma.max(part) + 2.0 * part * slope.abs() * shift;
+            let allowed =
+                LIKENESS.get() * sigma * sigma.max(part) + 2.0 * part * slope.abs() * shift;
             (square - part * part).abs() <= allowed
         };
         off(growth, sigma, mode.slope.re) && off(frequency, omega, mode.slope.im)
@@ -175,7 +177,7 @@ impl<'a> PairContinuation<'a> {
 
     /// The speed next to which σ² or ω² is zero, on the way to `end`.
     fn root(&self, end: f64) -> Option<Edge> {
-        let (slopes, _) = self.derivatives(NEWTON_DIFFERENCE);
+        let (slopes, _) = self.derivatives(NEWTON_DIFFERENCE.get());
         let direction = (end - self.speed).signum();
         let squares = self.squares();
         let of = |k: usize, coalescence| {
@@ -204,7 +206,7 @@ impl<'a> PairContinuation<'a> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
         // The last speed known inside, and the first known outside. Where the edge is next to
         // an end, a coarser model may have seen it on the other side.
-        let margin = direction * VICINITY * self.speed;
+        let margin = direction * VICINITY.get() * self.speed;
         let (mut inside, mut outside) = (start - margin, end + margin);
         for _ in 0..MAX_STEPS {
             let found = self.root(end);
@@ -236,7 +238,7 @@ impl<'a> PairContinuation<'a> {
 
     /// σ² with its slope, for the search of its maximum.
     fn sample(&self) -> Sample {
-        let ([slope, _], _) = self.derivatives(NEWTON_DIFFERENCE);
+        let ([slope, _], _) = self.derivatives(NEWTON_DIFFERENCE.get());
         Sample {
             at: self.speed,
             value: self.squares()[0],
@@ -251,9 +253,9 @@ impl<'a> PairContinuation<'a> {
         let at = |speed: f64| Ok(self.to(speed).map(|pair| pair.sample()));
         let mut samples: Vec<Sample> = edges.iter().map(Edge::sample).collect();
         samples.push(self.sample());
-        if to - from > NARROW * self.speed {
-            for part in 1..PARTS {
-                samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
+        if to - from > NARROW.get() * self.speed {
+            for part in 1..PARTS.count() {
+                samples.extend(at(from + (to - from) * part as f64 / PARTS.count() as f64)?);
             }
         }
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
@@ -265,7 +267,7 @@ impl<'a> PairContinuation<'a> {
     /// The speed of largest σ² between the ends, and its curvature there: the zero of its
     /// slope by the secant method, for a pair's own curvature lacks what it becomes elsewhere.
     fn vertex(mut self, ends: (f64, f64)) -> Option<(Self, f64)> {
-        let ([mut slope, _], mut bend) = self.derivatives(VERTEX_DIFFERENCE);
+        let ([mut slope, _], mut bend) = self.derivatives(VERTEX_DIFFERENCE.get());
         for _ in 0..MAX_NEWTON {
             let step = -slope / bend;
             if bend >= 0.0 || !(ends.0..=ends.1).contains(&(self.speed + step)) {
@@ -275,7 +277,7 @@ impl<'a> PairContinuation<'a> {
             if step.abs() <= VERTEX_TOLERANCE * self.speed {
                 return Some((self, bend));
             }
-            let ([next, _], _) = self.derivatives(VERTEX_DIFFERENCE);
+            let ([next, _], _) = self.derivatives(VERTEX_DIFFERENCE.get());
             (slope, bend) = (next, (next - slope) / step);
         }
         None

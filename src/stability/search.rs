@@ -16,18 +16,21 @@ use super::signature::{
     Change, Sign, Signature, SignedMode, between_crossings, change, crossing, may_touch,
 };
 use crate::spectrum::SpectrumError;
+use crate::tuned::Tuned;
 
 /// Intervals below this relative width are not halved any more.
 const LEAST_WIDTH: f64 = 1e-9;
 /// Relative width below which a crossing is not halved any more: the gap of its waves is then
 /// below what eigenvalues can show.
-const CROSSING_WIDTH: f64 = 1e-5;
+const CROSSING_WIDTH: Tuned = Tuned::new("stability/search::CROSSING_WIDTH", 1e-5);
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
 /// Share of an interval, and at least so much of the speed, that is left on each side of a
 /// coalescence when the rest is searched.
-const BESIDE_EDGE: f64 = 0.02;
-const LEAST_BESIDE: f64 = 2.0 * VICINITY;
+const BESIDE_EDGE: Tuned = Tuned::new("stability/search::BESIDE_EDGE", 0.02);
+fn least_beside() -> f64 {
+    2.0 * VICINITY.get()
+}
 
 /// What happens between two neighbouring speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,7 +140,7 @@ impl Search<'_> {
                     _ => 0.5,
                 };
                 let middle = x + share * (y - x);
-                let middle = match y - x <= EXACT_WIDTH * y {
+                let middle = match y - x <= exact_width() * y {
                     true => self.evaluator.exactly_at(middle)?,
                     false => self.evaluator.at(middle)?,
                 };
@@ -156,7 +159,7 @@ impl Search<'_> {
         path: &mut Path,
     ) -> Result<(), SpectrumError> {
         let width = b.speed_rad_per_s - a.speed_rad_per_s;
-        let beside = (BESIDE_EDGE * width).max(LEAST_BESIDE * edge.speed_rad_per_s);
+        let beside = (BESIDE_EDGE.get() * width).max(least_beside() * edge.speed_rad_per_s);
         let speeds = [-beside, beside].map(|away| edge.speed_rad_per_s + away);
         let mut ends = vec![a.clone()];
         for speed in speeds {
@@ -266,7 +269,7 @@ impl Search<'_> {
             }
             _ => None,
         };
-        let is_narrow = to - from <= CROSSING_WIDTH * to && same_count;
+        let is_narrow = to - from <= CROSSING_WIDTH.get() * to && same_count;
         Ok(match found {
             Some(Passage::Crossing) => Some(None),
             Some(Passage::Band(band)) => Some(Some(Event::Band(band))),
@@ -277,7 +280,9 @@ impl Search<'_> {
 
 /// Relative width from which the coarser models between the anchors may show an edge on the
 /// wrong side of a speed.
-const EXACT_WIDTH: f64 = 4.0 * VICINITY;
+fn exact_width() -> f64 {
+    4.0 * VICINITY.get()
+}
 /// Depth from which an interval about a coalescence is not parted any more.
 const EDGE_DEPTH: usize = 1000;
 

@@ -10,10 +10,11 @@ use super::search::Path;
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::tuned::Tuned;
 
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
-pub(super) const SEARCH_SPEEDS: usize = 25;
+pub(super) const SEARCH_SPEEDS: Tuned = Tuned::new("stability/undamped::SEARCH_SPEEDS", 25.0);
 /// Speeds drawn within and beside a band, as shares of its width, besides that of its peak.
 pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
@@ -32,7 +33,7 @@ pub(super) fn charted(
     let search = match model.plate.is_axisymmetric() {
         true => speeds,
         false => {
-            let even = campbell::even_speeds(range, SEARCH_SPEEDS);
+            let even = campbell::even_speeds(range, SEARCH_SPEEDS.count());
             with_critical_speeds(model, range, even)
         }
     };
@@ -134,7 +135,7 @@ fn critical_gap(critical: &[f64], index: usize) -> f64 {
     let below = index.checked_sub(1).and_then(|below| critical.get(below));
     match is_double(below) || is_double(critical.get(index + 1)) {
         true => DOUBLE_GAP,
-        false => CRITICAL_GAP,
+        false => CRITICAL_GAP.get(),
     }
 }
 

@@ -7,11 +7,12 @@ use crate::spectrum::hamiltonian::{HamiltonianReduction, State};
 use crate::spectrum::mode_pair::standing_states;
 use crate::spectrum::projection::Projection;
 use crate::spectrum::vectors::Eigenpair;
+use crate::tuned::Tuned;
 
 /// Largest estimated error of a frequency that is drawn from them, relative to the chart's height.
-const LOCAL_TOLERANCE: f64 = 1e-5;
+const LOCAL_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction/drawn::LOCAL_TOLERANCE", 1e-5);
 /// Modes up to this multiple of the window are among these states.
-const DRAWN_MARGIN: f64 = 1.05;
+const DRAWN_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction/drawn::DRAWN_MARGIN", 1.05);
 
 impl Builder<'_> {
     /// Both halves of a piece on the states at its ends, in its middle, and where a wave
@@ -23,7 +24,7 @@ impl Builder<'_> {
         (middle, pairs): (f64, Vec<Eigenpair>),
     ) -> Vec<(f64, Option<HamiltonianReduction>)> {
         let low = |pairs: Vec<Eigenpair>| -> Vec<Eigenpair> {
-            let height = DRAWN_MARGIN * self.window;
+            let height = DRAWN_MARGIN.get() * self.window;
             let low = |pair: &Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
             pairs.into_iter().filter(low).collect()
         };
@@ -59,7 +60,7 @@ impl Builder<'_> {
         // What these states cannot draw, the piece itself does.
         model.eigenpairs(speed).is_ok_and(|pairs| {
             let error = self.frequency_error(piece, speed, self.window, &pairs);
-            error <= LOCAL_TOLERANCE * self.window
+            error <= LOCAL_TOLERANCE.get() * self.window
         })
     }
 }

@@ -6,13 +6,14 @@ use super::link::between;
 use super::spectrum::{Eigenvalue, Solver, Spectrum};
 use super::trace::Path;
 use crate::spectrum::SpectrumError;
+use crate::tuned::Tuned;
 
 /// Relative accuracy in speed of onsets, peaks and of the lowest growth between two.
 const SPEED_TOLERANCE: f64 = 1e-12;
 /// Two humps of growth are bands of their own where growth falls between them below this share
 /// of the lower one. Each meeting of two modes makes a hump; what damping alone feeds grows
 /// slowly and evenly in between.
-const VALLEY: f64 = 0.5;
+const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
 /// A band narrower than this share of its speed lies within the resolution of a complex pair
 /// that becomes two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
@@ -229,7 +230,7 @@ fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<
         let lower = before.min(behind[k - first]);
         let depth = growth(k).max(0.0) / lower.max(f64::MIN_POSITIVE);
         let inner = first < k && k < last;
-        if inner && depth < VALLEY && deepest.is_none_or(|(d, _)| depth < d) {
+        if inner && depth < VALLEY.get() && deepest.is_none_or(|(d, _)| depth < d) {
             deepest = Some((depth, k));
         }
     }

@@ -9,9 +9,10 @@ use faer::c64;
 
 use super::super::interpolation::Cubic;
 use super::spectrum::{Eigenvalue, Spectrum};
+use crate::tuned::Tuned;
 
 /// A match must fit this much better than the next best one.
-pub const STRICT: f64 = 0.25;
+pub const STRICT: Tuned = Tuned::new("stability/damped/link::STRICT", 0.25);
 /// The same for intervals that are not divided any more.
 pub const LAST: f64 = 0.5;
 

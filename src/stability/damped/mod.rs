@@ -20,11 +20,12 @@ use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
+use crate::tuned::Tuned;
 use spectrum::{Solver, Spectrum};
 
 /// Points of a band's curve that a straight line misses by more than this share of its peak
 /// are drawn, on a scale of square roots, which shows slow growth beside fast.
-const DRAWN: f64 = 0.02;
+const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 
 /// Modes at `count` even speeds and where bands need more, the bands, and what was checked of them.
 pub(super) fn charted(
@@ -60,7 +61,7 @@ fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instabilit
     }
     let critical = SpectralModel::critical_speeds(&plate)?;
     let twin = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
-    let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS)?;
+    let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS.count())?;
     Ok(bands)
 }
 
@@ -128,7 +129,7 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
 /// straight lines take to follow the curve.
 fn drawn_speeds(band: &Instability) -> Vec<f64> {
     let curve = &band.curve;
-    let tolerance = DRAWN * band.peak_growth_per_s.sqrt();
+    let tolerance = DRAWN.get() * band.peak_growth_per_s.sqrt();
     let is_straight = |from: usize, to: usize| {
         let [a, b] = [curve[from], curve[to]];
         let width = b.speed_rad_per_s - a.speed_rad_per_s;

@@ -5,10 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::c64;
 
 use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
+use crate::tuned::Tuned;
 
 /// Eigenvalues up to this multiple of the highest frequency that is sound are followed, so that
 /// one that leaves the sound range is not taken for another that stays.
-const MARGIN: f64 = 1.3;
+const MARGIN: Tuned = Tuned::new("stability/damped/spectrum::MARGIN", 1.3);
 /// Growth below this share of the highest frequency is rounding.
 const NOISE: f64 = 1e-10;
 /// Spectra of one chart, at most: two orders above what a saw takes.
@@ -109,7 +110,7 @@ impl<'a> Solver<'a> {
     fn modes(&self, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.spent.fetch_add(1, Ordering::Relaxed);
         let mut modes = self.model.all_modes(speed)?;
-        let highest = MARGIN * self.highest();
+        let highest = MARGIN.get() * self.highest();
         modes.retain(|m| m.kind != ModeKind::Rigid && m.lambda.im <= highest);
         Ok(modes)
     }

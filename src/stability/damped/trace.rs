@@ -7,6 +7,7 @@ use super::super::root::share_of_zero;
 use super::link::{LAST, Link, Pair, STRICT};
 use super::spectrum::{Solver, Spectrum};
 use crate::spectrum::SpectrumError;
+use crate::tuned::Tuned;
 
 /// Intervals narrower than this share of the speed are not divided: there a complex pair
 /// becomes two real eigenvalues, or back.
@@ -15,12 +16,12 @@ const LEAST_WIDTH: f64 = 1e-10;
 const LEAST_DRAWN: f64 = 1e-6;
 /// A cubic through growth rates may be off by this share of them in its middle, before the
 /// middle joins the curve.
-const CURVE_TOLERANCE: f64 = 5e-3;
+const CURVE_TOLERANCE: Tuned = Tuned::new("stability/damped/trace::CURVE_TOLERANCE", 5e-3);
 /// Or by this share of the highest frequency.
 const CURVE_FLOOR: f64 = 1e-8;
 /// Looks at one place of an interval in which nothing grows at the ends: each brings the place
 /// of a crossing closer by two digits.
-const LOOKS: usize = 4;
+const LOOKS: Tuned = Tuned::new("stability/damped/trace::LOOKS", 4.0);
 
 /// Spectra by ascending speed: the given ones and those between them.
 pub fn refined(solver: &Solver<'_>, given: Vec<Spectrum>) -> Result<Vec<Spectrum>, SpectrumError> {
@@ -48,7 +49,7 @@ fn within(
     if width <= LEAST_WIDTH * b.speed || solver.is_exhausted() {
         return Ok(Vec::new());
     }
-    let link = Link::new(a, b, solver.highest(), STRICT);
+    let link = Link::new(a, b, solver.highest(), STRICT.get());
     let middle = a.speed + 0.5 * width;
     if link.is_ambiguous {
         return halves(solver, [a, b], solver.at(middle)?, looks);
@@ -63,7 +64,7 @@ fn within(
         }
         return halves(solver, [a, b], between, looks);
     }
-    match place_to_look(&link.pairs).filter(|_| looks < LOOKS) {
+    match place_to_look(&link.pairs).filter(|_| looks < LOOKS.count()) {
         Some(share) => {
             let speed = a.speed + share * width;
             halves(solver, [a, b], solver.at(speed)?, looks + 1)
@@ -91,7 +92,7 @@ fn is_drawn(solver: &Solver<'_>, pair: &Pair, middle: &Spectrum) -> bool {
     let found = middle.nearest(pair.ends[0].component, expected);
     found.is_some_and(|found| {
         let size = pair.growth().max(found.lambda.re);
-        let tolerance = CURVE_TOLERANCE * size + CURVE_FLOOR * solver.highest();
+        let tolerance = CURVE_TOLERANCE.get() * size + CURVE_FLOOR * solver.highest();
         (found.lambda.re - expected.re).abs() <= tolerance
     })
 }

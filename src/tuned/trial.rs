@@ -1,0 +1,173 @@
+//! The trial of the tuned constants: what half and double their value does.
+
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard};
+
+use crate::scene::{Accuracy, Scene, rpm};
+use crate::stability::{Analysis, AnalysisError, Instability};
+
+/// Off in all other tests, which need not lock anything.
+static ON: AtomicBool = AtomicBool::new(false);
+static TRIAL: Mutex<Trial> = Mutex::new(Trial {
+    seen: BTreeSet::new(),
+    scaled: None,
+});
+
+struct Trial {
+    /// Constants that were asked for.
+    seen: BTreeSet<&'static str>,
+    /// The one on trial, and its factor.
+    scaled: Option<(&'static str, f64)>,
+}
+
+fn trial() -> MutexGuard<'static, Trial> {
+    TRIAL
+        .lock()
+        .expect("nothing panics while the trial is locked")
+}
+
+pub(super) fn factor(name: &'static str) -> f64 {
+    if !ON.load(Ordering::Relaxed) {
+        return 1.0;
+    }
+    let mut trial = trial();
+    trial.seen.insert(name);
+    match trial.scaled {
+        Some((scaled, factor)) if scaled == name => factor,
+        _ => 1.0,
+    }
+}
+
+/// What is compared of a saw.
+struct Answer {
+    critical_rpm: Vec<f64>,
+    bands: Vec<Instability>,
+    /// Of critical speeds.
+    estimate: f64,
+    mismatches: usize,
+    /// Eigenproblems: whole, projected, of few states, pairs.
+    work: [usize; 4],
+}
+
+impl Answer {
+    fn new(scene: &Scene) -> Result<Self, AnalysisError> {
+        let analysis = Analysis::new(scene)?;
+        let counters = &analysis.model.counters;
+        let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
+        let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+        let within = critical.take_while(|speed| *speed <= analysis.range_rad_per_s.1);
+        Ok(Answer {
+            critical_rpm: within.map(rpm).collect(),
+            bands: analysis.bands().to_vec(),
+            estimate: analysis.estimated_relative_error.unwrap_or(f64::NAN),
+            mismatches: analysis.chart.certificate.mismatches.len(),
+            work: [
+                count(&counters.full_solves),
+                count(&counters.reduced_solves),
+                count(&counters.local_solves),
+                count(&counters.refined_pairs),
+            ],
+        })
+    }
+
+    /// Largest relative difference of critical speeds, edges and peaks from another answer;
+    /// infinite where their numbers differ.
+    fn differences(&self, other: &Answer) -> [f64; 3] {
+        let largest = |pairs: Vec<(f64, f64)>| {
+            let off = pairs.iter().map(|(x, y)| (x - y).abs() / y.abs());
+            off.filter(|off| off.is_finite()).fold(0.0, f64::max)
+        };
+        if self.bands.len() != other.bands.len()
+            || self.critical_rpm.len() != other.critical_rpm.len()
+        {
+            return [f64::INFINITY; 3];
+        }
+        let critical = self.critical_rpm.iter().zip(&other.critical_rpm);
+        let bands = || self.bands.iter().zip(&other.bands);
+        let edges = bands().flat_map(|(x, y)| {
+            [
+                (x.from_rad_per_s, y.from_rad_per_s),
+                (x.to_rad_per_s, y.to_rad_per_s),
+            ]
+        });
+        let peaks = bands().map(|(x, y)| (x.peak_growth_per_s, y.peak_growth_per_s));
+        [
+            largest(critical.map(|(x, y)| (*x, *y)).collect()),
+            largest(edges.collect()),
+            largest(peaks.collect()),
+        ]
+    }
+}
+
+/// Saws with one pad, with two, damped, heated, on a loose collar, and free.
+fn saws() -> Vec<Scene> {
+    let root = env!("CARGO_MANIFEST_DIR");
+    [
+        "paper",
+        "two-pads",
+        "gallery/damped-pad",
+        "gallery/heated-rim",
+        "gallery/loose-collar",
+        "free-blade",
+    ]
+    .iter()
+    .map(|name| Scene::from_path(format!("{root}/scenes/{name}.json")).unwrap())
+    .map(|scene| {
+        scene
+            .edited(|scene| scene.accuracy = Accuracy::Draft)
+            .unwrap()
+    })
+    .collect()
+}
+
+/// Prints a row for each constant and factor: the largest change over the saws, and the work of
+/// all of them. The answer is right where nothing but the last digits moves; a constant is well
+/// chosen where one of its neighbours costs more or says something else.
+#[test]
+#[ignore = "takes minutes: run it when a constant is changed"]
+fn constants() {
+    ON.store(true, Ordering::Relaxed);
+    let saws = saws();
+    let reference: Vec<Answer> = saws.iter().map(|s| Answer::new(s).unwrap()).collect();
+    let names: Vec<&'static str> = trial().seen.iter().copied().collect();
+    println!(
+        "{:<48} {:>6}  {:>8} {:>8} {:>8} {:>8}  {:>5}  whole/projected/few/pairs",
+        "constant", "times", "critical", "edges", "peaks", "estimate", "wrong"
+    );
+    let total = |answers: &[Answer]| {
+        let sum = |k: usize| answers.iter().map(|a| a.work[k]).sum::<usize>();
+        [0, 1, 2, 3].map(sum)
+    };
+    println!("{:<48} {:>6}  {:?}", "as it is", 1, total(&reference));
+    for name in names {
+        for factor in [0.5, 2.0] {
+            trial().scaled = Some((name, factor));
+            let answers: Result<Vec<Answer>, AnalysisError> =
+                saws.iter().map(Answer::new).collect();
+            trial().scaled = None;
+            let Ok(answers) = answers else {
+                println!("{name:<48} {factor:>6}  refused");
+                continue;
+            };
+            let mut worst = [0.0_f64; 4];
+            for (answer, own) in answers.iter().zip(&reference) {
+                let [critical, edges, peaks] = answer.differences(own);
+                let estimate = (answer.estimate / own.estimate - 1.0).abs();
+                for (worst, new) in worst.iter_mut().zip([critical, edges, peaks, estimate]) {
+                    *worst = worst.max(new);
+                }
+            }
+            let wrong: usize = answers.iter().map(|a| a.mismatches).sum();
+            println!(
+                "{name:<48} {factor:>6}  {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e}  {wrong:>5}  {:?}",
+                worst[0],
+                worst[1],
+                worst[2],
+                worst[3],
+                total(&answers)
+            );
+        }
+    }
+    ON.store(false, Ordering::Relaxed);
+}
