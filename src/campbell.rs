@@ -1,5 +1,8 @@
 //! Many speeds: modes computed in parallel, and followed as branches.
 //!
+//! In goes a [`SpectralModel`] and speeds in rad/s; out comes a
+//! [`Campbell`]: the modes of every speed, and for each branch which of them belong to it.
+//!
 //! Every mode of an undamped blade is brought to positive action: a reflected wave
 //! (ω, q) with Krein sign −1 is the same motion as (−ω, q̄) with sign +1. A backward
 //! wave then passes through its critical speed without changing its shape, and
@@ -68,7 +71,7 @@ pub struct Campbell {
     pub branches: Vec<Branch>,
 }
 
-/// `count` speeds, evenly spread over a range.
+/// `count` speeds, evenly spread over a range, its ends included, in the unit of the range.
 pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
     let last = count.max(2) - 1;
     (0..=last)

@@ -1,5 +1,7 @@
 //! Figures, drawn from a [`report`](crate::report) alone.
 //!
+//! In goes a report, out come its [`Figures`], each as PNG bytes or as SVG text.
+//!
 //! A figure is first laid out on a `Sheet`, a list of marks in
 //! figure units, and then rendered to PNG bytes or an SVG string. Nothing here
 //! writes files.

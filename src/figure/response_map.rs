@@ -36,20 +36,8 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     let title = "Response at the probe over speed and frequency";
     heading::draw(&mut sheet, title, &report.scene.name);
     let response = &report.response;
-    let ends = |values: &[f64]| {
-        let first = values.first().copied().unwrap_or(0.0);
-        [first, values.last().copied().unwrap_or(1.0)]
-    };
-    let speed = Axis::new(
-        ends(&response.rpm),
-        [PANEL.left, PANEL.right],
-        Spread::Linear,
-    );
-    let frequency = Axis::new(
-        ends(&response.frequency_hz),
-        [PANEL.bottom, PANEL.top],
-        Spread::Linear,
-    );
+    let speed = along(&response.rpm, [PANEL.left, PANEL.right]);
+    let frequency = along(&response.frequency_hz, [PANEL.bottom, PANEL.top]);
     // Millimetres per newton on a logarithmic scale, from the strongest three decades down.
     let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
     let all = response.receptance_m_per_n.iter().flatten();
@@ -93,6 +81,13 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     draw_scale(&mut sheet, &scale, &axis, "mm/N", (shade, decade));
     draw_key(&mut sheet, report);
     sheet
+}
+
+/// The axis of ascending values.
+fn along(values: &[f64], places: [f64; 2]) -> Axis {
+    let first = values.first().copied().unwrap_or(0.0);
+    let last = values.last().copied().unwrap_or(1.0);
+    Axis::new([first, last], places, Spread::Linear)
 }
 
 /// The value of a whole power of ten; the ticks between have no label.

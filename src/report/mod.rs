@@ -1,5 +1,9 @@
 //! The report: everything found out about a saw, complete enough that every
 //! figure can be drawn from it alone.
+//!
+//! In goes an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a fit, a
+//! placement or the history of a cut; out comes what is written as JSON, in rpm, Hz and 1/s, with the
+//! names of modes in words. Nothing is computed here that could fail.
 
 mod branches;
 mod build;

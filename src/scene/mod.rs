@@ -1,5 +1,9 @@
 //! What the user says about the saw, in two stages: [`SceneFile`] as typed,
 //! then [`Scene`], validated and in SI units and radians.
+//!
+//! In goes JSON text; out comes a [`Scene`], or a [`SceneError`] that names the key, the value, what
+//! is allowed and the remedy. The units of a key are in its name. A scene is changed by
+//! [`Scene::edited`], which validates again, so that no scene exists that is not valid.
 
 mod check;
 mod cut;

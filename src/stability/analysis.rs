@@ -191,7 +191,7 @@ impl Analysis {
         )
     }
 
-    /// The speeds around one at which nothing counts; `None` where the saw is unstable.
+    /// The speeds around one at which nothing counts, in rad/s; `None` where the saw is unstable.
     pub fn safe_window(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
         let bands = &self.chart.instabilities;
         safe_window(

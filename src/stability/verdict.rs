@@ -79,7 +79,7 @@ pub fn verdict(
     }
 }
 
-/// The speeds around one at which nothing counts, within a range; `None` where the saw is
+/// The speeds around one at which nothing counts, in rad/s, within a range; `None` where the saw is
 /// unstable at that speed, or nothing was computed there.
 pub fn safe_window(
     bands: &[Instability],
@@ -101,7 +101,7 @@ pub fn safe_window(
 }
 
 /// Lowest speed at which flutter counts, and lowest of all at which a mode flutters, however
-/// slowly it grows.
+/// slowly it grows; both in rad/s.
 pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f64>; 2] {
     let flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
     let counted = flutter.clone().flat_map(|b| b.counted(threshold_per_s));
@@ -113,7 +113,7 @@ pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f6
 }
 
 impl Instability {
-    /// The stretches of speeds in which it counts, ascending.
+    /// The stretches of speeds in which it counts, ascending, in rad/s.
     pub fn counted(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
         if !self.counts(threshold_per_s) {
             return Vec::new();
@@ -142,7 +142,7 @@ impl Instability {
         stretches
     }
 
-    /// Re λ of a damped blade at a speed within the band.
+    /// Re λ of a damped blade at a speed within the band, in 1/s.
     pub fn growth_at(&self, speed_rad_per_s: f64) -> Option<f64> {
         let after = |p: &CurvePoint| p.speed_rad_per_s < speed_rad_per_s;
         let place = self.curve.partition_point(after).max(1);

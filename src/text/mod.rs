@@ -1,5 +1,7 @@
 //! Text as people have it: files of any editor or spreadsheet as Unicode, JSON with comments, and
 //! words that may be shown on a terminal.
+//!
+//! In go the bytes of a file; out comes text, or an error that names the line and column.
 
 mod fault;
 mod file;
