@@ -21,7 +21,7 @@ use super::{bands, heading};
 use crate::report::{InstabilityKind, Report};
 
 const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 900;
+const HEIGHT: u32 = 918;
 const PLOT_LEFT: f64 = 92.0;
 const PLOT_TOP: f64 = 122.0;
 const PLOT_BOTTOM: f64 = 788.0;
@@ -31,9 +31,10 @@ const GROWTH_HEIGHT: f64 = 236.0;
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
 
 /// Baselines of the lines at the foot.
-const LEGEND_ABOVE_FOOT: f64 = 52.0;
-const NOTES_ABOVE_FOOT: f64 = 33.0;
-const CERTIFICATE_ABOVE_FOOT: f64 = 14.0;
+const LEGEND_ABOVE_FOOT: f64 = 70.0;
+const NOTES_ABOVE_FOOT: f64 = 51.0;
+const CERTIFICATE_ABOVE_FOOT: f64 = 32.0;
+const FACTS_ABOVE_FOOT: f64 = 14.0;
 
 /// Smaller growth rates are taken for rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;

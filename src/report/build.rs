@@ -34,6 +34,7 @@ impl Analysis {
         let certificate = CertificateEntry::new(
             &analysis.chart.certificate,
             model.is_conservative(),
+            analysis.range_rad_per_s,
             errors.fold(0.0, f64::max),
         );
         let branches = Numbered::new(analysis);

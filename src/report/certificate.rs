@@ -1,10 +1,12 @@
 //! What was checked of the list of bands, and what did not agree.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::rpm;
-use crate::stability::{Certificate, InstabilityKind, Mismatch};
+use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch};
 
 /// The Krein index and the list of bands held against the spectrum, see [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -19,13 +21,40 @@ pub struct CertificateEntry {
     pub krein_violations: usize,
     /// These speeds.
     pub violating_rpm: Vec<f64>,
+    /// Counts on the whole basis, which know nothing of the reduced model, that modes were held against.
+    pub full_basis_counts: usize,
+    /// Modes that these counts say are missing, or too many; expected none.
+    pub miscounted_modes: Vec<MiscountEntry>,
+    /// Whether modes were missing at first, so that the bands were searched again on the whole basis.
+    pub searched_again: bool,
     /// Where the list of bands contradicts the eigenvalues that the search or the chart found;
     /// expected none.
     pub mismatches: Vec<MismatchEntry>,
     /// Whether the search for bands ended at its limit of work, so that bands may be missing.
     pub gave_up: bool,
+    /// Share of the sweep that is proven to have no instability which is not listed, rounded down
+    /// to four digits; absent where no proof was tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proven_share: Option<f64>,
+    /// The rest, which was searched and not proven: from and to.
+    pub unproven_rpm: Vec<[f64; 2]>,
     /// Largest backward error of any mode shown.
     pub max_backward_error: f64,
+}
+
+/// Modes of a speed that a count on the whole basis does not find, or finds besides.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MiscountEntry {
+    /// The speed.
+    pub rpm: f64,
+    /// Between which frequencies.
+    pub from_hz: f64,
+    /// The upper one.
+    pub to_hz: f64,
+    /// Modes of Krein sign + that the spectrum lacks there, less those of sign −; negative where it
+    /// has too many.
+    pub missing: i64,
 }
 
 /// A speed at which the list of bands contradicts the eigenvalues found there.
@@ -47,29 +76,57 @@ pub struct MismatchEntry {
 }
 
 impl CertificateEntry {
+    /// `range` is the sweep, in rad/s.
     pub(super) fn new(
         certificate: &Certificate,
         is_undamped: bool,
+        range: (f64, f64),
         max_backward_error: f64,
     ) -> Self {
+        let violations = certificate.violations_rad_per_s.iter();
+        let unproven = certificate.unproven_rad_per_s.iter().flatten();
+        let proven_share = proven_share(certificate, range);
         CertificateEntry {
-            statement: statement(certificate, is_undamped),
+            statement: statement(certificate, is_undamped, proven_share),
             speeds_checked: certificate.speeds_checked,
             krein_violations: certificate.violations_rad_per_s.len(),
-            violating_rpm: certificate
-                .violations_rad_per_s
-                .iter()
-                .map(|s| rpm(*s))
-                .collect(),
+            violating_rpm: violations.map(|s| rpm(*s)).collect(),
+            full_basis_counts: certificate.full_basis_counts,
+            miscounted_modes: certificate.miscounts.iter().map(Into::into).collect(),
+            searched_again: certificate.searched_again,
             mismatches: certificate.mismatches.iter().map(Into::into).collect(),
             gave_up: certificate.gave_up,
+            proven_share,
+            unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
             max_backward_error,
         }
     }
 
     /// Whether every check agrees.
     pub fn is_clean(&self) -> bool {
-        self.krein_violations == 0 && self.mismatches.is_empty() && !self.gave_up
+        self.krein_violations == 0
+            && self.miscounted_modes.is_empty()
+            && self.mismatches.is_empty()
+            && !self.gave_up
+    }
+}
+
+/// Share of the sweep outside the stretches that are not proven, rounded down.
+fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64> {
+    let unproven = certificate.unproven_rad_per_s.as_ref()?;
+    let open: f64 = unproven.iter().map(|(a, b)| b - a).sum();
+    let share = 1.0 - open / (to - from);
+    (to > from).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
+}
+
+impl From<&Miscount> for MiscountEntry {
+    fn from(miscount: &Miscount) -> Self {
+        MiscountEntry {
+            rpm: rpm(miscount.speed_rad_per_s),
+            from_hz: miscount.from_rad_per_s / TAU,
+            to_hz: miscount.to_rad_per_s / TAU,
+            missing: miscount.missing as i64,
+        }
     }
 }
 
@@ -87,14 +144,47 @@ impl From<&Mismatch> for MismatchEntry {
 }
 
 /// The sentence that every face shows.
-fn statement(certificate: &Certificate, is_undamped: bool) -> String {
+fn statement(certificate: &Certificate, is_undamped: bool, proven_share: Option<f64>) -> String {
+    let wrong = contradictions(certificate, is_undamped);
+    if !wrong.is_empty() {
+        return wrong.join("; ");
+    }
     let checked = certificate.speeds_checked;
-    let (matches, differs) = match is_undamped {
-        true => ("Krein index matches", "Krein index does not match"),
-        false => (
-            "growing modes match the bands",
-            "growing modes do not match the bands",
-        ),
+    let mut agree = Vec::new();
+    if checked > 0 {
+        agree.push(match is_undamped {
+            true => format!("Krein index matches at {checked} of {checked} speeds"),
+            false => format!("growing modes match the bands at {checked} of {checked} speeds"),
+        });
+    }
+    if certificate.full_basis_counts > 0 {
+        let counts = certificate.full_basis_counts;
+        agree.push(format!("{counts} counts on the whole basis agree"));
+    }
+    if let Some(share) = proven_share {
+        agree.push(match share == 1.0 {
+            true => "the whole sweep is proven free of unlisted bands".to_owned(),
+            false => format!(
+                "{} % of the sweep proven free of unlisted bands",
+                (1e3 * share).floor() / 10.0
+            ),
+        });
+    }
+    if certificate.searched_again {
+        agree.push("after a second search on the whole basis".to_owned());
+    }
+    match agree.is_empty() {
+        true => "no speed was checked".to_owned(),
+        false => agree.join(", "),
+    }
+}
+
+/// What does not agree.
+fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
+    let checked = certificate.speeds_checked;
+    let differs = match is_undamped {
+        true => "Krein index does not match",
+        false => "growing modes do not match the bands",
     };
     let contradicted = certificate.mismatches.iter().map(|m| m.speed_rad_per_s);
     let mut wrong = Vec::new();
@@ -113,16 +203,31 @@ fn statement(certificate: &Certificate, is_undamped: bool) -> String {
             ));
         }
     }
+    if let Some(first) = certificate.miscounts.first() {
+        let speeds: Vec<f64> = certificate
+            .miscounts
+            .iter()
+            .map(|m| m.speed_rad_per_s)
+            .collect();
+        let what = if first.missing > 0 {
+            "missing"
+        } else {
+            "too many"
+        };
+        let [from, to] = [first.from_rad_per_s, first.to_rad_per_s].map(|f| f / TAU);
+        wrong.push(format!(
+            "modes are miscounted on the whole basis at {}: {} {what} between {from:.1} and {to:.1} Hz at {:.1} rpm",
+            span(&speeds),
+            first.missing.unsigned_abs(),
+            rpm(first.speed_rad_per_s)
+        ));
+    }
     if certificate.gave_up {
         wrong.push(format!(
             "the search for bands ended at its limit of work, {checked} speeds"
         ));
     }
-    match (wrong.is_empty(), checked) {
-        (false, _) => wrong.join("; "),
-        (true, 0) => "no speed was checked".to_owned(),
-        (true, _) => format!("{matches} at {checked} of {checked} speeds"),
-    }
+    wrong
 }
 
 /// "1200.0 rpm" or "1200.0 to 1300.0 rpm".
@@ -149,11 +254,34 @@ mod tests {
             speeds_checked: 567,
             ..Certificate::default()
         };
-        let says = |certificate: &Certificate| statement(certificate, true);
+        let says = |certificate: &Certificate| statement(certificate, true, None);
         assert_eq!(says(&clean), "Krein index matches at 567 of 567 speeds");
         assert_eq!(
-            statement(&clean, false),
+            statement(&clean, false, None),
             "growing modes match the bands at 567 of 567 speeds"
+        );
+        let counted = Certificate {
+            full_basis_counts: 143,
+            unproven_rad_per_s: Some(vec![(2.0, 3.0), (5.0, 5.5)]),
+            ..clean.clone()
+        };
+        let share = proven_share(&counted, (0.0, 400.0));
+        assert_eq!(share, Some(0.9962));
+        assert_eq!(
+            statement(&counted, true, share),
+            "Krein index matches at 567 of 567 speeds, 143 counts on the whole basis agree, \
+             99.6 % of the sweep proven free of unlisted bands"
+        );
+        let whole = proven_share(
+            &Certificate {
+                unproven_rad_per_s: Some(Vec::new()),
+                ..clean.clone()
+            },
+            (0.0, 400.0),
+        );
+        assert!(
+            statement(&clean, true, whole)
+                .ends_with("the whole sweep is proven free of unlisted bands")
         );
         let wrong = Certificate {
             violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),
@@ -166,12 +294,19 @@ mod tests {
                 peak_per_s: 0.0,
             }],
             gave_up: true,
+            miscounts: vec![Miscount {
+                speed_rad_per_s: rad_per_s(1500.0),
+                from_rad_per_s: 10.0 * TAU,
+                to_rad_per_s: 12.0 * TAU,
+                missing: 1,
+            }],
             ..clean
         };
         assert_eq!(
             says(&wrong),
             "Krein index does not match at 2 of 567 speeds, 1200.0 to 1300.0 rpm; \
              the list of bands contradicts the eigenvalues at 1 of 567 speeds, 1400.0 rpm; \
+             modes are miscounted on the whole basis at 1500.0 rpm: 1 missing between 10.0 and 12.0 Hz at 1500.0 rpm; \
              the search for bands ended at its limit of work, 567 speeds"
         );
         assert_eq!(says(&Certificate::default()), "no speed was checked");

@@ -25,7 +25,7 @@ mod whirl;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use self::certificate::{CertificateEntry, MismatchEntry};
+pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::check::{CheckReport, CriterionEntry};
 pub use self::cut::{
     ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,

@@ -27,6 +27,7 @@ mod generalized;
 mod growth;
 mod guided_reduction;
 mod hamiltonian;
+mod inertia;
 mod larger_basis;
 mod lowest;
 mod matrix_slope;
@@ -59,6 +60,7 @@ pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
 pub use growth::fastest_growing_of;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
+pub(crate) use inertia::{AtSpeed, WholeBasis};
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]
 pub use lowest::LowestModes;

@@ -295,9 +295,7 @@ impl SpectralModel {
         let [component] = self.components.as_slice() else {
             return None;
         };
-        let last = component.at(f64::INFINITY).to_rad_per_s;
-        let within = self.critical.iter().filter(|c| c.speed_rad_per_s <= last);
-        let standing = within.map(|c| (c.speed_rad_per_s, &c.shape));
+        let standing = self.standing(component);
         let (system, standing, height_rad_per_s) = match &component.solution {
             Solution::Projected { reflected, .. } => {
                 let reflected = reflected.as_ref()?;
@@ -320,6 +318,93 @@ impl SpectralModel {
             height_rad_per_s,
             &self.counters,
         ))
+    }
+
+    /// The same on the whole basis, by which a projection that lacks something is made good.
+    pub fn whole_reflected_model(&self) -> Option<ReflectedModel<'_>> {
+        let [component] = self.components.as_slice() else {
+            return None;
+        };
+        let own = self
+            .standing(component)
+            .map(|(speed, x)| (speed, x.clone()));
+        let height = match &component.solution {
+            Solution::Projected {
+                reflected: Some(reflected),
+                ..
+            } => reflected.height_rad_per_s,
+            _ => self.complete_to_rad_per_s,
+        };
+        Some(ReflectedModel::new(
+            &component.full,
+            own.collect(),
+            height,
+            &self.counters,
+        ))
+    }
+
+    /// Plants a fault: takes the k-th oscillation of a speed out of the projection of the search.
+    #[cfg(test)]
+    pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
+        let modes = self.full_modes(speed_rad_per_s).unwrap();
+        let waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
+        let lost = waves.clone().nth(place).unwrap().coordinates.clone();
+        let component = &mut self.components[0];
+        let Solution::Projected {
+            reflected: Some(reflected),
+            ..
+        } = &mut component.solution
+        else {
+            panic!("no projection");
+        };
+        let basis = &reflected.projection.basis;
+        let (re, im) = super::vectors::split(&lost);
+        let lost = [re, im].map(|part| basis.transpose() * part);
+        let lost = super::vectors::orthonormal(basis.ncols(), &lost, 1e-6);
+        let whole = lost.qr().compute_Q();
+        let kept = whole.subcols(lost.ncols(), basis.ncols() - lost.ncols());
+        let basis = basis * kept;
+        let to = reflected.projection.to_rad_per_s;
+        reflected.projection = Projection::new(&component.full, basis, to);
+    }
+
+    /// Plants a fault: projects for the search on the modes of few speeds.
+    #[cfg(test)]
+    pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
+        let mut vectors: Vec<Col<f64>> = Vec::new();
+        for c in &self.critical {
+            vectors.push(c.shape.clone());
+        }
+        vectors.truncate(12);
+        let modes: Vec<Mode> = speeds_rad_per_s
+            .iter()
+            .flat_map(|speed| self.full_modes(*speed).unwrap())
+            .collect();
+        let component = &mut self.components[0];
+        let Solution::Projected {
+            reflected: Some(reflected),
+            ..
+        } = &mut component.solution
+        else {
+            panic!("no projection");
+        };
+        for mode in modes {
+            if mode.lambda.norm() <= 1.5 * reflected.height_rad_per_s {
+                let (re, im) = super::vectors::split(&mode.coordinates);
+                vectors.extend([re, im]);
+            }
+        }
+        let basis = super::vectors::orthonormal(component.full.order(), &vectors, 1e-6);
+        let to = reflected.projection.to_rad_per_s;
+        reflected.projection = Projection::new(&component.full, basis, to);
+    }
+
+    /// Critical speeds that the projections cover, and their standing waves.
+    fn standing(&self, component: &Component) -> impl Iterator<Item = (f64, &Col<f64>)> {
+        let last = component.at(f64::INFINITY).to_rad_per_s;
+        let within = self.critical.iter();
+        let within = within.filter(move |c| c.speed_rad_per_s <= last);
+        within.map(|c| (c.speed_rad_per_s, &c.shape))
     }
 
     /// Names and residuals of modes of one speed.

@@ -60,6 +60,11 @@ impl<'a> ReflectedModel<'a> {
         }
     }
 
+    /// Frequency up to which its modes are complete.
+    pub fn height_rad_per_s(&self) -> f64 {
+        self.height_rad_per_s
+    }
+
     /// Its modes at a speed.
     ///
     /// # Errors

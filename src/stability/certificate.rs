@@ -1,6 +1,7 @@
 //! What was checked of a list of bands, and what did not agree.
 
 use super::band::{Instability, InstabilityKind};
+use super::full_basis::Miscount;
 use super::signature::Signature;
 
 /// Checks of a list of bands.
@@ -14,12 +15,24 @@ pub struct Certificate {
     pub mismatches: Vec<Mismatch>,
     /// Whether the search ran out of its allowance of speeds.
     pub gave_up: bool,
+    /// Counts of modes on the whole basis that were certain.
+    pub full_basis_counts: usize,
+    /// Where they contradict the spectra.
+    pub miscounts: Vec<Miscount>,
+    /// Whether they did so at first, and the bands were searched again on the whole basis.
+    pub searched_again: bool,
+    /// Stretches of speed, in rad/s, that were searched and not proven to be free of bands that are
+    /// not listed; `None` where no proof was tried.
+    pub unproven_rad_per_s: Option<Vec<(f64, f64)>>,
 }
 
 impl Certificate {
     /// Whether every check agrees.
     pub fn is_clean(&self) -> bool {
-        self.violations_rad_per_s.is_empty() && self.mismatches.is_empty() && !self.gave_up
+        self.violations_rad_per_s.is_empty()
+            && self.mismatches.is_empty()
+            && self.miscounts.is_empty()
+            && !self.gave_up
     }
 }
 

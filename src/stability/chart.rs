@@ -4,8 +4,8 @@ use super::band::Instability;
 use super::certificate::Certificate;
 use super::damped;
 use super::error::AnalysisError;
-use super::undamped::{self, WITHIN_BANDS};
-use crate::campbell::{Campbell, Closeness, Progress};
+use super::undamped;
+use crate::campbell::{Campbell, Progress};
 use crate::spectrum::SpectralModel;
 
 /// Speeds of a chart, before those that its events add.
@@ -53,12 +53,8 @@ pub(super) fn drawn(
     detail: Detail,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    let closeness = match detail {
-        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
-        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
-    };
     let (samples, instabilities, certificate) = match model.is_conservative() {
-        true => undamped::charted(model, range, count, closeness, progress)?,
+        true => undamped::charted(model, range, count, detail, progress)?,
         false => damped::charted(model, range, count, progress)?,
     };
     Ok(StabilityChart {

@@ -45,6 +45,8 @@ pub struct SignatureEvaluator<'a> {
     /// The same between neighbouring anchors, with the upper of both.
     pieces: Vec<(f64, ReflectedModel<'a>)>,
     tally: Tally,
+    /// Whether `low` is the whole basis.
+    is_whole: bool,
 }
 
 impl<'a> SignatureEvaluator<'a> {
@@ -53,7 +55,23 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        let low = model.reflected_model();
+        Self::of(model, model.reflected_model(), speeds, false)
+    }
+
+    /// The same by modes of the whole basis, whatever the projections of the model lack: slow.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn on_whole_basis(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
+        Self::of(model, model.whole_reflected_model(), speeds, true)
+    }
+
+    fn of(
+        model: &'a SpectralModel,
+        low: Option<ReflectedModel<'a>>,
+        speeds: &[f64],
+        is_whole: bool,
+    ) -> Result<Self, SpectrumError> {
         let mut pieces = Vec::new();
         if let Some(low) = &low {
             let anchors: Vec<_> = anchors(speeds)
@@ -71,6 +89,7 @@ impl<'a> SignatureEvaluator<'a> {
             low,
             pieces,
             tally: Tally::default(),
+            is_whole,
         })
     }
 
@@ -83,8 +102,8 @@ impl<'a> SignatureEvaluator<'a> {
         Certificate {
             speeds_checked: self.tally.checked.load(Ordering::Relaxed),
             violations_rad_per_s: violations,
-            mismatches: Vec::new(),
             gave_up: self.is_exhausted(),
+            ..Certificate::default()
         }
     }
 
@@ -111,6 +130,19 @@ impl<'a> SignatureEvaluator<'a> {
         self.reduced_at(speed_rad_per_s)
     }
 
+    /// The same from the smallest model, counted and checked nowhere: for a guess that is proven
+    /// or refuted by other means.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        let modes = match self.near(speed_rad_per_s).or(self.low.as_ref()) {
+            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            None => self.model.all_modes(speed_rad_per_s)?,
+        };
+        Ok(Signature::new(speed_rad_per_s, modes.iter()))
+    }
+
     /// The same from the whole reduced model, without the coarser models between anchors.
     ///
     /// # Errors
@@ -121,6 +153,9 @@ impl<'a> SignatureEvaluator<'a> {
     }
 
     fn reduced_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        if self.is_whole {
+            self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
+        }
         let modes = match &self.low {
             Some(low) => low.modes(speed_rad_per_s)?.modes,
             None => self.model.all_modes(speed_rad_per_s)?,
@@ -153,6 +188,14 @@ impl<'a> SignatureEvaluator<'a> {
             violations.push(speed_rad_per_s);
         }
         Ok(signature)
+    }
+
+    /// Frequency up to which signatures are complete.
+    pub fn height_rad_per_s(&self) -> f64 {
+        self.low.as_ref().map_or(
+            self.model.complete_to_rad_per_s,
+            ReflectedModel::height_rad_per_s,
+        )
     }
 
     /// The smallest model for a speed.

@@ -1,12 +1,11 @@
 //! Every band of an undamped blade over a range of speeds, and the speeds that show them.
 
 use super::band::Instability;
-use super::certificate::{Certificate, Mismatch, mismatches};
-use super::divergence::{close_pairs, divergence};
+use super::certificate::Certificate;
+use super::certified::{Depth, bands, contradictions};
+use super::chart::Detail;
 use super::error::AnalysisError;
-use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
-use super::flutter::flutter;
-use super::search::Path;
+use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError};
@@ -19,12 +18,12 @@ pub(super) const SEARCH_SPEEDS: Tuned = Tuned::new("stability/undamped::SEARCH_S
 pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
 /// Modes at `count` even speeds and where bands and curves need more, the bands, and what was
-/// checked of them. `within_bands` are shares of each band's width at which it is drawn.
+/// checked of them.
 pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
-    (within_bands, closeness): (&[f64], Closeness),
+    detail: Detail,
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
@@ -37,7 +36,12 @@ pub(super) fn charted(
             with_critical_speeds(model, range, even)
         }
     };
-    let (instabilities, mut certificate) = bands(model, &search)?;
+    let (within_bands, closeness, depth) = match detail {
+        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
+        Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
+    };
+    let search = from_lowest_critical(model, &search);
+    let (instabilities, mut certificate) = bands(model, search, depth)?;
     let between = inside(&instabilities, &samples, within_bands, range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
@@ -64,52 +68,13 @@ pub fn undamped_bands(
     range: (f64, f64),
     count: usize,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    bands(
-        model,
-        &with_critical_speeds(model, range, campbell::even_speeds(range, count)),
-    )
+    let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
+    bands(model, from_lowest_critical(model, &speeds), Depth::Counts)
 }
 
-/// Every band between the first and the last of the speeds.
-fn bands(
-    model: &SpectralModel,
-    speeds: &[f64],
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let speeds = from_lowest_critical(model, speeds);
-    let evaluator = SignatureEvaluator::new(model, speeds)?;
-    let signatures = evaluator.at_all(speeds)?;
-    let mut instabilities = Vec::new();
-    let mut checked = Vec::new();
-    // Nothing couples the waves of a free blade, so they cross and never coalesce.
-    if !model.plate.is_axisymmetric() {
-        let path = Path::search(&evaluator, signatures)?;
-        instabilities.extend(divergence(model, &evaluator, &path)?);
-        instabilities.extend(close_pairs(model, &evaluator, speeds)?);
-        instabilities.extend(flutter(&evaluator, &path)?);
-        instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
-        checked = path.signatures;
-    }
-    let mut certificate = evaluator.certificate();
-    certificate.mismatches = contradictions(&instabilities, &checked, GROWTH_FLOOR);
-    Ok((instabilities, certificate))
-}
-
-/// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
-/// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
-const GROWTH_FLOOR: f64 = 1e-5;
-/// The same for modes that are only drawn: their frequencies are right to 1e-5 of the chart's
-/// height, and growth next to a coalescence to the root of that.
+/// Share of |ω| + Ω below which growth of a mode that is only drawn is not held against the bands: frequencies are right to
+/// 1e-5 of the chart's height, and growth next to a coalescence to the root of that.
 const DRAWN_FLOOR: f64 = 1e-3;
-
-/// Where a list of bands contradicts the modes found at some speeds.
-fn contradictions(bands: &[Instability], signatures: &[Signature], floor: f64) -> Vec<Mismatch> {
-    let of = |signature: &Signature| {
-        let highest = signature.highest_rad_per_s();
-        let floor = floor * (signature.speed_rad_per_s + highest);
-        mismatches(bands, signature, floor)
-    };
-    signatures.iter().flat_map(of).collect()
-}
 
 /// Ascending speeds without those at which nothing can be unstable: below its lowest critical
 /// speed K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.

@@ -1,23 +1,18 @@
-//! The line at the foot that says how far the figure can be trusted.
+//! The lines at the foot that say how far the figure can be trusted.
 
 use super::super::axis::two_digits;
 use super::super::canvas::{Anchor, Lettering, Sheet};
-use super::super::style::{
-    ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten, text_width,
-};
-use super::{CERTIFICATE_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
+use super::super::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
+use super::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
 use crate::report::Report;
 
-/// Writes the line.
+/// Writes both lines.
 pub fn draw(sheet: &mut Sheet, report: &Report) {
-    let baseline = f64::from(HEIGHT) - CERTIFICATE_ABOVE_FOOT;
-    let right = f64::from(WIDTH) - MARGIN;
-    let mut x = PLOT_LEFT;
-    let mut write = |text: &str, colour| {
-        let text = shorten(text, LABEL_SIZE, Weight::Regular, right - x);
+    let write = |sheet: &mut Sheet, above_foot: f64, text: &str, colour| {
+        let width = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
+        let text = shorten(text, LABEL_SIZE, Weight::Regular, width);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        sheet.text([x, baseline], letters, &text);
-        x += text_width(&text, LABEL_SIZE, Weight::Regular);
+        sheet.text([PLOT_LEFT, f64::from(HEIGHT) - above_foot], letters, &text);
     };
     let certificate = &report.certificate;
     let colour = match certificate.is_clean() {
@@ -25,10 +20,15 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
         false => ALARM,
     };
     if certificate.speeds_checked > 0 {
-        write(&certificate.statement, colour);
-        write(BETWEEN_FACTS, QUIET);
+        write(
+            sheet,
+            CERTIFICATE_ABOVE_FOOT,
+            &certificate.statement,
+            colour,
+        );
     }
-    write(&facts(report).join(BETWEEN_FACTS), QUIET);
+    let facts = facts(report).join(BETWEEN_FACTS);
+    write(sheet, FACTS_ABOVE_FOOT, &facts, QUIET);
 }
 
 fn facts(report: &Report) -> Vec<String> {

@@ -45,7 +45,7 @@ fn svg_is_the_same_each_time_and_well_formed() {
     report.scene.name = "Säge <&> \"β\"\u{1} 鋸".to_owned();
     let svg = report.campbell_svg().unwrap();
     assert_eq!(svg, report.campbell_svg().unwrap());
-    assert!(svg.starts_with("<svg width=\"1200\" height=\"900\""));
+    assert!(svg.starts_with("<svg width=\"1200\" height=\"918\""));
     assert!(svg.contains("Säge &lt;&amp;&gt; &quot;β&quot;  鋸"));
     assert!(!svg.contains("NaN") && !svg.contains('\u{1}'));
     for tag in ["svg", "text"] {

@@ -91,8 +91,8 @@ fn bands(
     let certificate = Certificate {
         speeds_checked: spectra.len(),
         violations_rad_per_s: mismatches(&solver, &spectra, &instabilities),
-        mismatches: Vec::new(),
         gave_up: solver.is_exhausted(),
+        ..Certificate::default()
     };
     Ok((instabilities, certificate))
 }

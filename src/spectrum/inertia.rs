@@ -1,0 +1,301 @@
+//! How many eigenvalues of L(iω) are negative, on the whole basis and without its modes.
+//!
+//! Seen from the blade, a wave of n nodal diameters that turns at frequency ω in space has frequency
+//! ω + nΩ, and −n for the opposite one. Without guides
+//!
+//! L(iω) = K(Ω) − ω² + iω 2ΩG
+//!
+//! is therefore block diagonal with the real symmetric blocks B_n(Ω) − (ω ± nΩ)², B_n = K_b + K_m +
+//! Ω²K_σ. The guides add K_g = PPᵀ, few columns, and Haynsworth's additivity of inertia (Linear
+//! Algebra Appl. 1, 1968) gives
+//!
+//! n₋(A + PPᵀ) = n₋(A) + n₋(−1 − PᴴA⁻¹P) − columns.
+//!
+//! **Boxes.** If L_low ≤ L ≤ L_high, in the sense of their quadratic forms, all along a line ω(Ω) and both
+//! have the same number of negative eigenvalues, then L is nonsingular on the whole line: no
+//! mode meets it. B_n(Ω) grows with Ω, for K_σ ≥ 0, and (ω ± nΩ)² is largest and smallest at the ends of
+//! the line or zero, so that two counts settle a line. What is left out of PPᵀ, and rounding, are
+//! on the same footing: L_high has them in full.
+
+mod coupling;
+mod hermitian;
+mod waves;
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use faer::{Mat, c64};
+use nalgebra::DMatrix;
+
+use self::coupling::{Columns, Coupling, in_waves};
+use self::hermitian::negative_eigenvalues;
+use self::waves::Waves;
+use super::component::frequency_scale;
+use crate::plate::{HarmonicBlock, Plate};
+
+/// The blade and what couples its harmonics, without damping.
+#[derive(Debug)]
+pub struct WholeBasis {
+    harmonics: Vec<Harmonic>,
+    coupling: Coupling,
+}
+
+/// One harmonic in the frame of the blade.
+#[derive(Debug)]
+pub struct Harmonic {
+    /// n.
+    pub diameters: usize,
+    /// Index of its first unknown in the basis of the plate.
+    pub first: usize,
+    /// K_b + K_m.
+    rest: DMatrix<f64>,
+    /// K_σ.
+    tension: DMatrix<f64>,
+    /// By how much K_σ falls short of being positive: rounding.
+    shortfall: f64,
+    /// T = B(0) + σ, positive definite: what small is relative to.
+    pub scale: DMatrix<f64>,
+    /// σ.
+    shift: f64,
+}
+
+/// Share of T = B(0) + σ that rounding may change L by.
+const ROUNDING: f64 = 1e-11;
+/// Share of the speed beyond which a line is so long that more columns do not help.
+const LONG: f64 = 1e-3;
+
+impl WholeBasis {
+    /// Of a plate; its damping is left aside.
+    pub fn new(plate: &Plate) -> Self {
+        let scale = frequency_scale(plate);
+        let harmonics: Vec<Harmonic> = plate
+            .harmonics
+            .iter()
+            .map(|block| Harmonic::new(block, plate.offset(block.diameters), scale))
+            .collect();
+        let order = plate.degrees_of_freedom();
+        let guides = plate.contact.stiffness();
+        let columns = match (&plate.edge_stiffness, guides) {
+            (None, Some(guides)) => Columns::new(guides, &harmonics),
+            (None, None) => Columns::new(&Mat::zeros(order, order), &harmonics),
+            (Some(_), _) => None,
+        };
+        let coupling = columns.map_or_else(
+            || {
+                let mut sum = Mat::zeros(order, order);
+                for term in [guides, plate.edge_stiffness.as_ref()]
+                    .into_iter()
+                    .flatten()
+                {
+                    sum += term;
+                }
+                Coupling::Dense(in_waves(&sum, &harmonics))
+            },
+            Coupling::Columns,
+        );
+        WholeBasis {
+            harmonics,
+            coupling,
+        }
+    }
+
+    /// Whether a count needs a factorization of the order of the basis.
+    pub fn is_dense(&self) -> bool {
+        matches!(self.coupling, Coupling::Dense(_))
+    }
+
+    /// What counts at a speed have in common.
+    pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
+        let stiffness = |h: &Harmonic| &h.rest + &h.tension * speed_rad_per_s.powi(2);
+        AtSpeed {
+            speed_rad_per_s,
+            blocks: self.harmonics.iter().map(stiffness).collect(),
+            waves: [OnceLock::new(), OnceLock::new()],
+        }
+    }
+
+    /// Number of negative eigenvalues of L(iω) all along a line between two speeds, given by its
+    /// frequencies at both. `None` where that is not certain: a mode may meet the line.
+    pub fn count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2]) -> Option<usize> {
+        self.looks(ends).find_map(|look| {
+            let low = self.bound(ends, line, Bound::Low, look)?;
+            let high = self.bound(ends, line, Bound::High, look)?;
+            (low == high).then_some(low)
+        })
+    }
+
+    /// Whether the number is `count` all along a line.
+    pub fn is_count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2], count: usize) -> bool {
+        let is_count = |look, bound| self.bound(ends, line, bound, look) == Some(count);
+        self.looks(ends)
+            .any(|look| is_count(look, Bound::Low) && is_count(look, Bound::High))
+    }
+
+    /// More columns help only a short line.
+    fn looks(&self, [a, b]: [&AtSpeed; 2]) -> Range<usize> {
+        let is_long = b.speed_rad_per_s - a.speed_rad_per_s > LONG * b.speed_rad_per_s;
+        match &self.coupling {
+            Coupling::Columns(Columns {
+                rests: [first, all],
+                ..
+            }) if !is_long && all.0 > first.0 => 0..2,
+            _ => 0..1,
+        }
+    }
+
+    /// Negative eigenvalues of L_low or L_high along a line.
+    fn bound(
+        &self,
+        [a, b]: [&AtSpeed; 2],
+        line: [f64; 2],
+        bound: Bound,
+        look: usize,
+    ) -> Option<usize> {
+        let speeds = [a, b].map(|at| at.speed_rad_per_s);
+        let rest = match &self.coupling {
+            Coupling::Columns(columns) => columns.rests[look].1,
+            Coupling::Dense(_) => 0.0,
+        };
+        let blocks = self.harmonics.iter().map(|h| {
+            let n = h.diameters as f64;
+            let of = |n: f64| bound.of_square([0, 1].map(|end| line[end] + n * speeds[end]));
+            let more = h.shortfall * (speeds[1].powi(2) - speeds[0].powi(2));
+            let shift = h.shift + h.shortfall * speeds[1].powi(2);
+            let share = bound.share(rest);
+            BoundedBlock {
+                share,
+                more: share * shift + bound.sign() * more,
+                turning: [of(n), of(-n)],
+            }
+        });
+        let blocks: Vec<BoundedBlock> = blocks.collect();
+        let at = if bound == Bound::Low { a } else { b };
+        match &self.coupling {
+            Coupling::Columns(columns) => {
+                let waves = at.waves[look]
+                    .get_or_init(|| Waves::new(&at.blocks, columns, columns.rests[look].0));
+                waves.count(&self.harmonics, &blocks)
+            }
+            Coupling::Dense(coupling) => {
+                let mut matrix = coupling.clone();
+                self.add_blocks(&mut matrix, &at.blocks, &blocks);
+                negative_eigenvalues(&matrix)
+            }
+        }
+    }
+
+    fn add_blocks(
+        &self,
+        matrix: &mut Mat<c64>,
+        stiffness: &[DMatrix<f64>],
+        bounds: &[BoundedBlock],
+    ) {
+        let mut first = 0;
+        let blocks = self.harmonics.iter().zip(stiffness).zip(bounds);
+        for ((harmonic, stiffness), bound) in blocks {
+            for sign in harmonic.signs() {
+                for (k, column) in stiffness.column_iter().enumerate() {
+                    for (j, value) in column.iter().enumerate() {
+                        matrix[(first + j, first + k)] += value * (1.0 + bound.share);
+                    }
+                    let diagonal = bound.more - bound.turning[sign];
+                    matrix[(first + k, first + k)] += c64::new(diagonal, 0.0);
+                }
+                first += harmonic.radial();
+            }
+        }
+    }
+}
+
+/// B_n at a speed, and its waves once they are asked for.
+#[derive(Debug)]
+pub struct AtSpeed {
+    speed_rad_per_s: f64,
+    blocks: Vec<DMatrix<f64>>,
+    /// With the first columns alone, and with all.
+    waves: [OnceLock<Waves>; 2],
+}
+
+/// Of a bound (1 + share) B_n + more − (ω ± nΩ)².
+struct BoundedBlock {
+    share: f64,
+    more: f64,
+    /// (ω + nΩ)² and (ω − nΩ)².
+    turning: [f64; 2],
+}
+
+impl Harmonic {
+    fn new(block: &HarmonicBlock, first: usize, frequency_scale: f64) -> Self {
+        let radial = block.bending.nrows();
+        let n2 = (block.diameters * block.diameters) as f64;
+        let tension = &block.spin + DMatrix::from_diagonal_element(radial, radial, n2);
+        let mut rest = block.bending.clone();
+        if let Some(membrane) = &block.membrane {
+            rest += membrane;
+        }
+        let least = |matrix: &DMatrix<f64>| matrix.symmetric_eigenvalues().min();
+        let shift = frequency_scale.powi(2) + 2.0 * (-least(&rest)).max(0.0);
+        Harmonic {
+            diameters: block.diameters,
+            first,
+            shortfall: (-least(&tension)).max(0.0),
+            scale: &rest + DMatrix::from_diagonal_element(radial, radial, shift),
+            rest,
+            tension,
+            shift,
+        }
+    }
+
+    /// J.
+    pub fn radial(&self) -> usize {
+        self.rest.nrows()
+    }
+
+    /// Index of the first cosine, and of the first sine.
+    pub fn firsts(&self) -> impl Iterator<Item = usize> + use<> {
+        let (first, radial) = (self.first, self.radial());
+        let phases = if self.diameters == 0 { 1 } else { 2 };
+        (0..phases).map(move |phase| first + phase * radial)
+    }
+
+    /// Indices of its waves among e^{inθ} and e^{−inθ}: for n = 0 they are one.
+    fn signs(&self) -> impl Iterator<Item = usize> + use<> {
+        0..if self.diameters == 0 { 1 } else { 2 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Bound {
+    Low,
+    High,
+}
+
+impl Bound {
+    fn sign(self) -> f64 {
+        match self {
+            Bound::Low => -1.0,
+            Bound::High => 1.0,
+        }
+    }
+
+    /// Share of B(Ω) + σ to add for rounding and for what the columns leave out.
+    fn share(self, rest: f64) -> f64 {
+        match self {
+            Bound::Low => -ROUNDING,
+            Bound::High => ROUNDING + rest,
+        }
+    }
+
+    /// What to subtract for the square of a number between two.
+    fn of_square(self, ends: [f64; 2]) -> f64 {
+        let [x, y] = ends.map(|end| end * end);
+        match self {
+            Bound::Low => x.max(y),
+            Bound::High if ends[0] * ends[1] <= 0.0 => 0.0,
+            Bound::High => x.min(y),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,216 @@
+//! The bands of an undamped blade, and everything that they are held against.
+
+use super::band::{Instability, InstabilityKind};
+use super::certificate::{Certificate, Mismatch, mismatches};
+use super::divergence::{close_pairs, divergence};
+use super::evaluator::SignatureEvaluator;
+use super::flutter::flutter;
+use super::full_basis::{FullBasis, Miscount};
+use super::proof::Proof;
+use super::search::Path;
+use super::signature::Signature;
+use crate::spectrum::{SpectralModel, SpectrumError};
+
+/// How much a list of bands is held against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// Krein index and list at every speed, and counts on the whole basis at a few: for many saws.
+    Counts,
+    /// The same with counts beside and within every band, and a proof for the speeds between.
+    Proof,
+}
+
+/// Even speeds at which modes are counted on the whole basis.
+const ANCHORS: usize = 12;
+/// The same, drawn at random from a fixed seed: speeds that no rule of the search prefers.
+const DRAWN: u64 = 8;
+/// Factorizations of the order of the basis cost a hundred times as much as counts by blocks.
+const DENSE_ANCHORS: usize = 3;
+/// Distance from the edges of a band at which its modes are counted, as a share of its width, and at
+/// least of the speed: the search's models shift edges by less.
+const BESIDE: f64 = 0.02;
+const LEAST_BESIDE: f64 = 6e-5;
+/// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
+const NEXT_TO_CRITICAL: f64 = 1e-4;
+
+/// Every band between the first and the last of the speeds, which begin no later than the lowest
+/// critical one. Where modes are miscounted the bands are searched again on the whole basis.
+pub(super) fn bands(
+    model: &SpectralModel,
+    speeds: &[f64],
+    depth: Depth,
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let full = FullBasis::new(model);
+    let found = searched(
+        model,
+        SignatureEvaluator::new(model, speeds)?,
+        &full,
+        speeds,
+        depth,
+    )?;
+    if found.1.miscounts.is_empty() {
+        return Ok(found);
+    }
+    let whole = SignatureEvaluator::on_whole_basis(model, speeds)?;
+    let (instabilities, mut certificate) = searched(model, whole, &full, speeds, depth)?;
+    certificate.searched_again = true;
+    Ok((instabilities, certificate))
+}
+
+fn searched(
+    model: &SpectralModel,
+    evaluator: SignatureEvaluator<'_>,
+    full: &Option<FullBasis<'_>>,
+    speeds: &[f64],
+    depth: Depth,
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let signatures = evaluator.at_all(speeds)?;
+    let Some(full) = full else {
+        // Nothing couples the waves of a free blade, so they cross and never coalesce.
+        // In the frame of the blade each harmonic is a symmetric problem.
+        let certificate = Certificate {
+            unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
+            ..evaluator.certificate()
+        };
+        return Ok((Vec::new(), certificate));
+    };
+    let path = Path::search(&evaluator, signatures)?;
+    let mut bands = divergence(model, &evaluator, &path)?;
+    bands.extend(close_pairs(model, &evaluator, speeds)?);
+    bands.extend(flutter(&evaluator, &path)?);
+    bands.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
+    let checks = Checks {
+        evaluator: &evaluator,
+        full,
+        bands: &bands,
+        path: &path,
+    };
+    let certificate = checks.certificate(depth)?;
+    Ok((bands, certificate))
+}
+
+/// A list of bands, and what it is held against.
+pub(super) struct Checks<'a> {
+    pub evaluator: &'a SignatureEvaluator<'a>,
+    pub full: &'a FullBasis<'a>,
+    pub bands: &'a [Instability],
+    pub path: &'a Path,
+}
+
+impl Checks<'_> {
+    /// What agrees and what does not.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn certificate(&self, depth: Depth) -> Result<Certificate, SpectrumError> {
+        let mut contradicted = contradictions(self.bands, &self.path.signatures, GROWTH_FLOOR);
+        let mut miscounts = self.at_anchors()?;
+        let mut unproven = None;
+        let gave_up = self.evaluator.is_exhausted();
+        let height = self.evaluator.height_rad_per_s();
+        if depth == Depth::Proof {
+            let extra = self.evaluator.at_all(&self.chosen_speeds())?;
+            contradicted.extend(contradictions(self.bands, &extra, GROWTH_FLOOR));
+            if !self.full.is_dense() {
+                miscounts.extend(
+                    self.full
+                        .miscounts(&extra.iter().collect::<Vec<_>>(), height)?,
+                );
+            }
+            let proof = Proof {
+                full: self.full,
+                evaluator: self.evaluator,
+                bands: self.bands,
+            };
+            unproven = Some(proof.unproven(&self.path.signatures)?);
+        }
+        Ok(Certificate {
+            mismatches: contradicted,
+            miscounts,
+            full_basis_counts: self.full.counted(),
+            unproven_rad_per_s: unproven,
+            gave_up,
+            ..self.evaluator.certificate()
+        })
+    }
+
+    /// Counts at some of the speeds of the search.
+    fn at_anchors(&self) -> Result<Vec<Miscount>, SpectrumError> {
+        let signatures = &self.path.signatures;
+        let count = match self.full.is_dense() {
+            true => DENSE_ANCHORS,
+            false => ANCHORS,
+        };
+        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+            return Ok(Vec::new());
+        };
+        let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
+        let at = |k: usize| {
+            let speed = from + (to - from) * (k as f64 + 1.0) / count as f64;
+            let place = signatures.partition_point(|s| s.speed_rad_per_s < speed);
+            place.min(signatures.len() - 1)
+        };
+        let mut places: Vec<usize> = (0..count).map(at).collect();
+        places.dedup();
+        let anchors: Vec<&Signature> = places.into_iter().map(|k| &signatures[k]).collect();
+        self.full
+            .miscounts(&anchors, self.evaluator.height_rad_per_s())
+    }
+
+    /// Both sides and the peak of every flutter band, and speeds drawn at random.
+    fn chosen_speeds(&self) -> Vec<f64> {
+        let signatures = &self.path.signatures;
+        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+            return Vec::new();
+        };
+        let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
+        let drawn = (0..DRAWN).map(|k| from + drawn_share(k) * (to - from));
+        let flutter = self
+            .bands
+            .iter()
+            .filter(|b| b.kind == InstabilityKind::Flutter);
+        let beside = flutter.flat_map(|band| {
+            let (begin, end) = (band.from_rad_per_s, band.to_rad_per_s);
+            let away = (BESIDE * (end - begin)).max(LEAST_BESIDE * end);
+            [begin - away, band.peak_rad_per_s, end + away]
+        });
+        let mut speeds: Vec<f64> = beside.chain(drawn).collect();
+        let is_reflected = |speed: f64| self.full.negative_stiffness(speed) > 0;
+        let spans = |speed: f64| {
+            let away = NEXT_TO_CRITICAL * speed;
+            self.evaluator.spans_critical(speed - away, speed + away)
+        };
+        speeds
+            .retain(|speed| (from..=to).contains(speed) && is_reflected(*speed) && !spans(*speed));
+        speeds
+    }
+}
+
+/// Number k of a sequence over 0 … 1 that is the same on every machine (Steele, Lea and Flood, OOPSLA 2014).
+fn drawn_share(k: u64) -> f64 {
+    let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
+/// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
+const GROWTH_FLOOR: f64 = 1e-5;
+
+/// Where a list of bands contradicts the modes found at some speeds.
+pub(super) fn contradictions(
+    bands: &[Instability],
+    signatures: &[Signature],
+    floor: f64,
+) -> Vec<Mismatch> {
+    let of = |signature: &Signature| {
+        let highest = signature.highest_rad_per_s();
+        let floor = floor * (signature.speed_rad_per_s + highest);
+        mismatches(bands, signature, floor)
+    };
+    signatures.iter().flat_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests;

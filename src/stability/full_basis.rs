@@ -1,0 +1,234 @@
+//! Modes held against counts on the whole basis, which know nothing of the projection that gave them.
+//!
+//! Of an undamped blade L(iω) is Hermitian, and with p and m modes of Krein sign + and − between 0 and ω
+//!
+//! n₋(L(iω)) = n₋(K) + p − m.
+//!
+//! Between two modes of opposite sign the count therefore shows both, and above all of them that none is
+//! missing. A pair that has coalesced counts for nothing, a + and a − mode side by side for
+//! one between them.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::signature::{Sign, Signature};
+use crate::spectrum::{AtSpeed, SpectralModel, SpectrumError, WholeBasis};
+
+/// Counts of one saw.
+pub struct FullBasis<'a> {
+    model: &'a SpectralModel,
+    basis: WholeBasis,
+    counted: AtomicUsize,
+}
+
+/// A mode that the spectrum of a speed lacks, or has too many.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Miscount {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Between which frequencies, in rad/s.
+    pub from_rad_per_s: f64,
+    /// The upper one.
+    pub to_rad_per_s: f64,
+    /// How many modes of Krein sign + are missing there, less those of sign −.
+    pub missing: isize,
+}
+
+/// What modes of a speed say of the count at a frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Claim {
+    /// ω, in rad/s.
+    pub frequency_rad_per_s: f64,
+    /// p − m.
+    pub net: isize,
+}
+
+/// Place of the last count in its gap: close below the upper mode, so that none hides above.
+const BELOW_UPPER: f64 = 0.9;
+/// A wave must be so far from a coalesced pair, relatively, that the count between them means something.
+const CLEAR: f64 = 1e-3;
+
+/// Claims on which the reading of a signature rests: between modes of opposite sign, below and above all,
+/// and at the frequency of every coalesced pair. Of modes above `height_rad_per_s` nothing is claimed.
+pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim> {
+    let waves = &signature.waves;
+    let mut claims = Vec::new();
+    if let Some(lowest) = waves.first() {
+        claims.push(Claim {
+            frequency_rad_per_s: 0.5 * lowest.lambda.im,
+            net: 0,
+        });
+    }
+    let mut net = 0;
+    for (k, pair) in waves.windows(2).enumerate() {
+        net += of_sign(pair[0].sign);
+        if pair[0].sign != pair[1].sign {
+            let share = if k + 2 == waves.len() {
+                BELOW_UPPER
+            } else {
+                0.5
+            };
+            let low = pair[0].lambda.im;
+            let high = pair[1].lambda.im.min(height_rad_per_s);
+            claims.push(Claim {
+                frequency_rad_per_s: low + share * (high - low),
+                net,
+            });
+        }
+    }
+    for pair in &signature.quadruples {
+        let frequency = pair.lambda.im;
+        let is_clear = |other: f64| (other / frequency - 1.0).abs() > CLEAR;
+        let highest = waves.last().map_or(0.0, |w| w.lambda.im);
+        if frequency < highest && waves.iter().all(|w| is_clear(w.lambda.im)) {
+            let below = waves.iter().filter(|w| w.lambda.im < frequency);
+            claims.push(Claim {
+                frequency_rad_per_s: frequency,
+                net: below.map(|w| of_sign(w.sign)).sum(),
+            });
+        }
+    }
+    claims.retain(|claim| claim.frequency_rad_per_s < height_rad_per_s);
+    claims.sort_by(|x, y| x.frequency_rad_per_s.total_cmp(&y.frequency_rad_per_s));
+    claims
+}
+
+/// Between two waves of opposite sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Gap {
+    /// ω of its middle, in rad/s.
+    pub middle_rad_per_s: f64,
+    /// Width of the gap.
+    pub width_rad_per_s: f64,
+    /// p − m of the waves below.
+    pub net: isize,
+}
+
+/// The gaps between waves of opposite sign, of which those up to a height are known.
+pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
+    let mut net = 0;
+    let mut gaps = Vec::new();
+    for pair in signature.waves.windows(2) {
+        net += of_sign(pair[0].sign);
+        if pair[0].sign != pair[1].sign {
+            let low = pair[0].lambda.im;
+            let high = pair[1].lambda.im.min(height_rad_per_s).max(low);
+            gaps.push(Gap {
+                middle_rad_per_s: 0.5 * (low + high),
+                width_rad_per_s: high - low,
+                net,
+            });
+        }
+    }
+    gaps
+}
+
+fn of_sign(sign: Sign) -> isize {
+    match sign {
+        Sign::Plus => 1,
+        Sign::Minus => -1,
+        Sign::Quadruple | Sign::Real => 0,
+    }
+}
+
+impl<'a> FullBasis<'a> {
+    /// Of a guided blade; the waves of a free one are known harmonic by harmonic.
+    pub fn new(model: &'a SpectralModel) -> Option<Self> {
+        (!model.plate.is_axisymmetric()).then(|| FullBasis {
+            model,
+            basis: WholeBasis::new(&model.plate),
+            counted: AtomicUsize::new(0),
+        })
+    }
+
+    /// Counts made so far that were certain.
+    pub fn counted(&self) -> usize {
+        self.counted.load(Ordering::Relaxed)
+    }
+
+    /// Whether a count costs a factorization of the order of the basis.
+    pub fn is_dense(&self) -> bool {
+        self.basis.is_dense()
+    }
+
+    /// n₋(K(Ω)).
+    pub fn negative_stiffness(&self, speed_rad_per_s: f64) -> usize {
+        self.model.negative_stiffness_directions(speed_rad_per_s)
+    }
+
+    /// Whether rigid motions are free, so that K is singular at every speed and n₋(L(iω)) does not
+    /// begin with n₋(K).
+    pub fn has_free_motions(&self) -> bool {
+        let mut components = self.model.components.iter();
+        components.any(|component| !component.full.free_rigid.is_empty())
+    }
+
+    /// What counts at a speed have in common.
+    pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
+        self.basis.at(speed_rad_per_s)
+    }
+
+    /// Whether the count is the same all along a line between two speeds.
+    pub fn is_count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2], count: usize) -> bool {
+        self.basis.is_count_along(ends, line, count)
+    }
+
+    /// What is miscounted at several speeds.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Cancelled`].
+    pub fn miscounts(
+        &self,
+        signatures: &[&Signature],
+        height_rad_per_s: f64,
+    ) -> Result<Vec<Miscount>, SpectrumError> {
+        let at = |signature: &&Signature| {
+            self.model.counters.cancellation.check()?;
+            Ok(self.of_claims(
+                signature.speed_rad_per_s,
+                &claims(signature, height_rad_per_s),
+            ))
+        };
+        let found: Vec<Result<Vec<Miscount>, SpectrumError>> =
+            signatures.par_iter().map(at).collect();
+        let found: Vec<Vec<Miscount>> = found.into_iter().collect::<Result<_, _>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Holds ascending claims of a speed against the counts; what is not certain contradicts nothing.
+    pub fn of_claims(&self, speed_rad_per_s: f64, claims: &[Claim]) -> Vec<Miscount> {
+        let at = self.at(speed_rad_per_s);
+        let count = |claim: &Claim| {
+            let count = self
+                .basis
+                .count_along([&at; 2], [claim.frequency_rad_per_s; 2]);
+            self.counted
+                .fetch_add(usize::from(count.is_some()), Ordering::Relaxed);
+            count
+        };
+        let negative = self.negative_stiffness(speed_rad_per_s) as isize;
+        let differences = claims.iter().filter_map(|claim| {
+            let difference = count(claim)? as isize - negative - claim.net;
+            Some((claim.frequency_rad_per_s, difference))
+        });
+        let mut before = (0.0, 0);
+        let mut found = Vec::new();
+        for (k, (frequency, difference)) in differences.enumerate() {
+            if k == 0 && self.has_free_motions() {
+                before = (frequency, difference);
+                continue;
+            }
+            if difference != before.1 {
+                found.push(Miscount {
+                    speed_rad_per_s,
+                    from_rad_per_s: before.0,
+                    to_rad_per_s: frequency,
+                    missing: difference - before.1,
+                });
+            }
+            before = (frequency, difference);
+        }
+        found
+    }
+}

@@ -1,0 +1,232 @@
+//! Stretches of speed that are proven to have no instability beyond those listed.
+//!
+//! Krein's index is k_real + 2 k_flutter + 2 k_negative = n₋(K), and between two frequencies
+//! at which L(iω) is nonsingular its count changes by p − m. So at any speed, for any frequencies
+//! 0 < ω₁ < ω₂ < … and ω₀ = 0,
+//!
+//! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
+//!
+//! so many − modes there are at least. Where the counts are the same all along lines ωᵢ(Ω), which
+//! [`WholeBasis`](crate::spectrum::WholeBasis) settles by two factorizations, and no critical speed
+//! changes n₋(K), this holds at every speed of the stretch. The spectra only propose the lines. Next to
+//! a crossing or the edge of a band the gap closes and stretches are halved, down to a least width: what
+//! is left is named, and was only searched.
+
+use std::sync::{Arc, OnceLock};
+
+use rayon::prelude::*;
+
+use super::band::{Instability, InstabilityKind};
+use super::evaluator::SignatureEvaluator;
+use super::full_basis::{FullBasis, Gap, gaps};
+use super::signature::Signature;
+use crate::spectrum::{AtSpeed, SpectrumError};
+
+/// Stretches below this share of the highest speed are not halved any more.
+const LEAST_WIDTH: f64 = 1e-4;
+/// What a proof needs.
+pub(super) struct Proof<'a> {
+    pub full: &'a FullBasis<'a>,
+    pub evaluator: &'a SignatureEvaluator<'a>,
+    pub bands: &'a [Instability],
+}
+
+/// A gap that closes to less than this share of itself is not tried.
+const CLOSING: f64 = 0.1;
+
+impl Proof<'_> {
+    /// Stretches between ascending signatures that are not proven, joined where they touch.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn unproven(&self, signatures: &[Signature]) -> Result<Vec<(f64, f64)>, SpectrumError> {
+        let Some(last) = signatures.last() else {
+            return Ok(Vec::new());
+        };
+        let least = LEAST_WIDTH * last.speed_rad_per_s;
+        let ends: Vec<End> = signatures.iter().map(|s| self.end(s)).collect();
+        let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
+        let open: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = ends
+            .par_chunk_by(is_uncritical)
+            .map(|stretch| self.within(stretch, &[], least))
+            .collect();
+        let mut open: Vec<(f64, f64)> = open
+            .into_iter()
+            .collect::<Result<Vec<_>, _>>()?
+            .into_iter()
+            .flatten()
+            .collect();
+        let critical = ends
+            .windows(2)
+            .filter(|pair| !is_uncritical(&pair[0], &pair[1]));
+        open.extend(critical.map(|pair| (pair[0].speed, pair[1].speed)));
+        open.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let mut joined: Vec<(f64, f64)> = Vec::new();
+        for (from, to) in open {
+            match joined.last_mut() {
+                Some(last) if last.1 >= from => last.1 = to,
+                _ => joined.push((from, to)),
+            }
+        }
+        Ok(joined)
+    }
+
+    fn end(&self, signature: &Signature) -> End {
+        End {
+            speed: signature.speed_rad_per_s,
+            gaps: gaps(signature, self.evaluator.height_rad_per_s()),
+            at: Arc::default(),
+        }
+    }
+
+    /// What is not proven from the first to the last of some speeds. Where they are two and more
+    /// are needed, they are computed.
+    fn within(
+        &self,
+        ends: &[End],
+        known: &[Line],
+        least: f64,
+    ) -> Result<Vec<(f64, f64)>, SpectrumError> {
+        let [a, .., b] = ends else {
+            return Ok(Vec::new());
+        };
+        let mut known = known.to_vec();
+        if b.speed <= a.speed || self.is_proven(a, b, &mut known) {
+            return Ok(Vec::new());
+        }
+        let halves = |below: &[End], above: &[End]| {
+            let (below, above) = rayon::join(
+                || self.within(below, &known, least),
+                || self.within(above, &known, least),
+            );
+            let mut open = below?;
+            open.extend(above?);
+            Ok(open)
+        };
+        let middle = 0.5 * (a.speed + b.speed);
+        if ends.len() > 2 {
+            let place = ends.partition_point(|end| end.speed < middle);
+            let place = place.clamp(1, ends.len() - 2);
+            return halves(&ends[..=place], &ends[place..]);
+        }
+        let is_open = self.full.has_free_motions() || self.full.is_dense();
+        if is_open || b.speed - a.speed <= least || self.evaluator.is_exhausted() {
+            return Ok(vec![(a.speed, b.speed)]);
+        }
+        let middle = self.end(&self.evaluator.guess_at(middle)?);
+        halves(&[a.clone(), middle.clone()], &[middle, b.clone()])
+    }
+
+    /// Whether no more can be unstable between two speeds than the bands that cover them say. Lines
+    /// that are found to be free join the known ones, whether they suffice or not.
+    fn is_proven(&self, a: &End, b: &End, known: &mut Vec<Line>) -> bool {
+        let negative = self.full.negative_stiffness(a.speed);
+        let listed = self.listed([a.speed, b.speed]);
+        if negative <= listed {
+            return true;
+        }
+        // A count by the order of the basis would take longer than the whole search.
+        if self.full.has_free_motions() || self.full.is_dense() {
+            return false;
+        }
+        let mut are_free = true;
+        for (x, y) in a.alike(b) {
+            let covers = |line: &Line| line.net == x.net && line.leads_through([(a, x), (b, y)]);
+            if known.iter().any(covers) {
+                continue;
+            }
+            match self.line([a, b], [x, y], negative) {
+                Some(line) => known.push(line),
+                None => are_free = false,
+            }
+        }
+        are_free && a.is_like(b) && negative.saturating_sub(2 * a.reflected()) <= listed
+    }
+
+    /// The line through the middles of a gap, if its count is the same all along.
+    fn line(&self, ends: [&End; 2], gap: [&Gap; 2], negative: usize) -> Option<Line> {
+        let [x, y] = gap.map(|gap| gap.width_rad_per_s);
+        let is_closing = x.min(y) < CLOSING * x.max(y);
+        let count = negative.checked_add_signed(gap[0].net)?;
+        let frequencies = gap.map(|gap| gap.middle_rad_per_s);
+        let at = ends.map(|end| end.at.get_or_init(|| self.full.at(end.speed)));
+        let is_free = !is_closing && self.full.is_count_along(at, frequencies, count);
+        is_free.then(|| Line {
+            speeds: ends.map(|end| end.speed),
+            frequencies,
+            net: gap[0].net,
+        })
+    }
+
+    /// k_real + 2 k_flutter of the bands that cover all speeds between two.
+    fn listed(&self, [from, to]: [f64; 2]) -> usize {
+        let covers = |band: &&Instability| band.from_rad_per_s <= from && to <= band.to_rad_per_s;
+        let index = |band: &Instability| match band.kind {
+            InstabilityKind::Divergence => 1,
+            InstabilityKind::Flutter => 2,
+        };
+        self.bands.iter().filter(covers).map(index).sum()
+    }
+}
+
+/// A line ω(Ω) that no mode meets.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    speeds: [f64; 2],
+    frequencies: [f64; 2],
+    /// p − m below.
+    net: isize,
+}
+
+impl Line {
+    /// Whether it lies within a gap at two speeds, both on the line.
+    fn leads_through(&self, gap: [(&End, &Gap); 2]) -> bool {
+        let ([from, to], [low, high]) = (self.speeds, self.frequencies);
+        gap.iter().all(|(end, gap)| {
+            let at = low + (high - low) * (end.speed - from) / (to - from);
+            2.0 * (at - gap.middle_rad_per_s).abs() < gap.width_rad_per_s
+        })
+    }
+}
+
+/// One end of a stretch.
+#[derive(Clone)]
+struct End {
+    speed: f64,
+    gaps: Vec<Gap>,
+    /// Shared by the stretches on both sides.
+    at: Arc<OnceLock<AtSpeed>>,
+}
+
+impl End {
+    /// Whether modes of the same signs lie between the same gaps.
+    fn is_like(&self, other: &End) -> bool {
+        self.alike(other).count() == self.gaps.len().max(other.gaps.len())
+    }
+
+    /// The gaps from below, and those from above, that both ends have alike.
+    fn alike<'a>(&'a self, other: &'a End) -> impl Iterator<Item = (&'a Gap, &'a Gap)> {
+        let same = |(x, y): &(&Gap, &Gap)| x.net == y.net;
+        let (ours, theirs) = (&self.gaps, &other.gaps);
+        let below = ours.iter().zip(theirs).take_while(same).count();
+        let above = ours
+            .iter()
+            .rev()
+            .zip(theirs.iter().rev())
+            .take_while(same)
+            .count();
+        let above = above.min(ours.len().min(theirs.len()) - below);
+        let first = ours[..below].iter().zip(&theirs[..below]);
+        let last = ours[ours.len() - above..].iter();
+        first.chain(last.zip(&theirs[theirs.len() - above..]))
+    }
+
+    /// − modes that the counts in the gaps show.
+    fn reflected(&self) -> usize {
+        let below = [0].into_iter().chain(self.gaps.iter().map(|gap| gap.net));
+        let fewer = below
+            .zip(&self.gaps)
+            .map(|(below, gap)| (below - gap.net).max(0));
+        fewer.sum::<isize>() as usize
+    }
+}
