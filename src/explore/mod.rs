@@ -9,6 +9,7 @@ mod guard;
 mod job;
 mod mode;
 mod page;
+mod pages;
 mod reply;
 mod server;
 

@@ -35,6 +35,7 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
     let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal {
         key: None,
         message: format!("chart {} is not kept any more", asked.chart),
+        allowed: None,
     })?;
     Ok(ModeEntry::new(&analysis.model.plate, speed, mode))
 }

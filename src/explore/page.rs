@@ -20,6 +20,9 @@ files! {
     "main.js": SCRIPT, "page/main.js";
     "talk.js": SCRIPT, "page/talk.js";
     "scene.js": SCRIPT, "page/scene.js";
+    "kept.js": SCRIPT, "page/kept.js";
+    "beginnings.js": SCRIPT, "page/beginnings.js";
+    "range.js": SCRIPT, "page/range.js";
     "form.js": SCRIPT, "page/form.js";
     "blade.js": SCRIPT, "page/blade.js";
     "motion.js": SCRIPT, "page/motion.js";

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::figure::{self, FigureError};
 use crate::report::Report;
-use crate::scene::{Accuracy, Measured, Scene, SceneError, SceneFile, json_schema};
+use crate::scene::{Accuracy, QUANTITIES, Quantity, Scene, SceneError, SceneFile, json_schema};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail};
 
@@ -17,8 +17,8 @@ use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail};
 pub struct Start {
     scene: SceneFile,
     schema: serde_json::Value,
-    /// Published frequencies of the built-in saw, to be switched on.
-    measured: Option<Measured>,
+    /// Between which values the numbers of saws lie, for the sliders.
+    quantities: &'static [Quantity],
     colours: figure::Palette,
     version: &'static str,
 }
@@ -29,7 +29,7 @@ impl Start {
         Start {
             scene: scene.file().clone(),
             schema: json_schema(),
-            measured: Scene::paper().file().measured.clone(),
+            quantities: &QUANTITIES,
             colours: figure::PALETTE,
             version: env!("CARGO_PKG_VERSION"),
         }
@@ -54,6 +54,9 @@ pub struct Refusal {
     pub key: Option<String>,
     /// The library's own words.
     pub message: String,
+    /// What is allowed, where a number of the scene is to blame: for the page to say in the unit
+    /// of its field.
+    pub allowed: Option<String>,
 }
 
 impl From<SceneError> for Refusal {
@@ -62,9 +65,14 @@ impl From<SceneError> for Refusal {
             SceneError::Syntax { key, .. } | SceneError::Value { key, .. } => Some(key.clone()),
             _ => None,
         };
+        let allowed = match &error {
+            SceneError::Value { allowed, .. } => Some(allowed.clone()),
+            _ => None,
+        };
         Refusal {
             key,
             message: error.to_string(),
+            allowed,
         }
     }
 }
@@ -80,6 +88,7 @@ impl From<AnalysisError> for Refusal {
         Refusal {
             key,
             message: error.to_string(),
+            allowed: None,
         }
     }
 }
@@ -96,6 +105,7 @@ impl Refusal {
         Refusal {
             key: None,
             message: error.to_string(),
+            allowed: None,
         }
     }
 }

@@ -1,26 +1,19 @@
 //! The server: what may be asked, and when it ends.
 
-use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::pin::Pin;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::task::{Context, Poll};
-use std::time::Duration;
 
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::{StatusCode, header};
 use axum::middleware::from_fn_with_state;
-use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use futures_core::Stream;
 use tokio::net::TcpListener;
-use tokio::sync::Notify;
 
 use super::guard::{Door, guard};
 use super::job::Jobs;
+use super::pages::Pages;
 use super::reply::{Charts, Fidelity, Refusal, SavedFile, Start};
 use super::{mode, page};
 use crate::scene::{MAX_SCENE_BYTES, Scene};
@@ -47,11 +40,6 @@ pub enum ExploreError {
     #[error("the server failed")]
     Serve(#[from] std::io::Error),
 }
-
-/// A page that is reloaded is away for no longer than this.
-const GRACE: Duration = Duration::from_secs(3);
-/// A closed page is noticed within this time.
-const HEARTBEAT: Duration = Duration::from_secs(1);
 
 /// What the routes share.
 #[derive(Clone)]
@@ -111,7 +99,9 @@ fn router(desk: Desk, door: Door) -> Router {
             get(|Path(name): Path<String>| async move { page::file(&name) }),
         )
         .route("/start", get(start))
-        .route("/alive", get(alive))
+        .route("/alive", post(alive))
+        .route("/leave", post(leave))
+        .route("/read", post(read))
         .route("/jobs", get(jobs))
         .route("/chart/{fidelity}", post(chart))
         .route("/mode", post(mode_shape))
@@ -185,54 +175,22 @@ fn json_text(status: StatusCode, text: String) -> Response {
     (status, [(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
 
-/// Pages that are open.
-#[derive(Default)]
-struct Pages {
-    open: AtomicUsize,
-    closed: Notify,
-}
-
-impl Pages {
-    /// Ends when the last page has been closed and none has come back since.
-    async fn last_closed(&self) {
-        loop {
-            self.closed.notified().await;
-            tokio::time::sleep(GRACE).await;
-            if self.open.load(Ordering::Relaxed) == 0 {
-                return;
-            }
-        }
+/// Reads a scene as the command line does, comments and all, and gives it back as plain JSON.
+async fn read(scene: String) -> Response {
+    match Scene::from_json(&scene) {
+        Ok(scene) => json(StatusCode::OK, scene.file()),
+        Err(error) => refused(&error.into()),
     }
 }
 
-/// A stream without events that a page holds open for as long as it is.
-struct Held(Arc<Pages>);
-
-impl Held {
-    fn new(pages: &Arc<Pages>) -> Self {
-        pages.open.fetch_add(1, Ordering::Relaxed);
-        Held(pages.clone())
-    }
+/// A page says that it is open: a name of its own.
+async fn alive(State(desk): State<Desk>, page: String) -> StatusCode {
+    desk.pages.seen(page);
+    StatusCode::NO_CONTENT
 }
 
-impl Drop for Held {
-    fn drop(&mut self) {
-        self.0.open.fetch_sub(1, Ordering::Relaxed);
-        self.0.closed.notify_one();
-    }
-}
-
-impl Stream for Held {
-    type Item = Result<Event, Infallible>;
-
-    fn poll_next(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        Poll::Pending
-    }
-}
-
-async fn alive(State(desk): State<Desk>) -> Response {
-    let beats = KeepAlive::new().interval(HEARTBEAT);
-    Sse::new(Held::new(&desk.pages))
-        .keep_alive(beats)
-        .into_response()
+/// A page says that it is being closed.
+async fn leave(State(desk): State<Desk>, page: String) -> StatusCode {
+    desk.pages.left(&page);
+    StatusCode::NO_CONTENT
 }

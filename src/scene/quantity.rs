@@ -1,11 +1,12 @@
 //! What the numbers of a scene are, in which unit, and between which values those of saws lie.
 
+use serde::Serialize;
 use serde_json::Value;
 
 use super::SceneFile;
 
 /// A number of a scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Quantity {
     /// Its JSON path, with `[]` for any place in a list.
     pub path: &'static str,

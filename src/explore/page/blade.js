@@ -228,7 +228,7 @@ export class Blade {
         }
       }
     };
-    this.state.change(edit, { draft: true, stamp: event.timeStamp });
+    this.state.change(edit, { draft: true, stamp: event.timeStamp, run: path });
   }
 }
 

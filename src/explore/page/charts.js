@@ -74,6 +74,7 @@ export class Charts {
   constructor(campbellPlace, growthPlace, colours, { onHover }) {
     this.colours = colours;
     this.onHover = onHover;
+    this.measured = true;
     const narrow = () => campbellPlace.clientWidth < 480;
     const room = () => (narrow() ? 20 : 108);
     this.campbell = plot(campbellPlace, {
@@ -106,6 +107,12 @@ export class Charts {
     const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
     this.campbell.chart.setSize({ width, height: width < 480 ? 300 : tall });
     this.growth.chart.setSize({ width, height: 165 });
+  }
+
+  // Shows or hides the measured points.
+  showMeasured(on) {
+    this.measured = on;
+    this.redraw();
   }
 
   show(report, pinned) {
@@ -175,7 +182,7 @@ export class Charts {
     this.#drawSpeeds(ctx, x, box, scale);
     if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, ghost: true });
     drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.highlighted });
-    if (this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
+    if (this.measured && this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
     this.#drawExcitation(ctx, place, scale);
     this.#dotCritical(ctx, place, scale);
     this.#drawSpot(ctx, place, scale);

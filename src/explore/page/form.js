@@ -1,17 +1,14 @@
 // A field for every quantity of a scene, made from its schema: what the library can read, the
 // page can set.
 
+import * as beginnings from "./beginnings.js";
+import { Range } from "./range.js";
 import { get } from "./scene.js";
 import { shown, tidy, unitOf } from "./words.js";
 
-// A slider has this many steps.
-const NOTCHES = 400;
-// Where a quantity begins that is new in the scene and has no default; by its key.
-const BEGINNINGS = {
-  radius_m: 0.2, angle_deg: 0, radial_length_m: 0.1, tangential_length_m: 0.1, stiffness_n_per_m: 1e7,
-  diameter_m: 0.25, to_rpm: 3000, duration_s: 60, force_n: 5, rpm: 1800, teeth: 20, pressure_angle_deg: 30,
-  contact_stiffness_n_per_m_3_2: 7e9, contact_damping_n_s_3_2_per_m_3_2: 4700, operating_rpm: 1800,
-};
+// The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
+// is mounted on and what it cuts.
+const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Parts that this chart does not depend on, and the command that looks at them.
 const ELSEWHERE = { cut: "cut", runup: "runup", spline: "cut" };
 
@@ -22,8 +19,8 @@ function node(tag, properties = {}, ...children) {
 }
 
 export class Form {
-  constructor(place, schema, state) {
-    Object.assign(this, { place, schema, state });
+  constructor(place, schema, quantities, state) {
+    Object.assign(this, { place, schema, quantities, state });
     this.fields = new Map();
   }
 
@@ -46,12 +43,12 @@ export class Form {
     for (const field of this.fields.values()) field.show(get(this.state.scene, field.path));
   }
 
-  // The library's own words at the field they are about.
-  refuse(key, message) {
+  // What is wrong, at the field it is about and in the unit of the field.
+  refuse(key, message, allowed) {
     let told = false;
     for (const field of this.fields.values()) {
       const own = key !== null && field.path === key;
-      field.error(own ? message : "");
+      field.error(own ? field.words?.(allowed) ?? message : "");
       told ||= own;
       if (own) field.element.closest("details")?.setAttribute("open", "");
     }
@@ -78,7 +75,9 @@ export class Form {
 
   #object(schema, path, value) {
     const required = schema.required ?? [];
-    return Object.entries(schema.properties ?? {}).flatMap(([key, raw]) => {
+    const place = ([key]) => (path === "" && ORDER.includes(key) ? ORDER.indexOf(key) : ORDER.length);
+    const entries = Object.entries(schema.properties ?? {}).sort((x, y) => place(x) - place(y));
+    return entries.flatMap(([key, raw]) => {
       const at = path ? `${path}.${key}` : key;
       const inner = this.#resolve(raw);
       return this.#part(inner, at, key, value?.[key], required.includes(key));
@@ -109,7 +108,7 @@ export class Form {
     const title = key.replaceAll("_", " ");
     const there = value !== undefined && value !== null;
     const children = there ? this.#object(schema, path, value) : [];
-    if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema)));
+    if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema, path)));
     return this.#details(path, there ? title : `${title} (none)`, schema.description, ...children);
   }
 
@@ -134,7 +133,7 @@ export class Form {
     add.addEventListener("click", () => {
       const more = (scene) => {
         const list = get(scene, path) ?? [];
-        const fresh = list.length > 0 ? beside(list.at(-1)) : this.#beginning(items);
+        const fresh = this.#beginning(items, `${path}[${list.length}]`);
         (path.includes(".") ? get(scene, path.slice(0, path.lastIndexOf("."))) : scene)[key] = [...list, fresh];
       };
       this.state.change(more, { structure: true });
@@ -142,15 +141,19 @@ export class Form {
     return this.#details(path, `${title} (${parts.length})`, schema.description, ...parts, add);
   }
 
-  #beginning(schema) {
+  #beginning(schema, path) {
+    const scene = this.state.scene;
+    const whole = beginnings.part(path, scene);
+    if (whole) return whole;
     const made = {};
     for (const key of schema.required ?? []) {
       const inner = this.#resolve(schema.properties[key]);
-      if (inner.type === "object" || inner.properties) made[key] = this.#beginning(inner);
+      const at = `${path}.${key}`;
+      if (inner.type === "object" || inner.properties) made[key] = this.#beginning(inner, at);
       else if (inner.enum) made[key] = inner.enum[0];
       else if (inner.oneOf) made[key] = inner.oneOf[0].const ?? inner.oneOf[0].enum?.[0];
       else if (inner.type === "array") made[key] = [];
-      else made[key] = inner.default ?? BEGINNINGS[key] ?? (inner.type === "string" ? "" : 1);
+      else made[key] = inner.default ?? beginnings.number(key, scene) ?? (inner.type === "string" ? "" : 1);
     }
     return made;
   }
@@ -162,14 +165,14 @@ export class Form {
     select.value = value?.kind;
     select.addEventListener("change", () => {
       const next = schema.oneOf[kinds.indexOf(select.value)];
-      this.state.set(path, { ...this.#beginning(next), kind: select.value }, { structure: true });
+      this.state.set(path, { ...this.#beginning(next, path), kind: select.value }, { structure: true });
     });
     const label = node("label", { htmlFor: select.id, textContent: "kind" });
     const row = node("div", { className: "field" }, label, select);
     return this.#details(path, path, schema.description, row, ...(chosen ? this.#object(chosen, path, value) : []));
   }
 
-  #register(path, element, show) {
+  #register(path, element, show, words) {
     const fault = node("p", { className: "fault", role: "alert", id: `${path}:fault` });
     element.append(fault);
     const control = element.querySelector("input, select, textarea");
@@ -179,7 +182,7 @@ export class Form {
       if (message) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     };
-    this.fields.set(path, { path, element, show, error });
+    this.fields.set(path, { path, element, show, error, words });
     show(get(this.state.scene, path));
     return element;
   }
@@ -217,9 +220,10 @@ export class Form {
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
     if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : "none";
-    const slider = node("input", { type: "range", min: 0, max: NOTCHES, step: 1 });
+    const slider = node("input", { type: "range", min: 0, max: Range.NOTCHES, step: 1 });
     slider.setAttribute("aria-label", `${name} slider`);
-    const range = new Range(key, value ?? fallback ?? BEGINNINGS[key] ?? 0, this.state.scene);
+    const quantity = this.quantities.get(path.replace(/\[\d+\]/g, "[]"));
+    const range = new Range(key, value ?? fallback ?? beginnings.number(key, this.state.scene) ?? 0, quantity, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
     input.addEventListener("change", () => {
       const text = input.value.trim().replace(",", ".").replace("−", "-");
@@ -229,7 +233,7 @@ export class Form {
       else send(text);
     });
     const slid = () => tidy(whole ? Math.round(range.value(slider.value)) : Number(range.value(slider.value).toPrecision(4)));
-    slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp }));
+    slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp, run: path }));
     slider.addEventListener("change", () => this.state.settle());
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
     const row = node("div", { className: "field number", title: schema.description ?? "" }, label, input, slider);
@@ -239,54 +243,20 @@ export class Form {
       if (document.activeElement !== input || !row.contains(document.activeElement)) input.value = typed;
       else if (Number(input.value) !== Number(typed)) input.value = typed;
       if (typeof known === "number") {
-        range.include(known);
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);
       }
-    });
+    }, (allowed) => inUnit(name, allowed, unit, scale));
   }
 }
 
-// A second pad stands opposite the first.
-function beside(item) {
-  const fresh = structuredClone(item);
-  if (typeof fresh.angle_deg === "number") fresh.angle_deg = fresh.angle_deg > 0 ? fresh.angle_deg - 180 : fresh.angle_deg + 180;
-  return fresh;
-}
-
-// What a slider spans: angles a whole turn, stiffnesses four decades, the rest around the value.
-class Range {
-  constructor(key, value, scene) {
-    this.log = /(_n_per_m|_n_per_m_3_2|_n_s_per_m|_n_s_per_m3|tolerance|_retardation_time_s)$/.test(key) && value > 0;
-    [this.from, this.to] = this.#ends(key, value, scene);
-  }
-
-  #ends(key, value, scene) {
-    if (this.log) return [Math.log(value) - Math.log(100), Math.log(value) + Math.log(100)];
-    if (key === "poisson_ratio") return [0, 0.49];
-    if (key === "pressure_angle_deg") return [0, 45];
-    if (key.endsWith("angle_deg")) return [-180, 180];
-    if (key === "radius_m") return [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
-    if (key.endsWith("rpm")) return [0, Math.max(2 * value, 4000)];
-    if (value > 0) return [0.25 * value, 2 * value];
-    if (value < 0) return [2 * value, -2 * value];
-    return [0, key.endsWith("_m") ? 0.5 : key.endsWith("_s") ? 0.01 : key.endsWith("_per_m") ? 1000 : 10];
-  }
-
-  include(value) {
-    const at = this.log ? Math.log(value) : value;
-    if (!Number.isFinite(at)) return;
-    this.from = Math.min(this.from, at);
-    this.to = Math.max(this.to, at);
-  }
-
-  value(notch) {
-    const at = this.from + (notch / NOTCHES) * (this.to - this.from);
-    return this.log ? Math.exp(at) : at;
-  }
-
-  notch(value) {
-    const at = this.log ? Math.log(value) : value;
-    return Math.round(((at - this.from) / (this.to - this.from || 1)) * NOTCHES);
-  }
+// "between 1e-6 and 1000" of metres is "Thickness must be between 0.001 and 1e6 mm"; nothing where
+// more is said than numbers.
+function inUnit(name, allowed, unit, scale) {
+  const NUMBER = /[-−]?\d+(\.\d+)?(e[-+]?\d+)?/gi;
+  const rest = allowed?.replace(NUMBER, "").trim() ?? "";
+  if (!/^(a |finite|number|positive|negative|not|above|below|at|least|most|between|and|from|to|more|less|than|or|,|\s)+$/.test(rest)) return null;
+  const told = allowed.replace(NUMBER, (number) => shown(tidy(Number(number.replace("−", "-")) * scale)));
+  const subject = name.charAt(0).toUpperCase() + name.slice(1);
+  return `${subject} must be ${told}${/\d/.test(told) && unit ? ` ${unit}` : ""}`;
 }

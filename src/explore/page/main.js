@@ -3,10 +3,11 @@
 import { Blade } from "./blade.js";
 import { Charts } from "./charts.js";
 import { Form } from "./form.js";
+import { Kept, carried, download, link, measured } from "./kept.js";
 import { publish } from "./marks.js";
 import { Motion } from "./motion.js";
 import { SceneState, clone } from "./scene.js";
-import { Refused, Live, mode, saved, start, stayConnected } from "./talk.js";
+import { Refused, Live, mode, read, saved, start, stayConnected } from "./talk.js";
 import { facts, tables, verdict } from "./verdict.js";
 import { krein, numbered, shown } from "./words.js";
 
@@ -16,6 +17,9 @@ let colours = publish(begun.colours);
 let latest = null;
 let pinned = null;
 let refusedKey = null;
+const kept = new Kept(begun.scene);
+// The scene as it was last saved to a file, or as the program was started with.
+let onDisk = JSON.stringify(begun.scene);
 
 // For the test in a browser: times from a move to its painted chart, and what is shown.
 const seen = (window.sawflutter = { latencies: { draft: [], scene: [] }, computed: [], painted: null });
@@ -25,11 +29,12 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp }) =
   form.refresh();
   blade.draw(scene, refusedKey);
   buttons();
+  if (!draft) kept.keep(scene);
   live.ask(scene, { draft, stamp });
 });
 const blade = new Blade(by("drawing"), state);
 const motion = new Motion(by("motion"), blade.mark, () => motionColours());
-const form = new Form(by("fields"), begun.schema, state);
+const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover });
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
@@ -37,6 +42,9 @@ seen.state = state;
 seen.settled = () => seen.painted === JSON.stringify(state.scene);
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
+seen.open = open;
+// A browser that is driven cannot answer whether to leave.
+seen.leave = () => (onDisk = JSON.stringify(state.scene));
 
 function motionColours() {
   const numbers = (text) => text.match(/\d+/g).map(Number);
@@ -48,7 +56,8 @@ function onChart(chart, request) {
   refusedKey = null;
   pinned ??= clone(chart.report);
   form.refuse(null, "");
-  by("fault").textContent = "";
+  say("");
+  document.body.classList.remove("stale");
   charts.show(chart.report, pinnedDiffers() ? pinned : null);
   tell();
   blade.draw(state.scene, null);
@@ -69,12 +78,20 @@ function painted(then) {
   requestAnimationFrame(() => channel.port2.postMessage(null));
 }
 
+// One line under the chart for what no field can say.
+function say(text) {
+  by("fault").textContent = text;
+}
+
 function onRefused(error, request) {
+  const answers = error instanceof Refused;
+  if (!answers && request.draft) return;
   refusedKey = error.key ?? null;
-  const told = form.refuse(refusedKey, error.message);
-  by("fault").textContent = told ? `${error.message} (the last good chart stays)` : error.message;
+  const told = form.refuse(refusedKey, error.message, error.allowed);
+  say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
+  // Chart and verdict are of an earlier scene.
+  document.body.classList.add("stale");
   blade.draw(state.scene, refusedKey);
-  if (!(error instanceof Refused) && !request.draft) by("fault").textContent = "The program does not answer any more; start it again.";
 }
 
 let ticking = 0;
@@ -142,56 +159,130 @@ async function onHover(found) {
 function buttons() {
   by("undo").disabled = !state.canUndo;
   by("redo").disabled = !state.canRedo;
-  const measured = state.scene.measured;
-  by("measured").checked = measured !== undefined;
-  const source = (measured ?? begun.measured)?.source ?? "Measured";
-  by("source").textContent = source.length > 36 ? `${source.slice(0, 35)}…` : source;
+  const source = state.scene.measured?.source;
+  by("points").hidden = source === undefined;
+  by("source").textContent = (source ?? "").length > 36 ? `${source.slice(0, 35)}…` : source ?? "";
+  by("unpin").hidden = pinned === null || !pinnedName;
+  by("unpin").textContent = `Unpin ${pinnedName}`;
 }
 
-function switchMeasured(on) {
-  if (!on) begun.measured = state.scene.measured ?? begun.measured;
-  state.change((scene) => {
-    if (on) scene.measured = clone(begun.measured);
-    else delete scene.measured;
-  });
+// The name of a saw that was pinned by hand; the first one is the saw that the page began with.
+let pinnedName = "";
+
+function pin() {
+  const name = prompt("Name of the reference", state.scene.name ?? "reference");
+  if (name === null) return;
+  pinned = clone(latest.report);
+  pinnedName = name.trim() || "reference";
+  charts.show(latest.report, null);
+  tell();
+  buttons();
+}
+
+function unpin() {
+  pinned = clone(latest.report);
+  pinnedName = "";
+  charts.show(latest.report, null);
+  tell();
+  buttons();
 }
 
 async function save(name) {
+  if (name === "scene.json") {
+    // Without the server: it may have ended.
+    download(name, new Blob([`${JSON.stringify(state.scene, null, 2)}\n`], { type: "application/json" }));
+    onDisk = JSON.stringify(state.scene);
+    return;
+  }
   try {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await saved(name, state.scene));
-    link.download = name;
-    document.body.append(link);
-    link.click();
-    link.remove();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    download(name, await saved(name, state.scene));
   } catch (error) {
-    by("fault").textContent = error.message;
+    say(error.message);
   }
 }
 
+function replaceScene(scene) {
+  state.change((current) => {
+    for (const key of Object.keys(current)) delete current[key];
+    Object.assign(current, scene);
+  }, { structure: true });
+}
+
+// A scene, or a table of measured frequencies. What is neither leaves everything as it is.
 async function open(file) {
   try {
-    const scene = JSON.parse(await file.text());
-    state.change((current) => {
-      for (const key of Object.keys(current)) delete current[key];
-      Object.assign(current, scene);
-    }, { structure: true });
+    const text = await file.text();
+    if (/\.(csv|tsv|txt)$/i.test(file.name)) {
+      const points = measured(file.name, text);
+      state.change((scene) => (scene.measured = points), { structure: true });
+      return;
+    }
+    const scene = await read(text);
+    onDisk = JSON.stringify(scene);
+    replaceScene(scene);
   } catch (error) {
-    by("fault").textContent = `${file.name} is not JSON: ${error.message}`;
+    say(`${file.name} was not opened, the scene is as it was: ${error.message}`);
   }
+}
+
+async function copyLink() {
+  const address = await link(state.scene);
+  if (address === null) {
+    say("The scene is too long for an address; save it as a file instead.");
+    return;
+  }
+  history.replaceState(null, "", address);
+  try {
+    await navigator.clipboard.writeText(address);
+    by("link").textContent = "Link copied";
+  } catch {
+    by("link").textContent = "Link is in the address bar";
+  }
+  setTimeout(() => (by("link").textContent = "Copy link"), 3000);
+}
+
+// The scene of the address, or that of an earlier visit with unsaved edits.
+async function restore() {
+  try {
+    const text = await carried();
+    if (text !== null) return replaceScene(await read(text));
+  } catch (error) {
+    say(`The scene in the address cannot be read: ${error.message}`);
+  }
+  const earlier = kept.restored();
+  if (earlier === null || JSON.stringify(earlier) === JSON.stringify(begun.scene)) return undefined;
+  by("restored").hidden = false;
+  return replaceScene(earlier);
+}
+
+function startOver() {
+  kept.forget();
+  by("restored").hidden = true;
+  onDisk = JSON.stringify(begun.scene);
+  replaceScene(clone(begun.scene));
 }
 
 function wire() {
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
-  by("pin").addEventListener("click", () => {
-    pinned = clone(latest.report);
-    charts.show(latest.report, null);
-    tell();
+  by("pin").addEventListener("click", pin);
+  by("unpin").addEventListener("click", unpin);
+  by("link").addEventListener("click", copyLink);
+  by("over").addEventListener("click", startOver);
+  by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    if (event.dataTransfer.files[0]) open(event.dataTransfer.files[0]);
   });
-  by("measured").addEventListener("change", (event) => switchMeasured(event.target.checked));
-  by("open").addEventListener("change", (event) => event.target.files[0] && open(event.target.files[0]));
+  addEventListener("beforeunload", (event) => {
+    if (JSON.stringify(state.scene) !== onDisk) event.preventDefault();
+  });
+  by("open").addEventListener("change", async (event) => {
+    if (event.target.files[0]) await open(event.target.files[0]);
+    // The same file can be opened once more.
+    event.target.value = "";
+  });
   for (const button of document.querySelectorAll("[data-save]")) {
     button.addEventListener("click", () => save(button.dataset.save));
   }
@@ -208,7 +299,7 @@ function wire() {
     charts.setColours(colours);
   });
   stayConnected((lost) => {
-    by("lost").hidden = lost === null;
+    by("lost").hidden = !lost;
   });
 }
 
@@ -217,4 +308,5 @@ wire();
 form.build();
 blade.draw(state.scene, null);
 buttons();
-live.ask(state.scene, { draft: false });
+await restore();
+if (!live.asked) live.ask(state.scene, { draft: false });

@@ -1,6 +1,8 @@
 // The scene that is being changed, and what it was before.
 
 const STEPS = 200;
+// Changes of one run follow each other within this time.
+const RUN_MS = 1500;
 
 export const clone = (value) => structuredClone(value);
 
@@ -26,20 +28,24 @@ export function set(scene, path, value) {
 }
 
 // Tells `listener(scene, { draft, structure, stamp })` of every change. A change that is still
-// going on, such as a drag, is a draft; all of them make one step of undo.
+// going on, such as a drag, is a draft; all of them make one step of undo, and so do changes of one
+// `run`, such as presses of one key, that follow each other closely.
 export class SceneState {
   #past = [];
   #future = [];
   #before = null;
+  #pending = null;
+  #run = { name: null, at: 0 };
 
   constructor(scene, listener) {
     this.scene = clone(scene);
     this.listener = listener;
   }
 
-  change(edit, { draft = false, structure = false, stamp } = {}) {
+  change(edit, { draft = false, structure = false, stamp, run = null } = {}) {
     this.#before ??= clone(this.scene);
     edit(this.scene);
+    this.#pending = run;
     if (!draft) this.#settle();
     this.listener(this.scene, { draft, structure, stamp });
   }
@@ -57,11 +63,15 @@ export class SceneState {
 
   #settle() {
     if (JSON.stringify(this.#before) !== JSON.stringify(this.scene)) {
-      this.#past.push(this.#before);
+      const now = performance.now();
+      const goesOn = this.#pending !== null && this.#run.name === this.#pending && now - this.#run.at < RUN_MS;
+      this.#run = { name: this.#pending, at: now };
+      if (!goesOn) this.#past.push(this.#before);
       this.#past.splice(0, this.#past.length - STEPS);
       this.#future = [];
     }
     this.#before = null;
+    this.#pending = null;
   }
 
   get canUndo() {
@@ -84,6 +94,7 @@ export class SceneState {
     if (from.length === 0) return;
     to.push(this.scene);
     this.scene = from.pop();
+    this.#run = { name: null, at: 0 };
     this.#before = null;
     this.listener(this.scene, { draft: false, structure: true });
   }

@@ -1,9 +1,10 @@
 // Everything that is asked of the server.
 
 export class Refused extends Error {
-  constructor({ key, message }) {
+  constructor({ key, message, allowed }) {
     super(message);
     this.key = key;
+    this.allowed = allowed ?? null;
   }
 }
 
@@ -31,12 +32,24 @@ export async function saved(name, scene) {
   return answer.blob();
 }
 
-// While this is open the server knows that the page is.
+// A scene as the program reads it, or a refusal.
+export async function read(text) {
+  const answer = await post("read", text);
+  return answer.json();
+}
+
+// Says so often that the page is there.
+const BEAT_MS = 2000;
+
+// Tells the server that the page is open, and when it is closed; `onLost(lost)` whether the
+// server answers.
 export function stayConnected(onLost) {
-  const source = new EventSource("alive");
-  source.onerror = () => onLost(source.readyState);
-  source.onopen = () => onLost(null);
-  addEventListener("pagehide", () => source.close());
+  const name = crypto.randomUUID();
+  const beat = () => fetch("alive", { method: "POST", body: name }).then((answer) => onLost(!answer.ok), () => onLost(true));
+  beat();
+  setInterval(beat, BEAT_MS);
+  addEventListener("pagehide", () => navigator.sendBeacon("leave", name));
+  addEventListener("pageshow", (event) => event.persisted && beat());
 }
 
 // Charts of a scene that keeps changing. One request is under way at a time. Drafts that were
@@ -45,12 +58,15 @@ export function stayConnected(onLost) {
 export class Live {
   #running = null;
   #next = null;
+  // Whether anything was asked for yet.
+  asked = false;
 
   constructor({ onChart, onRefused, onBusy }) {
     Object.assign(this, { onChart, onRefused, onBusy });
   }
 
   ask(scene, { draft, stamp }) {
+    this.asked = true;
     // Every move waits for the chart that has it in, also those that were passed.
     const stamps = this.#next?.stamps ?? [];
     if (stamp !== undefined) stamps.push(stamp);

@@ -1,0 +1,40 @@
+// What a slider spans: the part of the usual values around the one the field began with. A value
+// typed outside leaves the slider at its end and its span as it is.
+
+export class Range {
+  // A slider has this many steps.
+  static NOTCHES = 400;
+
+  // `quantity.usual`: between which values those of all saws lie.
+  constructor(key, value, quantity, scene) {
+    const [least, most] = quantity?.usual ?? [-Infinity, Infinity];
+    // Values over decades are searched by decades.
+    this.log = value > 0 && least > 0 && most / least > 3000;
+    const [from, to] = this.#around(key, value, scene);
+    this.from = Math.max(from, this.log ? Math.log(least) : least);
+    this.to = Math.min(to, this.log ? Math.log(most) : most);
+    if (!(this.from < this.to)) [this.from, this.to] = [from, to];
+  }
+
+  #around(key, value, scene) {
+    if (this.log) return [Math.log(value) - Math.log(100), Math.log(value) + Math.log(100)];
+    if (key === "poisson_ratio") return [0, 0.49];
+    if (key.endsWith("angle_deg")) return [-180, 180];
+    if (key === "radius_m") return [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
+    if (key.endsWith("rpm")) return [0, Math.max(2 * value, 4000)];
+    if (value > 0) return [0.25 * value, 2 * value];
+    if (value < 0) return [2 * value, -2 * value];
+    return [0, key.endsWith("_m") ? 0.5 : key.endsWith("_s") ? 0.01 : key.endsWith("_per_m") ? 1000 : 10];
+  }
+
+  value(notch) {
+    const at = this.from + (notch / Range.NOTCHES) * (this.to - this.from);
+    return this.log ? Math.exp(at) : at;
+  }
+
+  notch(value) {
+    const at = this.log ? Math.log(Math.max(value, Number.MIN_VALUE)) : value;
+    const share = (at - this.from) / (this.to - this.from || 1);
+    return Math.round(Math.min(Math.max(share, 0), 1) * Range.NOTCHES);
+  }
+}
