@@ -225,10 +225,23 @@ fn a_stretch_of_speeds_is_magnified_and_let_go_again() {
         let [from, to] = [0, 1].map(|end| some[end].as_f64().unwrap());
         assert!(0.0 < from && from < to && to < 3000.0, "{some}");
         page.screenshot("1280-magnified.png").await;
+        let told = page.text("#zoomed").await;
+        assert!(told.contains("rpm of the sweep"), "{told}");
+        // By keyboard: closer, and all again.
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        chart.send_keys("+").await.unwrap();
+        let closer = page.value("sawflutter.speeds()").await;
+        let width = |speeds: &Value| speeds[1].as_f64().unwrap() - speeds[0].as_f64().unwrap();
+        assert!(width(&closer) < 0.6 * (to - from), "{closer}");
         let over = page.find("#campbell .u-over").await;
         let twice = hand(&page).double_click_element(&over);
         twice.perform().await.unwrap();
         assert_eq!(page.value("sawflutter.speeds()").await, all);
+        assert_eq!(
+            page.value("document.querySelector('#zoomed').hidden").await,
+            json!(true)
+        );
         page.close().await;
     });
 }
@@ -300,6 +313,14 @@ fn parts_that_are_put_in_begin_with_values_that_compute() {
         press("Put cut in").await;
         press("Put damping in").await;
         page.screenshot("1280-parts.png").await;
+        // What a reader of the screen hears is never the same twice.
+        let names = "[...document.querySelectorAll('#fields input, #fields select, #fields textarea')].map((field) => field.getAttribute('aria-label') ?? field.id)";
+        let twice = page
+            .value(&format!(
+                "((all) => all.filter((name, i) => all.indexOf(name) !== i))({names})"
+            ))
+            .await;
+        assert_eq!(twice, json!([]));
         page.close().await;
     });
 }

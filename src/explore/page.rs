@@ -28,6 +28,7 @@ files! {
     "motion.js": SCRIPT, "page/motion.js";
     "charts.js": SCRIPT, "page/charts.js";
     "marks.js": SCRIPT, "page/marks.js";
+    "panel.js": SCRIPT, "page/panel.js";
     "verdict.js": SCRIPT, "page/verdict.js";
     "words.js": SCRIPT, "page/words.js";
     "uplot.js": SCRIPT, "../../assets/uplot/uPlot.iife.min.js";

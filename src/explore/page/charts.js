@@ -1,69 +1,13 @@
-// The Campbell diagram and the growth rates: axes by uPlot, marks by marks.js.
+// The Campbell diagram and the growth rates: panels by panel.js, marks by marks.js.
 
 import {
   NEGLIGIBLE_PER_S, bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
 } from "./marks.js";
-import { shown } from "./words.js";
+import { plot, roundGrowth } from "./panel.js";
 
-const FONT = "12px Inter, Helvetica, Arial, sans-serif";
 const NEAR_PX = 14;
-
-function axis(label, size, splits) {
-  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4));
-  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
-}
-
-// Growth rates stand on a root scale. Round ones are marked, as far apart as can be read.
-const ROUND = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000];
-function roundGrowth(_, __, least, most) {
-  const marked = [0];
-  let last = 0;
-  for (const root of ROUND.map(Math.sqrt)) {
-    if (root - last < 0.16 * (most - least)) continue;
-    if (root <= most) marked.push(root);
-    if (-root >= least) marked.unshift(-root);
-    last = root;
-  }
-  return marked;
-}
-
-// uPlot wants a series to spread its axes over; the branches have speeds of their own and are
-// drawn by hand.
-function plot(place, { height, label, splits, yRange, draw, room, xLabel }) {
-  let range = null;
-  const options = {
-    width: 600,
-    height,
-    padding: [10, room, 0, 0],
-    legend: { show: false },
-    cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
-    scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
-    axes: [axis(xLabel, 28), axis(label, 46, splits)],
-    series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
-    hooks: { drawAxes: [draw] },
-  };
-  const chart = new uPlot(options, [[0, 1], [null, null]], place);
-  return {
-    chart,
-    setRange(wanted) {
-      range = wanted;
-      chart.setData([range, [null, null]], false);
-      chart.batch(() => {
-        chart.setScale("x", { min: range[0], max: range[1] });
-        chart.setScale("y", { min: yRange()[0], max: yRange()[1] });
-      });
-      chart.redraw(false, true);
-    },
-    setColours(colours) {
-      for (const each of chart.axes) {
-        Object.assign(each, { stroke: () => colours.quiet });
-        each.grid.stroke = () => colours.grid;
-        each.ticks.stroke = () => colours.grid;
-      }
-      chart.redraw(false, true);
-    },
-  };
-}
+// No shorter stretch of the sweep is shown.
+const LEAST_STRETCH = 1e-3;
 
 export class Charts {
   report = null;
@@ -71,9 +15,10 @@ export class Charts {
   highlighted = null;
   #zoom = null;
 
-  constructor(campbellPlace, growthPlace, colours, { onHover }) {
+  constructor(campbellPlace, growthPlace, colours, { onHover, onZoom }) {
     this.colours = colours;
     this.onHover = onHover;
+    this.onZoom = onZoom;
     this.measured = true;
     const narrow = () => campbellPlace.clientWidth < 480;
     const room = () => (narrow() ? 20 : 108);
@@ -144,16 +89,31 @@ export class Charts {
     over.addEventListener("mouseup", (event) => {
       const ends = [from, event.offsetX].map((px) => chart.posToVal(px, "x")).sort((x, y) => x - y);
       if (from !== null && Math.abs(event.offsetX - from) > 8) {
-        this.#zoom = ends;
-        this.redraw();
+        this.zoom(ends);
       }
       from = null;
       chart.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
     });
-    over.addEventListener("dblclick", () => {
-      this.#zoom = null;
-      this.redraw();
-    });
+    over.addEventListener("dblclick", () => this.zoom(null));
+  }
+
+  // Shows a stretch of speeds within the sweep, or all of them.
+  zoom(speeds) {
+    const { from_rpm, to_rpm } = this.report.campbell;
+    const ends = speeds && [Math.max(speeds[0], from_rpm), Math.min(speeds[1], to_rpm)];
+    const least = LEAST_STRETCH * (to_rpm - from_rpm);
+    if (ends && ends[1] - ends[0] < least) return;
+    this.#zoom = ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null;
+    this.redraw();
+    this.onZoom(this.#zoom);
+  }
+
+  // Closer or farther about the point that is looked at, or the middle.
+  #magnify(factor) {
+    const [from, to] = this.speeds;
+    const looked = this.highlighted?.rpm[this.spot];
+    const about = looked >= from && looked <= to ? looked : 0.5 * (from + to);
+    this.zoom([about + factor * (from - about), about + factor * (to - about)]);
   }
 
   // How far the growth axis goes, on a root scale: divergence grows thirty times as fast as
@@ -307,6 +267,12 @@ export class Charts {
     element.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
       if (event.key === "Escape") this.#point(null);
+      const factor = { "+": 0.5, "=": 0.5, "-": 2, 0: Infinity }[event.key];
+      if (factor && this.report && !event.ctrlKey && !event.metaKey) {
+        event.preventDefault();
+        if (factor === Infinity) this.zoom(null);
+        else this.#magnify(factor);
+      }
       if (!step || !this.report) return;
       event.preventDefault();
       this.#point(this.#walk(...step));

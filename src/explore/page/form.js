@@ -221,7 +221,9 @@ export class Form {
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
     if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : "none";
     const slider = node("input", { type: "range", min: 0, max: Range.NOTCHES, step: 1 });
-    slider.setAttribute("aria-label", `${name} slider`);
+    const fullName = inWords(path, name);
+    input.setAttribute("aria-label", unit ? `${fullName}, ${unit}` : fullName);
+    slider.setAttribute("aria-label", `${fullName}, slider`);
     const quantity = this.quantities.get(path.replace(/\[\d+\]/g, "[]"));
     const range = new Range(key, value ?? fallback ?? beginnings.number(key, this.state.scene) ?? 0, quantity, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
@@ -248,6 +250,13 @@ export class Form {
       }
     }, (allowed) => inUnit(name, allowed, unit, scale));
   }
+}
+
+// "guides[0].radius_m" is "guides 1: radius": no two fields sound alike.
+function inWords(path, name) {
+  const parts = path.split(".").slice(0, -1);
+  const words = parts.map((part) => part.replace(/\[(\d+)\]/g, (_, index) => ` ${Number(index) + 1}`).replaceAll("_", " "));
+  return [...words, name].join(": ");
 }
 
 // "between 1e-6 and 1000" of metres is "Thickness must be between 0.001 and 1e6 mm"; nothing where

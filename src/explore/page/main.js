@@ -35,7 +35,7 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp }) =
 const blade = new Blade(by("drawing"), state);
 const motion = new Motion(by("motion"), blade.mark, () => motionColours());
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
-const charts = new Charts(by("campbell"), by("growth"), colours, { onHover });
+const charts = new Charts(by("campbell"), by("growth"), colours, { onHover, onZoom });
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
@@ -45,6 +45,11 @@ seen.speeds = () => charts.speeds;
 seen.open = open;
 // A browser that is driven cannot answer whether to leave.
 seen.leave = () => (onDisk = JSON.stringify(state.scene));
+
+function onZoom(speeds) {
+  by("zoomed").hidden = speeds === null;
+  if (speeds) by("stretch").textContent = `${Math.round(speeds[0])} to ${Math.round(speeds[1])} rpm of the sweep`;
+}
 
 function motionColours() {
   const numbers = (text) => text.match(/\d+/g).map(Number);
@@ -121,7 +126,7 @@ function tell() {
   by("accuracy").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
   by("warnings").replaceChildren(...report.warnings.map((warning) => Object.assign(document.createElement("li"), { textContent: warning })));
-  by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches.`);
+  by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
 }
 
 const MEANING = {
@@ -268,6 +273,7 @@ function wire() {
   by("pin").addEventListener("click", pin);
   by("unpin").addEventListener("click", unpin);
   by("link").addEventListener("click", copyLink);
+  by("all").addEventListener("click", () => charts.zoom(null));
   by("over").addEventListener("click", startOver);
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
   addEventListener("dragover", (event) => event.preventDefault());

@@ -123,6 +123,14 @@ export function verticalLine(context, at, box, colour, scale, dash = FINE_DASH) 
 }
 
 // Names at the right ends of the branches, pushed apart; those without room are left out.
+// As much of a text as there is room for.
+function fitted(context, text, room) {
+  if (context.measureText(text).width <= room) return text;
+  let cut = text.length - 1;
+  while (cut > 1 && context.measureText(`${text.slice(0, cut)}…`).width > room) cut -= 1;
+  return `${text.slice(0, cut).trimEnd()}…`;
+}
+
 export function labelEnds(context, place, box, report, colours, scale) {
   const height = 13 * scale;
   const labels = report.campbell.branches
@@ -148,7 +156,7 @@ export function labelEnds(context, place, box, report, colours, scale) {
     if (Math.abs(at - end) > 60 * scale || at < box.top - height) continue;
     const colour = waveColour(colours, branch.direction.at(-1));
     context.fillStyle = colour;
-    context.fillText(branch.label, right + 14 * scale, at);
+    context.fillText(fitted(context, branch.label, context.canvas.width - right - 16 * scale), right + 14 * scale, at);
     context.strokeStyle = colour;
     context.globalAlpha = 0.5;
     context.lineWidth = scale;

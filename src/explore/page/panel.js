@@ -1,0 +1,62 @@
+// A panel of the chart: axes by uPlot, marks by whoever draws.
+
+import { shown } from "./words.js";
+
+const FONT = "12px Inter, Helvetica, Arial, sans-serif";
+
+function axis(label, size, splits) {
+  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4));
+  return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
+}
+
+// Growth rates stand on a root scale. Round ones are marked, as far apart as can be read.
+const ROUND = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000];
+export function roundGrowth(_, __, least, most) {
+  const marked = [0];
+  let last = 0;
+  for (const root of ROUND.map(Math.sqrt)) {
+    if (root - last < 0.16 * (most - least)) continue;
+    if (root <= most) marked.push(root);
+    if (-root >= least) marked.unshift(-root);
+    last = root;
+  }
+  return marked;
+}
+
+// uPlot wants a series to spread its axes over; the branches have speeds of their own and are
+// drawn by hand.
+export function plot(place, { height, label, splits, yRange, draw, room, xLabel }) {
+  let range = null;
+  const options = {
+    width: 600,
+    height,
+    padding: [10, room, 0, 0],
+    legend: { show: false },
+    cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
+    scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
+    axes: [axis(xLabel, 28), axis(label, 46, splits)],
+    series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
+    hooks: { drawAxes: [draw] },
+  };
+  const chart = new uPlot(options, [[0, 1], [null, null]], place);
+  return {
+    chart,
+    setRange(wanted) {
+      range = wanted;
+      chart.setData([range, [null, null]], false);
+      chart.batch(() => {
+        chart.setScale("x", { min: range[0], max: range[1] });
+        chart.setScale("y", { min: yRange()[0], max: yRange()[1] });
+      });
+      chart.redraw(false, true);
+    },
+    setColours(colours) {
+      for (const each of chart.axes) {
+        Object.assign(each, { stroke: () => colours.quiet });
+        each.grid.stroke = () => colours.grid;
+        each.ticks.stroke = () => colours.grid;
+      }
+      chart.redraw(false, true);
+    },
+  };
+}
