@@ -145,6 +145,8 @@ class CampbellResults(Result, CampbellReport):
         "root-loci.png",
         "membrane.svg",
         "membrane.png",
+        "in-cut.svg",
+        "in-cut.png",
     )
 
     @property

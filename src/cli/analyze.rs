@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, rad_per_s};
 use crate::stability::{Analysis, AnalysisOptions, sensitivities};
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args;
 
 use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
@@ -22,6 +22,7 @@ Examples:
   make-scene | sawflutter analyze -                   a scene from a program
   sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
   sawflutter analyze --at-rpm 1800                    the modes of one speed
+  sawflutter analyze --in-cut 2800                    under the forces of its cut
   sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
 
 #[derive(Args, Default)]
@@ -40,13 +41,24 @@ pub struct Arguments {
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     at_rpm: Option<f64>,
+    /// Chart the saw under the forces of its cut at this speed, beside the idling saw; by default
+    /// the operating speed
+    #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true)]
+    in_cut: Option<Option<f64>>,
 }
 
 /// Charts saws, writes their files and prints the summary, or a table of several.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let read = |path: &PathBuf| arguments.finely.applied(read_scene(path)?);
+    let asked = |scene: Scene| {
+        let scene = arguments.finely.applied(scene)?;
+        match arguments.in_cut {
+            Some(rpm) => in_cut(&scene, rpm),
+            None => Ok(scene),
+        }
+    };
+    let read = |path: &PathBuf| asked(read_scene(path)?);
     match &arguments.scenes[..] {
-        [] => one(arguments, &arguments.finely.applied(Scene::paper())?),
+        [] => one(arguments, &asked(Scene::paper())?),
         [path] => one(arguments, &read(path)?),
         paths => {
             let scenes = paths
@@ -58,6 +70,25 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             })
         }
     }
+}
+
+/// The saw under the forces of its cut at a speed.
+fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
+    let cut = scene.cut().context(
+        "--in-cut is given, but the scene has no cut; write its forces into the scene, see `sawflutter schema`",
+    )?;
+    let rpm = rpm
+        .or(scene.file().operating_rpm)
+        .or(cut.runs.first().map(|run| run.rpm));
+    let rpm = rpm.context(
+        "--in-cut has no speed, and the scene neither operating_rpm nor cut.speeds; name one, like --in-cut 1800",
+    )?;
+    let charted = scene.edited(|file| {
+        file.cut
+            .iter_mut()
+            .for_each(|cut| cut.chart_rpm = Some(rpm));
+    });
+    charted.context("--in-cut was refused")
 }
 
 fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {

@@ -2,7 +2,7 @@
 
 use super::canvas::Sheet;
 use super::{
-    FigureError, campbell, check, cut, cut_map, fit, membrane, place, render, response_map,
+    FigureError, campbell, check, cut, cut_map, fit, in_cut, membrane, place, render, response_map,
     root_loci, runup, spline_orbit, study,
 };
 use crate::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
@@ -79,13 +79,19 @@ impl Figures for Report {
         ["campbell.png", "campbell.svg"],
         ["root-loci.png", "root-loci.svg"],
         ["membrane.png", "membrane.svg"],
+        ["in-cut.png", "in-cut.svg"],
     ];
 
     fn figures(&self) -> Vec<Figure> {
         let campbell = Some(campbell::sheet(self));
         named(
             Self::NAMES,
-            [campbell, root_loci::sheet(self), membrane::sheet(self)],
+            [
+                campbell,
+                root_loci::sheet(self),
+                membrane::sheet(self),
+                in_cut::sheet(self),
+            ],
         )
     }
 }

@@ -28,6 +28,7 @@ mod draws;
 mod fit;
 mod heading;
 mod heat;
+mod in_cut;
 mod key;
 mod meeting;
 mod membrane;

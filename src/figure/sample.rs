@@ -89,6 +89,7 @@ pub fn empty_report(name: &str) -> Report {
             branches: Vec::new(),
         },
         root_loci: None,
+        in_cut: None,
         excitation: None,
         membrane: None,
         sensitivities: Vec::new(),

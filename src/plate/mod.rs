@@ -35,7 +35,7 @@ use faer::Mat;
 
 use stress::CentrifugalStress;
 
-use crate::scene::{Accuracy, Blade, Damping, Scene};
+use crate::scene::{Accuracy, Blade, Cut, CutRun, Damping, Scene};
 
 /// How many functions describe the deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -135,7 +135,10 @@ impl Plate {
             guide.add_to(&plate, &mut contact);
         }
         plate.contact = contact;
-        plate
+        match scene.cut().and_then(|cut| cut.chart.map(|run| (cut, run))) {
+            Some((cut, run)) => plate.in_cut(cut, &run),
+            None => plate,
+        }
     }
 
     /// The same plate, touched by something more.
@@ -149,6 +152,16 @@ impl Plate {
     pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
         let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
         self.with_edge_stiffness(edge_stiffness(self, &stress))
+    }
+
+    /// The same plate in a cut: under its forces, as dead loads, and against its wood.
+    pub fn in_cut(&self, cut: &Cut, run: &CutRun) -> Self {
+        let loads = RimForce::of_cut(cut, run.tangential_n, run.radial_n);
+        let loaded = self.with_edge_loads(&loads);
+        match &cut.wood {
+            Some(wood) => loaded.with_contact(wood),
+            None => loaded,
+        }
     }
 
     /// The same plate with a given K_e, in 1/s², N × N.

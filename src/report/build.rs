@@ -9,7 +9,7 @@ use super::branches::{Numbered, standing};
 use super::remarks::{reached, terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, ExcitationEntry,
-    HarmonicEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
+    HarmonicEntry, InCutEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
     RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
 use crate::plate::Plate;
@@ -42,7 +42,7 @@ impl Analysis {
         Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
-            terms: terms(&model.plate),
+            terms: terms(scene, &model.plate),
             modes_at_rest: rest_modes(analysis, &branches),
             critical_speeds: critical_speeds(analysis, &branches),
             instabilities: instabilities(analysis, &branches, scene.flutter_threshold_per_s()),
@@ -52,6 +52,7 @@ impl Analysis {
             operating: scene
                 .operating_rad_per_s()
                 .map(|speed| operating(analysis, speed)),
+            in_cut: InCutEntry::new(analysis),
             excitation: ExcitationEntry::new(scene, &self.crossings, &branches),
             whirl: None,
             accuracy: AccuracyEntry {

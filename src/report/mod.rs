@@ -13,6 +13,7 @@ mod csv;
 mod cut;
 mod excitation;
 mod fit;
+mod in_cut;
 mod membrane;
 mod mode;
 mod place;
@@ -33,6 +34,7 @@ pub use self::cut::{
 };
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
@@ -67,6 +69,9 @@ pub struct Report {
     pub first_merge_rpm: Option<f64>,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
+    /// The forces of the cut on the chart, and the saw without them, when the scene asks for it.
+    #[serde(default)]
+    pub in_cut: Option<InCutEntry>,
     /// Multiples of the rotation speed and where they meet natural frequencies, when the scene
     /// asks for them.
     #[serde(default)]

@@ -16,7 +16,7 @@ const LEAST_DIGITS: f64 = 1e-6;
 const CALIBRATED_N_PER_M: f64 = 1e9;
 
 /// Terms of the equation of motion that were assembled.
-pub fn terms(plate: &Plate) -> Vec<String> {
+pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     let always = [
         "bending K_b",
         "centrifugal stress K_sigma",
@@ -42,9 +42,23 @@ pub fn terms(plate: &Plate) -> Vec<String> {
         let membrane = plate.membrane.as_ref();
         add(membrane.is_some_and(|stress| stress.has(source)), name);
     }
+    add(plate.edge_stiffness.is_some(), "forces of the cut K_e");
     let contact = &plate.contact;
-    add(contact.stiffness().is_some(), "guide stiffness K_g");
-    add(contact.damping().is_some(), "guide damping C");
+    let guides = scene.guides().iter();
+    let stiff = guides.clone().any(|guide| guide.stiffness_n_per_m > 0.0);
+    add(stiff, "guide stiffness K_g");
+    let damped = guides.clone().any(|guide| guide.damping_n_s_per_m > 0.0);
+    add(damped, "guide damping C");
+    let in_cut = scene.cut().filter(|cut| cut.chart.is_some());
+    let wood = in_cut.and_then(|cut| cut.wood);
+    add(
+        wood.is_some_and(|wood| wood.stiffness_n_per_m > 0.0),
+        "wood stiffness K_g",
+    );
+    add(
+        wood.is_some_and(|wood| wood.damping_n_s_per_m > 0.0),
+        "wood damping C",
+    );
     let without_potential = contact.nonconservative_stiffness().is_some();
     add(without_potential, "contact forces without potential K_n");
     let damping = plate.damping.as_ref();

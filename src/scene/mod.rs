@@ -24,7 +24,7 @@ mod validate;
 mod validated;
 
 pub(crate) use check::MAX_RPM;
-pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
+pub use cut::{Cut, CutFile, CutRun, CutSpeedFile, Wood, WoodFile};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,

@@ -111,6 +111,14 @@ impl Scene {
         })
     }
 
+    /// The same saw without the forces of the cut on its chart.
+    ///
+    /// # Errors
+    /// None that this scene has not had: it is validated again.
+    pub fn idling(&self) -> Result<Scene, SceneError> {
+        self.edited(|file| file.cut.iter_mut().for_each(|cut| cut.chart_rpm = None))
+    }
+
     /// What the user typed.
     pub fn file(&self) -> &SceneFile {
         &self.file

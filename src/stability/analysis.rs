@@ -10,6 +10,7 @@ use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::heat::HeatLimits;
 use super::loci::RootLoci;
+use super::onsets::Onsets;
 use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
 use crate::scene::{Scene, rpm};
@@ -72,6 +73,8 @@ pub struct Analysis {
     pub fastest_operating: Option<c64>,
     /// How hot the blade may become, of a scene with temperature.
     pub heat: Option<HeatLimits>,
+    /// The same saw without the forces of the cut, where the scene has them on the chart.
+    pub idling: Option<Onsets>,
     /// Where the lines of the scene's excitation cross branches, by line and speed.
     pub crossings: Vec<Crossing>,
 }
@@ -128,6 +131,10 @@ impl Analysis {
             _ => model.describe(0.0, model.modes(0.0)?),
         };
         let crossings = crossings(&model, &chart, scene.excitation())?;
+        let idling = match scene.cut().and_then(|cut| cut.chart) {
+            Some(_) if detail == Detail::Full => Some(Onsets::idling(scene, range)?),
+            _ => None,
+        };
         let mut analysis = Analysis {
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
@@ -141,6 +148,7 @@ impl Analysis {
             modes_at_rest,
             fastest_operating: None,
             heat,
+            idling,
             crossings,
         };
         if let Some(speed) = scene.operating_rad_per_s() {

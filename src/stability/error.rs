@@ -1,6 +1,7 @@
 //! Why a saw could not be analysed.
 
 use crate::campbell::CampbellError;
+use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 
 /// Why a saw could not be analysed: an eigenproblem without an answer, or a sweep that the model
@@ -11,6 +12,9 @@ pub enum AnalysisError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
+    /// The saw without the forces of its cut is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The chart would not fit into the memory allowed.
     #[error(transparent)]
     Campbell(CampbellError),

@@ -8,7 +8,7 @@ use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::plate::Plate;
-use crate::scene::Scene;
+use crate::scene::{Scene, SpeedRange};
 use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
@@ -16,6 +16,8 @@ use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 pub struct Onsets {
     /// Lowest critical speed, in rad/s.
     pub lowest_critical_rad_per_s: Option<f64>,
+    /// Critical speeds within the range, ascending, in rad/s.
+    pub critical_rad_per_s: Vec<f64>,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
     /// Lowest speed at which flutter counts, in rad/s, see [`Instability::counted`].
@@ -31,6 +33,21 @@ pub struct Onsets {
 }
 
 impl Onsets {
+    /// Those of the idling saw over a range of speeds.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] when an eigenproblem fails.
+    pub(super) fn idling(
+        scene: &Scene,
+        (from_rad_per_s, to_rad_per_s): (f64, f64),
+    ) -> Result<Self, AnalysisError> {
+        let range = SpeedRange {
+            from_rad_per_s,
+            to_rad_per_s,
+        };
+        Self::new(&scene.idling()?.swept(range)?)
+    }
+
     /// Finds the onsets of a saw over the speeds of its scene.
     ///
     /// # Errors
@@ -44,6 +61,8 @@ impl Onsets {
             ..
         } = ChosenBasis::new(scene, scene.tolerance())?;
         let lowest_critical = critical.first().map(|c| c.speed_rad_per_s);
+        let speeds = critical.iter().map(|c| c.speed_rad_per_s);
+        let critical_rad_per_s = speeds.take_while(|speed| *speed <= range.1).collect();
         let functions = plate.degrees_of_freedom();
         // Nothing couples the waves of a free blade, and nothing is reflected below the lowest
         // critical speed: then there are no bands to search for.
@@ -57,6 +76,7 @@ impl Onsets {
         let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);
         Ok(Onsets {
             lowest_critical_rad_per_s: lowest_critical,
+            critical_rad_per_s,
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,
             instabilities,

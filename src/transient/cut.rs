@@ -10,7 +10,7 @@ use crate::spectrum::{companion_eigenpairs, fastest_growing_of};
 use crate::system::GyroscopicSystem;
 
 use super::linear::Gauge;
-use super::saw_in_cut::{MODES, SawInCut, lateral_load, rim_forces};
+use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
 use super::{Propagator, State, TransientError};
 
@@ -91,7 +91,11 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
     } = saw;
     let speed = run.speed_rad_per_s;
     let by_power = run.tangential_of_power_n.map(|tangential_n| {
-        let plate = plate.with_edge_loads(&rim_forces(cut, tangential_n, run.radial_n));
+        let by_power = CutRun {
+            tangential_n,
+            ..**run
+        };
+        let plate = plate.in_cut(cut, &by_power);
         Growth::of_plate(&plate, speed)
     });
     let idle = Growth::of_plate(plate, speed)?;

@@ -36,7 +36,7 @@ pub use runup::RunUpHistory;
 pub use runup::run_up;
 pub(crate) use runup::{BandGrowth, band_growths};
 #[doc(hidden)]
-pub use saw_in_cut::{SawInCut, in_cut_plate};
+pub use saw_in_cut::SawInCut;
 pub use scenario::{Cutting, CuttingRun, RunningUp};
 #[doc(hidden)]
 pub use sinusoids::{FitError, fitted_growth};

@@ -1,6 +1,6 @@
 //! The cut with the reaction that the teeth of the spline give, in place of the assumed one.
 
-use crate::plate::Plate;
+use crate::plate::{Plate, RimForce};
 use crate::scene::{Cut, CutRun, Scene};
 use crate::spectrum::fastest_growing_of;
 use crate::spline::{self, SplineRun, reaction_effect};
@@ -9,7 +9,7 @@ use crate::system::GyroscopicSystem;
 use super::TransientError;
 use super::cut::Growth;
 use super::reduced::{ReducedBlade, Snapshot};
-use super::saw_in_cut::{MODES, rim_forces};
+use super::saw_in_cut::MODES;
 
 /// What the simulated reaction changes.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ pub fn on_spline(
         return Ok(None);
     }
     let speed_rad_per_s = run.speed_rad_per_s;
-    let loads = rim_forces(cut, run.tangential_n, run.radial_n);
+    let loads = RimForce::of_cut(cut, run.tangential_n, run.radial_n);
     let motion = spline::simulate(scene, &loads, speed_rad_per_s, &spline::Run::default())?;
     let effect = reaction_effect(plate, &loads, &motion.reaction);
     let system = GyroscopicSystem::of_plate(plate);

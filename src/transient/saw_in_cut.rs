@@ -2,7 +2,7 @@
 
 use faer::{Col, Mat};
 
-use crate::plate::{Plate, RimForce};
+use crate::plate::Plate;
 use crate::scene::{Cut, CutRun};
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
@@ -33,22 +33,6 @@ pub struct SawInCut<'a> {
 /// Modes of the idle and of the cutting saw that span its motions.
 pub(super) const MODES: usize = 14;
 
-/// The forces of the teeth in the plane of the blade.
-pub fn rim_forces(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<RimForce> {
-    cut.tooth_angles_rad()
-        .map(|angle_rad| RimForce {
-            angle_rad,
-            radial_n: -radial_n,
-            tangential_n: -tangential_n,
-        })
-        .collect()
-}
-
-/// The plate under the forces of a cut in its plane.
-pub fn in_cut_plate(plate: &Plate, cut: &Cut, run: &CutRun) -> Plate {
-    plate.with_edge_loads(&rim_forces(cut, run.tangential_n, run.radial_n))
-}
-
 /// Σ φ(b, θ_k) of the teeth: the load of one newton across the blade on each.
 pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
@@ -64,7 +48,7 @@ impl<'a> SawInCut<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(plate: &'a Plate, cut: &'a Cut, run: &'a CutRun) -> Result<Self, SpectrumError> {
-        let cutting = in_cut_plate(plate, cut, run);
+        let cutting = plate.in_cut(cut, run);
         let order = plate.degrees_of_freedom();
         let edge_stiffness = cutting.edge_stiffness.clone();
         let edge_stiffness = edge_stiffness.unwrap_or_else(|| Mat::zeros(order, order));

@@ -103,7 +103,7 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
         .map(|run| run.speed_rad_per_s)
         .fold(0.0, f64::max);
     let to_rad_per_s = scene.sweep().map_or(0.0, |sweep| sweep.to_rad_per_s);
-    let swept = scene.swept(SpeedRange {
+    let swept = scene.idling()?.swept(SpeedRange {
         from_rad_per_s: 0.0,
         to_rad_per_s: to_rad_per_s.max(fastest),
     })?;
@@ -142,7 +142,7 @@ impl RunningUp {
         runup: &RunUp,
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
-        let swept = scene.swept(runup.speeds)?;
+        let swept = scene.idling()?.swept(runup.speeds)?;
         let analysis = Analysis::new(&swept)?;
         let model = &analysis.model;
         let modes = model.modes(runup.speeds.from_rad_per_s)?;

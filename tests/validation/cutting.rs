@@ -9,8 +9,7 @@ use sawflutter::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{fastest_growing_of, lowest_eigenpairs, orthonormal, split};
 use sawflutter::system::GyroscopicSystem;
 use sawflutter::transient::{
-    Newmark, Propagator, SawInCut, State, cut_history, in_cut_plate, run_up, tooth_passing,
-    verdict_map,
+    Newmark, Propagator, SawInCut, State, cut_history, run_up, tooth_passing, verdict_map,
 };
 
 const SMALL: Resolution = Resolution {
@@ -108,7 +107,7 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     let plate = paper_plate(SMALL);
     let run = run_at(2800.0);
     let speed = run.speed_rad_per_s;
-    let system = GyroscopicSystem::of_plate(&in_cut_plate(&plate, &paper_cut(), &run));
+    let system = GyroscopicSystem::of_plate(&plate.in_cut(&paper_cut(), &run));
     // On few modes, for the stiffest of all would ask for steps of a microsecond.
     let basis = low_modes(&system, speed);
     let system = system.project(basis.as_ref());
@@ -180,7 +179,7 @@ fn few_motions_make_the_record_of_the_whole_basis() {
     let (cut, run) = (paper_cut(), run_at(2800.0));
     let probe = *Scene::paper().probe();
     let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), &probe).unwrap();
-    let system = GyroscopicSystem::of_plate(&in_cut_plate(&plate, &cut, &run));
+    let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
     let point = |radius, angle| {
         let values = plate.functions_at(radius, angle);
         Col::from_fn(values.len(), |i| values[i])
@@ -268,7 +267,7 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
                 radial_n: level * run.radial_n,
                 ..run
             };
-            let cutting = in_cut_plate(&moved, &cut, &scaled);
+            let cutting = moved.in_cut(&cut, &scaled);
             let exact = fastest_growing_of(&cutting, run.speed_rad_per_s).unwrap();
             let exact = exact.map_or(0.0, |lambda| lambda.re);
             let mapped = map.growth_per_s[row][column];

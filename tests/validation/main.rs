@@ -14,6 +14,7 @@ mod excitation;
 mod floquet;
 mod follower;
 mod heat_limits;
+mod in_cut;
 mod membrane;
 mod moving_loads;
 mod paper;

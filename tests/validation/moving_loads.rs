@@ -4,7 +4,7 @@ use faer::{Mat, Scale};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Cut, CutRun, Scene};
 use sawflutter::system::GyroscopicSystem;
-use sawflutter::transient::{SawInCut, in_cut_plate, tooth_passing};
+use sawflutter::transient::{SawInCut, tooth_passing};
 
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
@@ -37,7 +37,7 @@ fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: 
         let turn = ((stage as f64 + 0.5) / stages as f64 - 0.5) * cut.pitch_rad;
         let mut turned = cut.clone();
         turned.angle_rad += turn;
-        let system = GyroscopicSystem::of_plate(&in_cut_plate(plate, &turned, run));
+        let system = GyroscopicSystem::of_plate(&plate.in_cut(&turned, run));
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
         let pull = |q: &Mat<f64>, v: &Mat<f64>| -(&stiffness * q) - &velocity * v;
         for _ in 0..steps {

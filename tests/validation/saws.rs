@@ -77,5 +77,6 @@ pub fn dense_analysis(
         fastest_operating: None,
         heat: None,
         crossings: Vec::new(),
+        idling: None,
     }
 }

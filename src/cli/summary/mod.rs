@@ -3,6 +3,7 @@
 mod answer;
 mod bands;
 mod excitation;
+mod in_cut;
 mod influences;
 mod whirl;
 
@@ -23,6 +24,7 @@ pub fn summary(report: &Report) -> String {
     // Writing to a string cannot fail.
     let _ = header(&mut text, report);
     let _ = answer::answer(&mut text, report);
+    let _ = in_cut::in_cut(&mut text, report);
     let _ = modes(&mut text, report);
     let _ = critical_speeds(&mut text, report);
     let _ = bands::bands(&mut text, report);

@@ -96,7 +96,8 @@ export class Form {
   }
 
   #details(path, title, description, ...children) {
-    const remark = ELSEWHERE[path] ? ` Not in this chart: see “sawflutter ${ELSEWHERE[path]}”.` : "";
+    const elsewhere = path === "cut" ? "In this chart only where chart_rpm is given" : "Not in this chart";
+    const remark = ELSEWHERE[path] ? ` ${elsewhere}: see “sawflutter ${ELSEWHERE[path]}”.` : "";
     const details = node("details", {}, node("summary", { textContent: title, title: (description ?? "") + remark }));
     details.dataset.path = path;
     if (remark) details.append(node("p", { className: "remark", textContent: remark.trim() }));

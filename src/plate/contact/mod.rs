@@ -3,6 +3,8 @@
 //! A kind of contact is a type that implements [`Contact`], in a file of its own.
 
 mod guide;
+mod patch;
+mod wood;
 
 use faer::{Mat, Scale};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::Blade;
+use crate::scene::{Blade, Cut};
 
 /// A force at a point of the rim r = b, fixed in place and direction in space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -13,6 +13,19 @@ pub struct RimForce {
     pub radial_n: f64,
     /// Component along the rim, positive in the direction of rotation.
     pub tangential_n: f64,
+}
+
+impl RimForce {
+    /// The forces of the teeth of a cut: against the rotation, and towards the axis.
+    pub fn of_cut(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<Self> {
+        cut.tooth_angles_rad()
+            .map(|angle_rad| RimForce {
+                angle_rad,
+                radial_n: -radial_n,
+                tangential_n: -tangential_n,
+            })
+            .collect()
+    }
 }
 
 /// A force on the blade at a point of the bore r = a, fixed in place and direction in space.

@@ -1,0 +1,132 @@
+//! The speeds at which a saw is unstable, idling and under the forces of a cut, one above the other.
+
+use super::axis::{Axis, Spread, draw_horizontal};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::key::Key;
+use super::style::{
+    AXIS_SIZE, BETWEEN_FACTS, DIVERGENCE_SHADE, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK,
+    LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE,
+};
+use super::{bands, heading};
+use crate::report::{InCutEntry, InstabilityEntry, Report};
+
+const WIDTH: u32 = 1200;
+const HEIGHT: u32 = 420;
+const LEFT: f64 = 300.0;
+const RIGHT: f64 = 1160.0;
+const TOP: f64 = 104.0;
+const ROW: f64 = 96.0;
+/// Between the shades of the two rows.
+const GAP: f64 = 14.0;
+
+/// A row: what there is of one of the two saws.
+struct Row<'a> {
+    name: String,
+    critical_rpm: Vec<f64>,
+    bands: &'a [InstabilityEntry],
+    flutter_rpm: Option<f64>,
+}
+
+/// `None` where the chart is of the idling saw.
+pub fn sheet(report: &Report) -> Option<Sheet> {
+    let in_cut = report.in_cut.as_ref()?;
+    let idling = in_cut.idling.as_ref()?;
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    heading::draw(&mut sheet, &report.scene.name, &facts(in_cut));
+    let range = [report.campbell.from_rpm, report.campbell.to_rpm];
+    let speed = Axis::new(range, [LEFT, RIGHT], Spread::Linear);
+    let critical = report.critical_speeds.iter().map(|critical| critical.rpm);
+    let rows = [
+        Row {
+            name: "idling".to_owned(),
+            critical_rpm: idling.critical_speeds_rpm.clone(),
+            bands: &idling.instabilities,
+            flutter_rpm: idling.flutter_speed_rpm,
+        },
+        Row {
+            name: "in the cut".to_owned(),
+            critical_rpm: critical.collect(),
+            bands: &report.instabilities,
+            flutter_rpm: report.flutter_speed_rpm,
+        },
+    ];
+    for (k, row) in rows.iter().enumerate() {
+        let top = TOP + ROW * k as f64;
+        let frame = Frame {
+            left: LEFT,
+            top,
+            right: RIGHT,
+            bottom: top + ROW - GAP,
+        };
+        row.draw(&mut sheet, &speed, frame);
+    }
+    let bottom = TOP + 2.0 * ROW;
+    if let Some(rpm) = report.scene.operating_rpm.filter(|rpm| speed.shows(*rpm)) {
+        let x = speed.at(rpm);
+        sheet.line([[x, TOP - 6.0], [x, bottom]], Stroke::solid(INK, HAIRLINE));
+        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
+        sheet.text([x, TOP - 10.0], letters, &format!("operating {rpm:.0}"));
+    }
+    draw_horizontal(&mut sheet, &speed, bottom, true);
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    sheet.text([0.5 * (LEFT + RIGHT), bottom + 42.0], letters, name);
+    draw_key(&mut sheet);
+    Some(sheet)
+}
+
+fn facts(in_cut: &InCutEntry) -> String {
+    [
+        format!("forces of {:.0} rpm at every speed", in_cut.rpm),
+        format!(
+            "{:.0} N against the rotation and {:.0} N inwards on each of {} teeth",
+            in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth, in_cut.teeth
+        ),
+    ]
+    .join(BETWEEN_FACTS)
+}
+
+impl Row<'_> {
+    fn draw(&self, sheet: &mut Sheet, speed: &Axis, frame: Frame) {
+        bands::shade(sheet, speed, self.bands.iter(), &[frame]);
+        let line = [[frame.left, frame.bottom], [frame.right, frame.bottom]];
+        sheet.line(line, Stroke::solid(GRID, HAIRLINE));
+        let shown = self.critical_rpm.iter().filter(|rpm| speed.shows(**rpm));
+        for rpm in shown {
+            sheet.disc([speed.at(*rpm), frame.bottom], 3.5, INK);
+        }
+        let shown = self.flutter_rpm.filter(|rpm| speed.shows(*rpm));
+        if let Some(x) = shown.map(|rpm| speed.at(rpm)) {
+            let upright = [[x, frame.top], [x, frame.bottom]];
+            sheet.line(upright, Stroke::solid(FLUTTER, STRONG_CURVE));
+        }
+        let middle = 0.5 * (frame.top + frame.bottom);
+        let letters = |colour| Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
+        sheet.text([MARGIN, middle - 16.0], letters(INK), &self.name);
+        let told = |what: &str, rpm: Option<f64>| match rpm {
+            Some(rpm) => format!("{what} {rpm:.0} rpm"),
+            None => format!("no {what} in the sweep"),
+        };
+        let lowest = self.critical_rpm.first().copied();
+        let critical = told("critical speed", lowest);
+        sheet.text([MARGIN, middle + 2.0], letters(QUIET), &critical);
+        let flutter = told("flutter speed", self.flutter_rpm);
+        sheet.text([MARGIN, middle + 20.0], letters(QUIET), &flutter);
+    }
+}
+
+fn draw_key(sheet: &mut Sheet) {
+    let upright = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
+        let line = [[x, y - 8.0], [x, y + 8.0]];
+        sheet.line(line, Stroke::solid(FLUTTER, STRONG_CURVE));
+    };
+    Key::new(sheet, MARGIN, f64::from(HEIGHT) - 20.0)
+        .shade(DIVERGENCE_SHADE)
+        .word("divergence")
+        .shade(FLUTTER_SHADE)
+        .word("flutter")
+        .mark(4.0, upright)
+        .word("flutter speed")
+        .mark(8.0, |sheet, [x, y]| sheet.disc([x + 4.0, y], 3.5, INK))
+        .word("critical speed");
+}

@@ -1,0 +1,127 @@
+//! Integrals of products of two functions over a patch that stands in space.
+//!
+//! On a circle a patch covers a few arcs, the same on both sides of its centre line. The integrals of
+//! cos kψ over them are elementary, so only the radius needs quadrature.
+
+use nalgebra::DMatrix;
+
+use super::super::Plate;
+use super::super::radial::RadialBasis;
+
+/// What a patch has of a circle.
+pub struct Circle {
+    /// Its radius.
+    pub radius_m: f64,
+    /// Weight of the circle, for each radian of its arcs.
+    pub weight: f64,
+    /// Arcs 0 ≤ |ψ| ≤ π, upper half only; `None` for the point ψ = 0.
+    pub arcs: Option<Vec<(f64, f64)>>,
+}
+
+/// ∫ φᵢ φⱼ over a patch as one J × J matrix for each k = |n ± m|:
+/// Q_k = Σ weight R_j R_l ∫ cos kψ dψ, ψ from the centre line.
+struct PatchHarmonics {
+    angle_rad: f64,
+    by_order: Vec<DMatrix<f64>>,
+}
+
+/// Σ weight ∫ φᵢφⱼ dψ over the circles of a patch whose centre line is at an angle, in 1/kg.
+/// N × N, symmetric, positive semidefinite.
+pub fn coupling(
+    plate: &Plate,
+    angle_rad: f64,
+    circles: impl Iterator<Item = Circle>,
+) -> faer::Mat<f64> {
+    let (basis, max_diameters) = (&plate.basis, plate.max_diameters());
+    let harmonics = PatchHarmonics::new(basis, angle_rad, circles, 2 * max_diameters);
+    let size = basis.count();
+    let mut coupling = faer::Mat::zeros(plate.degrees_of_freedom(), plate.degrees_of_freedom());
+    for n in 0..=max_diameters {
+        for m in 0..=n {
+            let [cos_cos, cos_sin, sin_cos, sin_sin] = harmonics
+                .between(n, m)
+                .map(|block| basis.turned(n, m, block));
+            let norm = plate.angular_norm(n) * plate.angular_norm(m);
+            let mut put = |row: usize, column: usize, block: &DMatrix<f64>| {
+                for j in 0..size {
+                    for k in 0..size {
+                        let value = block[(j, k)] / norm;
+                        coupling[(row + j, column + k)] = value;
+                        coupling[(column + k, row + j)] = value;
+                    }
+                }
+            };
+            let (cos_n, cos_m) = (plate.offset(n), plate.offset(m));
+            put(cos_n, cos_m, &cos_cos);
+            if m > 0 {
+                put(cos_n, cos_m + size, &cos_sin);
+                put(cos_n + size, cos_m + size, &sin_sin);
+            }
+            if n > 0 {
+                put(cos_n + size, cos_m, &sin_cos);
+            }
+        }
+    }
+    coupling
+}
+
+/// Points of a rule over the radius that integrate J functions twice with the arcs of order k.
+pub fn sufficient_points(plate: &Plate) -> usize {
+    plate.basis.count() + plate.max_diameters() + 12
+}
+
+impl PatchHarmonics {
+    fn new(
+        basis: &RadialBasis,
+        angle_rad: f64,
+        circles: impl Iterator<Item = Circle>,
+        max_order: usize,
+    ) -> Self {
+        let size = basis.count();
+        let mut by_order = vec![DMatrix::zeros(size, size); max_order + 1];
+        for circle in circles {
+            let values = nalgebra::DVector::from_vec(basis.evaluate(0, circle.radius_m).value);
+            let outer = &values * values.transpose();
+            for (k, matrix) in by_order.iter_mut().enumerate() {
+                let angular = circle
+                    .arcs
+                    .as_ref()
+                    .map_or(1.0, |arcs| cosine_integral(arcs, k));
+                *matrix += &outer * (circle.weight * angular);
+            }
+        }
+        PatchHarmonics {
+            angle_rad,
+            by_order,
+        }
+    }
+
+    /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling,
+    /// from the products-to-sums rules and the turn by the angle of the centre line.
+    fn between(&self, n: usize, m: usize) -> [DMatrix<f64>; 4] {
+        let (difference, sum) = (n - m, n + m);
+        let (sin_d, cos_d) = (difference as f64 * self.angle_rad).sin_cos();
+        let (sin_s, cos_s) = (sum as f64 * self.angle_rad).sin_cos();
+        let (q_d, q_s) = (&self.by_order[difference], &self.by_order[sum]);
+        [
+            (q_d * cos_d + q_s * cos_s) * 0.5,
+            (q_s * sin_s - q_d * sin_d) * 0.5,
+            (q_s * sin_s + q_d * sin_d) * 0.5,
+            (q_d * cos_d - q_s * cos_s) * 0.5,
+        ]
+    }
+}
+
+/// ∫ cos kψ dψ over the arcs and their mirror images.
+fn cosine_integral(arcs: &[(f64, f64)], k: usize) -> f64 {
+    let k = k as f64;
+    arcs.iter()
+        .map(|(low, high)| {
+            if k == 0.0 {
+                2.0 * (high - low)
+            } else {
+                2.0 * ((k * high).sin() - (k * low).sin()) / k
+            }
+        })
+        .sum()
+}

@@ -1,0 +1,48 @@
+//! The wood beside the blade in the kerf.
+
+use faer::Scale;
+
+use crate::scene::Wood;
+
+use super::super::{Plate, quadrature};
+use super::patch::{Circle, coupling, sufficient_points};
+use super::{Contact, ContactTerms};
+
+/// Stiffness k and damping c of the whole contact, spread evenly over a sector of an annulus at the
+/// rim (over an arc of the rim, where it has no depth): k/A ∫ φᵢφⱼ dA and c/A ∫ φᵢφⱼ dA.
+impl Contact for Wood {
+    fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
+        let circles = self.circles(plate);
+        let coupling = coupling(plate, self.angle_rad, circles.into_iter());
+        if self.stiffness_n_per_m > 0.0 {
+            terms.add_stiffness(&(Scale(self.stiffness_n_per_m) * &coupling));
+        }
+        if self.damping_n_s_per_m > 0.0 {
+            terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
+        }
+    }
+}
+
+impl Wood {
+    fn circles(&self, plate: &Plate) -> Vec<Circle> {
+        let outer = plate.blade.outer_radius_m;
+        let half = 0.5 * self.arc_rad;
+        let circle = |radius_m: f64, weight: f64| Circle {
+            radius_m,
+            weight,
+            arcs: Some(vec![(0.0, half)]),
+        };
+        if self.depth_m == 0.0 {
+            return vec![circle(outer, 1.0 / self.arc_rad)];
+        }
+        let inner = outer - self.depth_m;
+        let mut edges = plate.blade.edges_m();
+        edges.retain(|r| *r > inner);
+        edges.insert(0, inner);
+        let area = 0.5 * self.arc_rad * (outer - inner) * (outer + inner);
+        quadrature::piecewise(&edges, sufficient_points(plate))
+            .iter()
+            .map(|(r, w)| circle(r, w * r / area))
+            .collect()
+    }
+}
