@@ -52,6 +52,7 @@ def check(
     margin: float = 0.85,
     min_flutter_rpm: float | None = None,
     min_critical_rpm: float | None = None,
+    max_rim_m_per_s: float = 100.0,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...

@@ -276,6 +276,7 @@ class Scene:
         margin: float = 0.85,
         min_flutter_rpm: float | None = None,
         min_critical_rpm: float | None = None,
+        max_rim_m_per_s: float = 100.0,
         accuracy: Accuracy | None = None,
         tolerance: float | None = None,
     ) -> CheckResults:
@@ -289,6 +290,8 @@ class Scene:
             Largest share of the lowest critical speed that it may be.
         min_flutter_rpm, min_critical_rpm : float, optional
             Least flutter speed and least first critical speed.
+        max_rim_m_per_s : float
+            Largest speed of the rim.
 
         Examples
         --------
@@ -306,6 +309,7 @@ class Scene:
             margin=margin,
             min_flutter_rpm=min_flutter_rpm,
             min_critical_rpm=min_critical_rpm,
+            max_rim_m_per_s=max_rim_m_per_s,
         )
         return CheckResults.from_json(text)
 

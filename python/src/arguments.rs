@@ -60,6 +60,7 @@ pub fn limits(
     margin: f64,
     min_flutter_rpm: Option<f64>,
     min_critical_rpm: Option<f64>,
+    max_rim_m_per_s: f64,
 ) -> Result<Limits, Failure> {
     let operating = some_speed("operating_rpm", operating_rpm)?.or(scene.operating_rad_per_s());
     let operating = operating.ok_or_else(|| {
@@ -72,7 +73,14 @@ pub fn limits(
         let remedy = "the usual rule is 0.85";
         return Err(Failure::argument("margin", margin, allowed, remedy));
     }
+    if !(max_rim_m_per_s > 0.0 && max_rim_m_per_s <= 1e4) {
+        let allowed = "above 0 and at most 10000".to_owned();
+        let remedy = "saws for wood are run with at most 100";
+        let name = "max_rim_m_per_s";
+        return Err(Failure::argument(name, max_rim_m_per_s, allowed, remedy));
+    }
     Ok(Limits {
+        max_rim_m_per_s,
         margin,
         min_flutter_rad_per_s: some_speed("min_flutter_rpm", min_flutter_rpm)?,
         min_critical_rad_per_s: some_speed("min_critical_rpm", min_critical_rpm)?,

@@ -82,7 +82,7 @@ pub fn modes(
 /// `check.json` of a scene.
 #[pyfunction]
 #[pyo3(signature = (scene, *, operating_rpm=None, margin=0.85, min_flutter_rpm=None,
-                    min_critical_rpm=None, progress=None))]
+                    min_critical_rpm=None, max_rim_m_per_s=100.0, progress=None))]
 pub fn check(
     py: Python<'_>,
     scene: &str,
@@ -90,6 +90,7 @@ pub fn check(
     margin: f64,
     min_flutter_rpm: Option<f64>,
     min_critical_rpm: Option<f64>,
+    max_rim_m_per_s: f64,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -99,6 +100,7 @@ pub fn check(
         margin,
         min_flutter_rpm,
         min_critical_rpm,
+        max_rim_m_per_s,
     )?;
     compute(py, progress, move |_| {
         let check = Check::new(&scene, &limits)?;

@@ -22,7 +22,7 @@ Examples:
   make-scene | sawflutter analyze -                   a scene from a program
   sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
   sawflutter analyze --at-rpm 1800                    the modes of one speed
-  sawflutter analyze --in-cut 2800                    under the forces of its cut
+  sawflutter analyze --in-cut 2800                    under the forces of a cut
   sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
 
 #[derive(Args, Default)]

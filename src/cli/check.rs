@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::check::{Check, Limits};
+use crate::check::{Check, Limits, RIM_LIMIT_M_PER_S};
 use crate::report::CheckReport;
 use crate::scene::{Scene, rad_per_s};
 use anyhow::{Context, bail};
@@ -44,6 +44,14 @@ pub struct Arguments {
     /// Least first critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     min_critical_rpm: Option<f64>,
+    /// Largest speed of the rim
+    #[arg(
+        long,
+        value_name = "M/S",
+        default_value_t = RIM_LIMIT_M_PER_S,
+        allow_negative_numbers = true
+    )]
+    max_rim_m_per_s: f64,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -89,16 +97,25 @@ fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
             arguments.margin
         );
     }
+    let rim = arguments.max_rim_m_per_s;
+    if !(rim > 0.0 && rim <= MAX_RIM_M_PER_S) {
+        bail!(
+            "--max-rim-m-per-s is {rim}, but must be above 0 and at most {MAX_RIM_M_PER_S}; saws for wood are run with at most {RIM_LIMIT_M_PER_S}"
+        );
+    }
     let asked =
         |name, value: Option<f64>| value.map(|rpm| speed(name, rpm).map(rad_per_s)).transpose();
     Ok(Limits {
         margin: arguments.margin,
+        max_rim_m_per_s: rim,
         min_flutter_rad_per_s: asked("--min-flutter-rpm", arguments.min_flutter_rpm)?,
         min_critical_rad_per_s: asked("--min-critical-rpm", arguments.min_critical_rpm)?,
         ..Limits::at(operating)
     })
 }
 
+/// Faster than sound in steel.
+const MAX_RIM_M_PER_S: f64 = 1e4;
 /// Faster than any saw, and far from overflow.
 const MAX_RPM: f64 = 1e9;
 
@@ -113,11 +130,11 @@ fn speed(name: &str, rpm: f64) -> anyhow::Result<f64> {
 
 fn summary(check: &Check, report: &CheckReport) -> String {
     let mut text = String::new();
-    for criterion in &check.criteria {
+    for criterion in check.all_criteria() {
         let word = if criterion.passed { "pass" } else { "FAIL" };
         let _ = writeln!(text, "{word}  {criterion}");
     }
-    let _ = writeln!(text, "{}", report.rim_stiffness());
+    let _ = writeln!(text, "{}", report.rim_stiffness_in_words());
     for warning in &report.warnings {
         let _ = writeln!(text, "{}", wrapped(&format!("Warning: {warning}")));
     }

@@ -4,8 +4,8 @@ use super::axis::{Axis, Spread, draw_horizontal};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD,
-    GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE,
+    FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
 };
 use super::{bands, heading};
 use crate::report::{CheckReport, CriterionEntry};
@@ -20,7 +20,7 @@ const BELOW: f64 = 92.0;
 const PASS: Colour = FORWARD;
 
 pub fn sheet(report: &CheckReport) -> Sheet {
-    let rows = 1 + report.criteria.len();
+    let rows = 2 + report.criteria.len();
     let bottom = TOP + ROW * rows as f64;
     let mut sheet = Sheet::new(WIDTH, (bottom + BELOW) as u32);
     let verdict = if report.passed { "passed" } else { "failed" };
@@ -31,6 +31,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     for (k, criterion) in report.criteria.iter().enumerate() {
         draw_criterion(&mut sheet, criterion, &speed, row(k + 1));
     }
+    draw_stiffness(&mut sheet, report, &speed, row(rows - 1));
     draw_end_of_sweep(&mut sheet, report, &speed, bottom);
     let operating = speed.at(report.operating_rpm);
     let line = [[operating, TOP], [operating, bottom]];
@@ -81,7 +82,7 @@ fn facts(report: &CheckReport) -> String {
     [
         format!("operating speed {:.0} rpm", report.operating_rpm),
         format!("margin {:.0} %", 100.0 * report.margin),
-        report.rim_stiffness(),
+        report.rim_stiffness_in_words(),
     ]
     .join(BETWEEN_FACTS)
 }
@@ -149,6 +150,30 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     }
 }
 
+/// Stiffness of the rim over the speed, from zero at the foot of the row to its largest.
+fn draw_stiffness(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, frame: Frame) {
+    let curve = &report.rim_stiffness;
+    let largest = curve.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
+    let said = match largest > 0.0 {
+        true => format!(
+            "up to {:.1} N/mm, none at the critical speed",
+            1e-3 * largest
+        ),
+        false => "none: nothing holds the blade".to_owned(),
+    };
+    name(sheet, frame, "lateral stiffness of the rim", &said, QUIET);
+    let height = frame.bottom - frame.top - 16.0;
+    let points = curve.rpm.iter().zip(&curve.n_per_m);
+    let places = points.map(|(rpm, k)| {
+        let share = (k / largest).clamp(0.0, 1.0);
+        [speed.at(*rpm), frame.bottom - height * share]
+    });
+    let places: Vec<[f64; 2]> = places.collect();
+    if largest > 0.0 {
+        sheet.line(places, Stroke::solid(INK, CURVE));
+    }
+}
+
 fn draw_key(sheet: &mut Sheet, baseline: f64) {
     let limit = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
         sheet.line(
@@ -192,7 +217,7 @@ mod tests {
         assert_tidy(&sheet);
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
-        assert_eq!((with("pass: "), with("FAIL: ")), (3, 1), "{said:?}");
+        assert_eq!((with("pass: "), with("FAIL: ")), (4, 1), "{said:?}");
     }
 
     /// A saw whose lowest critical speed lies beyond its sweep.

@@ -282,6 +282,7 @@ mod tests {
             tangential_length_m: 0.30,
             stiffness_n_per_m: 2.0e7,
             damping_n_s_per_m: 0.0,
+            gap_m: None,
         };
         let plate = plate_with(&[pad]);
         let cells = 400;
@@ -313,6 +314,7 @@ mod tests {
             tangential_length_m: 2.0,
             stiffness_n_per_m: 4.0e6,
             damping_n_s_per_m: 0.0,
+            gap_m: None,
         };
         let plate = plate_with(&[pad]);
         let per_mass = 1.0e6 / plate.blade.mass_per_area_kg_per_m2();
@@ -331,6 +333,7 @@ mod tests {
             tangential_length_m: size,
             stiffness_n_per_m: 1.0e6,
             damping_n_s_per_m: 0.0,
+            gap_m: None,
         };
         let point = plate_with(&[pad(0.0)]).contact.stiffness().unwrap().clone();
         let distance = |size| {

@@ -37,10 +37,27 @@ pub struct CheckReport {
     /// The same at the operating speed; null past the first critical speed, where a force that
     /// stands still meets no stiffness.
     pub rim_stiffness_n_per_m: Option<f64>,
+    /// The same over the speed.
+    pub rim_stiffness: RimStiffnessEntry,
+    /// Speed of the rim when operating.
+    pub rim_speed_m_per_s: f64,
+    /// The most that it may be.
+    pub max_rim_m_per_s: f64,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
     /// Numbers that no saw has.
     pub warnings: Vec<String>,
+}
+
+/// Lateral stiffness of a point of the rim over the speed: a force that stands in space, in N, over
+/// the deflection under it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RimStiffnessEntry {
+    /// Speeds from rest to just below the lowest critical one; none where nothing holds the blade.
+    pub rpm: Vec<f64>,
+    /// Stiffness there.
+    pub n_per_m: Vec<f64>,
 }
 
 /// One limit and what was found.
@@ -67,11 +84,12 @@ impl CheckReport {
         let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
         let bands = analysis.chart.instabilities.iter();
         let branches = Numbered::new(analysis);
+        let stiffness = check.rim_stiffness_over_speed.iter();
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
             passed: check.passed(),
-            criteria: check.criteria.iter().map(CriterionEntry::from).collect(),
+            criteria: check.all_criteria().map(CriterionEntry::from).collect(),
             operating_rpm: rpm(limits.operating_rad_per_s),
             margin: limits.margin,
             to_rpm: rpm(to_rad_per_s),
@@ -87,25 +105,53 @@ impl CheckReport {
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
             rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,
+            rim_stiffness: RimStiffnessEntry {
+                rpm: stiffness.clone().map(|(speed, _)| rpm(*speed)).collect(),
+                n_per_m: stiffness.map(|(_, value)| *value).collect(),
+            },
+            rim_speed_m_per_s: limits.operating_rad_per_s * scene.blade().outer_radius_m,
+            max_rim_m_per_s: limits.max_rim_m_per_s,
             estimated_relative_error: analysis.estimated_relative_error,
-            warnings: warnings(scene, limits),
+            warnings: warnings(scene, limits, check),
         }
     }
 }
 
-fn warnings(scene: &Scene, limits: &Limits) -> Vec<String> {
+fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
     let mut warnings = unusual(scene.file());
     let operating = limits.operating_rad_per_s;
     if scene.operating_rad_per_s() != Some(operating) {
         let asked = unusual_number("the operating speed", "operating_rpm", rpm(operating));
         warnings.extend(asked);
     }
+    let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
+    let told = check.all_criteria().filter(|c| c.key == "gap");
+    if gaps.count() > told.count() {
+        warnings.push(
+            "a guide has a gap_m, but the scene no lateral force to hold against it \
+             (cut.lateral_n_per_tooth), or nothing holds the blade"
+                .to_owned(),
+        );
+    }
+    if limits.operating_rad_per_s
+        >= check
+            .analysis
+            .model
+            .critical
+            .first()
+            .map_or(f64::INFINITY, |c| c.speed_rad_per_s)
+    {
+        let gap = check.all_criteria().any(|c| c.key == "gap");
+        warnings.extend(gap.then(|| {
+            "past the first critical speed a static deflection says nothing of the gaps of guides".to_owned()
+        }));
+    }
     warnings
 }
 
 impl CheckReport {
     /// The rim stiffness in words, for the text and the figure.
-    pub fn rim_stiffness(&self) -> String {
+    pub fn rim_stiffness_in_words(&self) -> String {
         let at_rest = 1e-3 * self.rim_stiffness_at_rest_n_per_m;
         let operating = match self.rim_stiffness_n_per_m {
             Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),
@@ -119,7 +165,7 @@ impl From<&Criterion> for CriterionEntry {
     fn from(criterion: &Criterion) -> Self {
         CriterionEntry {
             key: criterion.key.to_owned(),
-            name: criterion.name.to_owned(),
+            name: criterion.name.clone(),
             found_rpm: criterion.found.map(rpm),
             asked_rpm: rpm(criterion.asked),
             passed: criterion.passed,

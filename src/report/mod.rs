@@ -27,7 +27,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
-pub use self::check::{CheckReport, CriterionEntry};
+pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::cut::{
     ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
     Verdict, VerdictMapEntry,

@@ -156,6 +156,10 @@ pub struct GuideFile {
     /// Lateral viscous damping of the whole pad, fixed in space.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub damping_n_s_per_m: f64,
+    /// Gap between the pad and a face of the blade, such as its film of water: `check` holds the static
+    /// deflection in the cut against it. The pad acts all the same. Not looked at by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap_m: Option<f64>,
 }
 
 /// Damping of the blade. Each number states the frame it lives in.

@@ -1,6 +1,6 @@
 //! Guide pads, checked and in radians.
 
-use super::check::{MAX_GUIDE, SPAN, refuse, within};
+use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
 use super::{Blade, GuideFile, SceneError};
 
 /// A guide pad on the blade, in radians.
@@ -54,6 +54,9 @@ pub fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, Scene
             (0.0, MAX_GUIDE),
         )?,
     };
+    if let Some(gap_m) = typed.gap_m {
+        positive(&of("gap_m"), gap_m)?;
+    }
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),

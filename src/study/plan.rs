@@ -9,7 +9,7 @@
 use super::distribution::Distribution;
 use super::file::{LimitsFile, StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
-use crate::check::{Criterion, Limits};
+use crate::check::{Criterion, Limits, RIM_LIMIT_M_PER_S};
 use crate::scene::{MAX_RPM, Parameter, Scene, SceneFile, SpeedRange, rad_per_s};
 use crate::stability::ChosenBasis;
 
@@ -308,6 +308,7 @@ fn limits(file: &LimitsFile, scene: &SceneFile) -> Result<Limits, StudyError> {
         margin: file.margin,
         min_flutter_rad_per_s: asked("limits.min_flutter_rpm", file.min_flutter_rpm)?,
         min_critical_rad_per_s: asked("limits.min_critical_rpm", file.min_critical_rpm)?,
+        max_rim_m_per_s: RIM_LIMIT_M_PER_S,
     })
 }
 

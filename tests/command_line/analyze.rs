@@ -259,3 +259,49 @@ fn a_closed_pipe_is_no_failure() {
     let out = folder.path().join("sawflutter-out");
     assert_eq!(names_in(&out), FILES_WITHOUT_FLUTTER);
 }
+
+/// The forces of the cut on the chart, and the idling saw beside it, in every face of the answer.
+#[test]
+fn the_chart_in_the_cut_stands_beside_that_of_the_idling_saw() {
+    let folder = TempDir::new().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = sawflutter();
+        command
+            .args(["analyze", "--accuracy", "draft"])
+            .args(arguments);
+        command.arg("--out").arg(folder.path()).output().unwrap()
+    };
+    let output = run(&["--in-cut", "2800"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let names = names_in(folder.path());
+    assert!(names.contains(&"in-cut.png".to_owned()), "{names:?}");
+    let report: Report = serde_json::from_slice(&read(folder.path().join("report.json"))).unwrap();
+    let in_cut = report.in_cut.expect("forces");
+    let idling = in_cut.idling.expect("a full chart");
+    assert_eq!((in_cut.rpm, in_cut.teeth), (2800.0, 4));
+    let own = &default_run().report;
+    assert_eq!(idling.flutter_speed_rpm, own.flutter_speed_rpm);
+    let told = text(&output.stdout);
+    for expected in [
+        "1240 N against".to_owned(),
+        format!("{:.1}", idling.critical_speeds_rpm[0]),
+        format!("{:.1}", report.critical_speeds[0].rpm),
+    ] {
+        assert!(told.contains(&expected), "no {expected:?} in:\n{told}");
+    }
+    assert!(
+        told.lines()
+            .all(|line| { line.chars().count() <= 80 || line.starts_with("Written to") })
+    );
+    // Without a number it is the operating speed; a saw of another kind has no cut.
+    let output = run(&["--in-cut", "--json"]);
+    let report: Report = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report.in_cut.map(|in_cut| in_cut.rpm), Some(1800.0));
+    let quick = TempDir::new().unwrap();
+    let mut scene = quick_scene();
+    scene.cut = None;
+    let path = write_scene(&quick, &scene);
+    let output = run(&[path.to_str().unwrap(), "--in-cut"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("the scene has no cut"));
+}

@@ -62,6 +62,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
         ("margin", true),
         ("operating", true),
         ("min_flutter", false),
+        ("rim_speed", true),
     ];
     assert_eq!(kept, expected);
     assert!(!printed.passed && printed.critical_speeds_rpm.len() == 6);

@@ -37,6 +37,7 @@ fn saws() -> Vec<Saw> {
                 tangential_length_m: rim_m * (0.1 + 0.4 * spread(0.61)),
                 stiffness_n_per_m,
                 damping_n_s_per_m: 0.0,
+                gap_m: None,
             };
             file.blade.inner_diameter_m = bore * file.blade.outer_diameter_m;
             file.sweep = None;
@@ -80,6 +81,7 @@ pub fn other_saws() -> Vec<Saw> {
             tangential_length_m: rim_m * spread(19.0, 0.05, 0.6),
             stiffness_n_per_m,
             damping_n_s_per_m: 0.0,
+            gap_m: None,
         };
         file.guides = (0..=k % 3).map(|turn| pad(turn as f64)).collect();
         Saw {

@@ -82,6 +82,7 @@ fn drawn_saw(index: u64) -> SceneFile {
                 tangential_length_m,
                 stiffness_n_per_m: draw.log_between(3e4, 3e8),
                 damping_n_s_per_m: 0.0,
+                gap_m: None,
             }
         })
         .collect();
@@ -216,6 +217,7 @@ fn pad(radius_m: f64, angle_deg: f64, side_m: f64, stiffness_n_per_m: f64) -> Gu
         tangential_length_m: side_m,
         stiffness_n_per_m,
         damping_n_s_per_m: 0.0,
+        gap_m: None,
     }
 }
 

@@ -23,5 +23,6 @@ mod rigid_motions;
 mod saws;
 mod sensitivity;
 mod spline;
+mod static_deflection;
 mod thickness_profile;
 mod witness;

@@ -14,7 +14,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use faer::Col;
+mod static_deflection;
+
 use faer::linalg::solvers::Solve;
 
 use crate::plate::{Plate, Resolution};
@@ -23,6 +24,8 @@ use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, verdict};
 use crate::system::GyroscopicSystem;
+
+use static_deflection::{StaticDeflection, point};
 
 /// Why a saw could not be held against limits.
 #[derive(Debug, thiserror::Error)]
@@ -49,16 +52,23 @@ pub struct Limits {
     pub min_flutter_rad_per_s: Option<f64>,
     /// Least first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
+    /// Largest speed of the rim.
+    pub max_rim_m_per_s: f64,
 }
 
+/// Saws for wood are run with 60 to 90 m/s at the rim, and makers of carbide-tipped blades allow no
+/// more than this.
+pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
+
 impl Limits {
-    /// The usual 85 % rule at an operating speed, and nothing else.
+    /// The usual 85 % rule and the usual speed of the rim at an operating speed, and nothing else.
     pub fn at(operating_rad_per_s: f64) -> Self {
         Limits {
             operating_rad_per_s,
             margin: OPERATING_LIMIT,
             min_flutter_rad_per_s: None,
             min_critical_rad_per_s: None,
+            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
         }
     }
 
@@ -80,7 +90,7 @@ pub struct Criterion {
     /// The same in a word, for tables.
     pub key: &'static str,
     /// What is compared, in words.
-    pub name: &'static str,
+    pub name: String,
     /// What was found, in rad/s; `None` where there is no such speed within the sweep.
     pub found: Option<f64>,
     /// What was asked, in rad/s.
@@ -92,8 +102,13 @@ pub struct Criterion {
 /// A saw held against limits.
 #[derive(Debug)]
 pub struct Check {
-    /// Every limit.
+    /// Every limit of speeds that a study asks about too.
     pub criteria: Vec<Criterion>,
+    /// The speed of the rim, and the gap of every guide that has one.
+    pub of_rim_and_gaps: Vec<Criterion>,
+    /// Speeds in rad/s up to the lowest critical one, and the stiffness in N/m of the same point
+    /// there; empty where rigid motions are free.
+    pub rim_stiffness_over_speed: Vec<(f64, f64)>,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m.
     pub rim_stiffness_at_rest_n_per_m: f64,
     /// The same at the operating speed; `None` from the first critical speed on: K(Ω) is not
@@ -128,7 +143,19 @@ impl Check {
         let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
         let operating = limits.operating_rad_per_s;
         let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
+        let lateral = scene.cut().and_then(|cut| {
+            let run = cut.at_rpm(rpm(operating)).ok()?;
+            Some((cut, run.lateral_n))
+        });
+        let bending = lowest_critical
+            .and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
+        let mut of_rim_and_gaps = vec![limits.of_rim(plate.blade.outer_radius_m)];
+        of_rim_and_gaps.extend(of_gaps(scene, plate, bending.as_ref(), operating));
         Ok(Check {
+            of_rim_and_gaps,
+            rim_stiffness_over_speed: bending
+                .as_ref()
+                .map_or_else(Vec::new, StaticDeflection::rim_stiffness_n_per_m),
             criteria: limits.criteria(
                 lowest_critical,
                 analysis.flutter_speed_rad_per_s,
@@ -141,14 +168,19 @@ impl Check {
         })
     }
 
+    /// Every limit: those of speeds, of the rim and of the gaps.
+    pub fn all_criteria(&self) -> impl Iterator<Item = &Criterion> {
+        self.criteria.iter().chain(&self.of_rim_and_gaps)
+    }
+
     /// Whether every limit is kept.
     pub fn passed(&self) -> bool {
-        self.criteria.iter().all(|criterion| criterion.passed)
+        self.all_criteria().all(|criterion| criterion.passed)
     }
 
     /// The limits that are not kept, with their numbers in rpm: for assertions.
     pub fn failures(&self) -> Vec<String> {
-        let failed = self.criteria.iter().filter(|criterion| !criterion.passed);
+        let failed = self.all_criteria().filter(|criterion| !criterion.passed);
         failed.map(Criterion::to_string).collect()
     }
 }
@@ -178,9 +210,9 @@ impl Limits {
         threshold_per_s: f64,
     ) -> Vec<Criterion> {
         let operating = self.operating_rad_per_s;
-        let at_least = |key, name, found: Option<f64>, asked: f64| Criterion {
+        let at_least = |key, name: &str, found: Option<f64>, asked: f64| Criterion {
             key,
-            name,
+            name: name.to_owned(),
             found,
             asked,
             // A speed that is not reached within the sweep is beyond all that is asked.
@@ -197,7 +229,7 @@ impl Limits {
         let inside = verdict.stretch.map(|(from, _)| from);
         criteria.push(Criterion {
             key: "operating",
-            name: "instability at the operating speed, from",
+            name: "instability at the operating speed, from".to_owned(),
             found: inside,
             asked: operating,
             passed: inside.is_none(),
@@ -218,11 +250,58 @@ impl Limits {
     }
 }
 
+impl Limits {
+    /// The speed at which the rim runs as fast as it may.
+    fn of_rim(&self, rim_radius_m: f64) -> Criterion {
+        let found = self.max_rim_m_per_s / rim_radius_m;
+        let operating = self.operating_rad_per_s;
+        let (now, most) = (operating * rim_radius_m, self.max_rim_m_per_s);
+        Criterion {
+            key: "rim_speed",
+            name: format!("rim at {most:.0} m/s ({now:.0} m/s when operating)"),
+            found: Some(found),
+            asked: operating,
+            passed: found >= operating,
+        }
+    }
+}
+
+/// Of every guide with a gap the speed at which the lateral forces of the cut press the blade
+/// through it. A blade past its lowest critical speed has no static deflection to hold against it.
+fn of_gaps(
+    scene: &Scene,
+    plate: &Plate,
+    bending: Option<&StaticDeflection>,
+    operating: f64,
+) -> Vec<Criterion> {
+    let guides = scene.file().guides.iter().enumerate();
+    let with_gap = guides.filter_map(|(index, guide)| Some((index, guide, guide.gap_m?)));
+    with_gap
+        .filter_map(|(index, guide, gap_m)| {
+            let bending = bending?;
+            let place = point(plate, guide.radius_m, guide.angle_deg.to_radians());
+            let at_rest = bending.in_cut_m(&place, 0.0)?;
+            let found = bending.fills_gap_at(&place, gap_m);
+            Some(Criterion {
+                key: "gap",
+                name: format!(
+                    "gap of guide {}: {:.3} mm, {:.3} mm of it in the cut at rest; filled at",
+                    index + 1,
+                    1e3 * gap_m,
+                    1e3 * at_rest.abs()
+                ),
+                found,
+                asked: operating,
+                passed: found.is_none_or(|found| found > operating),
+            })
+        })
+        .collect()
+}
+
 /// 1/(φᵀ K(Ω)⁻¹ φ) with φ the functions at the rim: force over deflection of a point that
 /// stands in space, the saw turning under it. Zero where rigid motions are free.
 fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {
-    let values = plate.functions_at(plate.blade.outer_radius_m, angle_rad);
-    let point = Col::from_fn(values.len(), |i| values[i]);
+    let point = point(plate, plate.blade.outer_radius_m, angle_rad);
     let system = GyroscopicSystem::of_plate(plate);
     if !system.free_rigid.is_empty() {
         return 0.0;

@@ -1,0 +1,137 @@
+//! Static deflection under a lateral force over the speed, up to the lowest critical speed.
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale};
+
+use crate::plate::Plate;
+use crate::scene::Cut;
+use crate::spectrum::orthonormal;
+use crate::system::GyroscopicSystem;
+
+/// Shares of the square of the lowest critical speed at which the response is solved on the whole
+/// basis. Between them it is a rational function of that square, which the projection on these
+/// responses follows.
+const SOLVED_AT: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
+/// Speeds of the curve, evenly spread.
+const SPEEDS: usize = 41;
+/// Share of the lowest critical speed at which the curve ends: there the deflection has no bound.
+const LAST_SHARE: f64 = 0.99;
+/// Directions of the responses below this share of the longest are rounding.
+const LEAST: f64 = 1e-12;
+/// Halvings of an interval of the curve.
+const HALVINGS: usize = 40;
+
+/// How the blade gives way to forces that stand in space.
+pub struct StaticDeflection {
+    /// Projected on the responses.
+    system: GyroscopicSystem,
+    basis: Mat<f64>,
+    /// One newton on the rim at the middle of the cut.
+    rim: Col<f64>,
+    /// The lateral forces of the teeth in the cut.
+    cut: Option<Col<f64>>,
+    to_rad_per_s: f64,
+}
+
+impl StaticDeflection {
+    /// Below a critical speed, at the rim at an angle, and under lateral forces of a cut in N a
+    /// tooth. `None` where rigid motions are free: nothing holds the blade then.
+    pub fn new(
+        plate: &Plate,
+        angle_rad: f64,
+        cut: Option<(&Cut, f64)>,
+        critical_rad_per_s: f64,
+    ) -> Option<Self> {
+        let system = GyroscopicSystem::of_plate(plate);
+        if !system.free_rigid.is_empty() {
+            return None;
+        }
+        let rim_radius_m = plate.blade.outer_radius_m;
+        let rim = point(plate, rim_radius_m, angle_rad);
+        let of_teeth = |(cut, lateral_n): (&Cut, f64)| {
+            let mut load = Col::zeros(rim.nrows());
+            for angle in cut.tooth_angles_rad() {
+                load += Scale(lateral_n) * point(plate, rim_radius_m, angle);
+            }
+            load
+        };
+        let cut = cut.filter(|(_, force)| *force != 0.0).map(of_teeth);
+        let mut responses: Vec<Col<f64>> = Vec::new();
+        for share in SOLVED_AT {
+            let stiffness = system.stiffness_at(share.sqrt() * critical_rad_per_s);
+            let factor = stiffness.partial_piv_lu();
+            for load in std::iter::once(&rim).chain(&cut) {
+                let response = factor.solve(load);
+                let length = response.norm_l2();
+                responses.push(Scale(1.0 / length) * response);
+            }
+        }
+        let basis = orthonormal(rim.nrows(), &responses, LEAST);
+        let onto = |load: &Col<f64>| basis.transpose() * load;
+        Some(StaticDeflection {
+            system: system.project(basis.as_ref()),
+            rim: onto(&rim),
+            cut: cut.as_ref().map(onto),
+            basis,
+            to_rad_per_s: LAST_SHARE * critical_rad_per_s,
+        })
+    }
+
+    fn answer(&self, load: &Col<f64>, speed_rad_per_s: f64) -> Col<f64> {
+        let stiffness = self.system.stiffness_at(speed_rad_per_s);
+        stiffness.partial_piv_lu().solve(load)
+    }
+
+    fn speeds(&self) -> impl Iterator<Item = f64> + '_ {
+        let last = (SPEEDS - 1) as f64;
+        (0..SPEEDS).map(move |k| self.to_rad_per_s * k as f64 / last)
+    }
+
+    /// Speeds in rad/s and the stiffness in N/m of the point of the rim there.
+    pub fn rim_stiffness_n_per_m(&self) -> Vec<(f64, f64)> {
+        let stiffness = |speed: f64| {
+            let deflection = self.rim.transpose() * self.answer(&self.rim, speed);
+            (speed, 1.0 / deflection)
+        };
+        self.speeds().map(stiffness).collect()
+    }
+
+    /// Deflection at a point under the lateral forces of the cut at a speed, in m; `None` without
+    /// such forces.
+    pub fn in_cut_m(&self, point: &Col<f64>, speed_rad_per_s: f64) -> Option<f64> {
+        let load = self.cut.as_ref()?;
+        let reading = self.basis.transpose() * point;
+        Some(reading.transpose() * self.answer(load, speed_rad_per_s))
+    }
+
+    /// Lowest speed, in rad/s, at which that deflection is as large as a gap, `None` where it stays
+    /// smaller.
+    pub fn fills_gap_at(&self, point: &Col<f64>, gap_m: f64) -> Option<f64> {
+        let filled = |speed: f64| {
+            let deflection = self.in_cut_m(point, speed);
+            deflection.is_some_and(|deflection| deflection.abs() >= gap_m)
+        };
+        let first = self.speeds().position(filled)?;
+        let speeds: Vec<f64> = self.speeds().collect();
+        let Some(before) = first.checked_sub(1) else {
+            return Some(0.0);
+        };
+        let (mut low, mut high) = (speeds[before], speeds[first]);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if filled(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(high)
+    }
+}
+
+/// The functions of a plate at a point: the load of one newton there, and the reading of a
+/// deflection.
+pub fn point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
+    let values = plate.functions_at(radius_m, angle_rad);
+    Col::from_fn(values.len(), |i| values[i])
+}
