@@ -165,6 +165,44 @@ class Instability(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Idling(Entry):
+    """The same saw without the forces of the cut."""
+
+    critical_speeds_rpm: FloatArray
+    """Critical speeds within the sweep, ascending."""
+
+    instabilities: tuple[Instability, ...]
+    """Bands of instability within the sweep, by onset; no chart names their branches."""
+
+    flutter_speed_rpm: float | None
+    """Lowest speed at which flutter counts."""
+
+    first_merge_rpm: float | None
+    """Onset of the first flutter band of all."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InCut(Entry):
+    """The forces of the cut that bear on the chart."""
+
+    rpm: float
+    """Speed of the cut whose forces these are; they are the same at every speed of the
+    chart."""
+
+    teeth: int
+    """Teeth in the cut."""
+
+    tangential_n_per_tooth: float
+    """Force against the rotation on each."""
+
+    radial_n_per_tooth: float
+    """Force towards the axis on each."""
+
+    idling: Idling | None
+    """The saw without them; null in a sketch."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class ExcitationLine(Entry):
     """A frequency that is a multiple of the rotation speed."""
 
@@ -624,6 +662,10 @@ class CampbellReport(Entry):
     flutter_threshold_per_s: float
     """Growth rate from which a band counts as flutter of the saw."""
 
+    in_cut: InCut | None
+    """The forces of the cut on the chart, and the saw without them, when the scene asks for
+    it."""
+
     excitation: Excitation | None
     """Multiples of the rotation speed and where they meet natural frequencies, when the scene
     asks for them."""
@@ -681,6 +723,19 @@ class Criterion(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class RimStiffness(Entry):
+    """Lateral stiffness of a point of the rim over the speed: a force that stands in space, in
+    N, over the deflection under it."""
+
+    rpm: FloatArray
+    """Speeds from rest to just below the lowest critical one; none where nothing holds the
+    blade."""
+
+    n_per_m: FloatArray
+    """Stiffness there."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class CheckReport(Entry):
     """A saw held against limits."""
 
@@ -720,6 +775,15 @@ class CheckReport(Entry):
     rim_stiffness_n_per_m: float | None
     """The same at the operating speed; null past the first critical speed, where a force that
     stands still meets no stiffness."""
+
+    rim_stiffness: RimStiffness
+    """The same over the speed."""
+
+    rim_speed_m_per_s: float
+    """Speed of the rim when operating."""
+
+    max_rim_m_per_s: float
+    """The most that it may be."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds."""

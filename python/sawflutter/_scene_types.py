@@ -130,6 +130,11 @@ class GuideDict(_GuideDict, total=False):
     damping_n_s_per_m: float
     """Lateral viscous damping of the whole pad, fixed in space."""
 
+    gap_m: float | None
+    """Gap between the pad and a face of the blade, such as its film of water: `check` holds the
+    static deflection in the cut against it. The pad acts all the same. Not looked at by
+    default."""
+
 
 class DampingDict(TypedDict, total=False):
     """Damping of the blade. Each number states the frame it lives in."""
@@ -298,6 +303,24 @@ class SweepDict(_SweepDict, total=False):
     """First speed."""
 
 
+class WoodDict(TypedDict, total=False):
+    """Wood in the kerf, a spring and a damper that stand in space around the middle of the
+    cut."""
+
+    stiffness_n_per_m: float
+    """Lateral stiffness of the whole contact, both faces of the blade together."""
+
+    damping_n_s_per_m: float
+    """Lateral viscous damping of the whole contact."""
+
+    depth_m: float
+    """How far the contact reaches from the rim towards the axis; by default it is an arc of the
+    rim."""
+
+    arc_deg: float | None
+    """Arc of the contact; by default that of the teeth in the cut."""
+
+
 class _CutSpeedDict(TypedDict):
     """A speed at which the saw cuts. What is not given is that of the cut."""
 
@@ -358,6 +381,13 @@ class CutDict(TypedDict, total=False):
 
     idle_s: float
     """Time shown before and after the cut."""
+
+    chart_rpm: float | None
+    """Speed of the cut whose forces bear on the saw in `analyze`, `check`, `fit`, `place` and
+    `study`, whatever the speed there: a dead load. By default they look at the idling saw."""
+
+    wood: WoodDict | None
+    """The wood that leans against the blade in the kerf. None by default."""
 
     speeds: list[CutSpeedDict]
     """Speeds at which the saw cuts, and what differs there. By default the operating speed."""

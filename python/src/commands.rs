@@ -80,6 +80,7 @@ pub fn modes(
 }
 
 /// `check.json` of a scene.
+#[allow(clippy::too_many_arguments, reason = "they are Python's")]
 #[pyfunction]
 #[pyo3(signature = (scene, *, operating_rpm=None, margin=0.85, min_flutter_rpm=None,
                     min_critical_rpm=None, max_rim_m_per_s=100.0, progress=None))]
