@@ -4,8 +4,7 @@
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::Report;
 use sawflutter::scene::{
-    Accuracy, CutFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, RimFile, Scene,
-    SceneFile, SweepFile, ThicknessRow, WoodFile, rad_per_s,
+    Accuracy, DampingFile, GuideFile, InPlane, Mount, Scene, SceneFile, SweepFile, rad_per_s,
 };
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
@@ -125,67 +124,7 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     });
     file.operating_rpm = bytes.one_in(2).then(|| bytes.near(1000.0));
     file.flutter_threshold_per_s = bytes.near(0.25);
-    blade_details(bytes, &mut file);
-    if bytes.one_in(4) {
-        file.cut = Some(cut(bytes, 0.5 * outer));
-    }
-    if bytes.one_in(4) {
-        file.excitation = Some(ExcitationFile {
-            orders: u32::from(bytes.next() % 5),
-            tooth_passing: u32::from(bytes.next() % 3),
-        });
-    }
     file
-}
-
-/// Steps, tapers, heavy teeth, and air that turns.
-fn blade_details(bytes: &mut Bytes<'_>, file: &mut SceneFile) {
-    let blade = &mut file.blade;
-    let (inner, outer) = (0.5 * blade.inner_diameter_m, 0.5 * blade.outer_diameter_m);
-    if bytes.one_in(3) {
-        let mut radius_m = inner;
-        for _ in 0..1 + bytes.next() % 3 {
-            if !bytes.one_in(3) {
-                radius_m += bytes.between(0.0, 0.5) * (outer - inner);
-            }
-            blade.profile.push(ThicknessRow {
-                radius_m,
-                thickness_m: blade.thickness_m * bytes.between(0.1, 2.0),
-            });
-        }
-    }
-    if bytes.one_in(4) {
-        let radius_m = inner + bytes.between(0.0, 1.0) * (outer - inner);
-        blade.rim = Some(RimFile {
-            mass_per_tooth_kg: bytes.near(1e-3),
-            radius_m: (!bytes.one_in(2)).then_some(radius_m),
-        });
-    }
-    if let Some(damping) = &mut file.damping {
-        damping.air_rotation_share = bytes.between(0.0, 1.0);
-    }
-}
-
-/// Forces and wood, on the chart.
-fn cut(bytes: &mut Bytes<'_>, outer_m: f64) -> CutFile {
-    CutFile {
-        angle_deg: bytes.between(-400.0, 400.0),
-        teeth_in_cut: Some(1 + u32::from(bytes.next() % 6)),
-        tangential_n_per_tooth: Some(bytes.near(10.0)),
-        radial_n_per_tooth: Some(bytes.near(1.0)),
-        chart_rpm: Some(bytes.near(1000.0)),
-        wood: bytes.one_in(2).then(|| WoodFile {
-            stiffness_n_per_m: bytes.near(1e4),
-            damping_n_s_per_m: if bytes.one_in(2) {
-                bytes.near(1.0)
-            } else {
-                0.0
-            },
-            depth_m: bytes.between(0.0, 0.3) * outer_m,
-            arc_deg: bytes.one_in(2).then(|| bytes.between(0.0, 370.0)),
-        }),
-        ..CutFile::default()
-    }
 }
 
 /// A basis so small that thousands of scenes can be drawn.

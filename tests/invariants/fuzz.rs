@@ -22,7 +22,7 @@ fn rng() -> TestRng {
 }
 
 /// Enough bytes for every number of a scene with three pads.
-const SCENE_BYTES: usize = 260;
+const SCENE_BYTES: usize = 160;
 
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
