@@ -187,11 +187,7 @@ impl Fit {
             }
         };
         let fine = model(resolution);
-        let refined: Vec<Option<Found>> = candidates
-            .par_iter()
-            .map(|found| minimum(&fine, &found.shares))
-            .collect::<Result<_, _>>()?;
-        let best = lowest(refined.into_iter().flatten()).unwrap_or_else(|| best.clone());
+        let best = refined(&fine, &candidates)?.unwrap_or_else(|| best.clone());
         let spread = statistics(&fine, &best.shares, options.confidence)?;
         let before = fine.residuals_of_saw_hz(scene)?;
         Ok(Fit {
@@ -371,8 +367,14 @@ fn search(
     Ok((starts, distinct))
 }
 
-fn lowest(found: impl Iterator<Item = Found>) -> Option<Found> {
-    found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz))
+/// The best of what candidates lead to on a finer basis.
+fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
+    let refined: Vec<Option<Found>> = candidates
+        .par_iter()
+        .map(|found| minimum(model, &found.shares))
+        .collect::<Result<_, _>>()?;
+    let found = refined.into_iter().flatten();
+    Ok(found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz)))
 }
 
 /// The scene with what was found and a note of where it comes from.

@@ -271,32 +271,18 @@ impl Cut {
                 remedy: "a cut needs the force against the rotation, or the power",
             });
         };
-        let radial = own.radial_n_per_tooth;
-        let lateral = own.lateral_n_per_tooth;
-        let feed = number(
-            "feed_m_per_s",
-            own.feed_m_per_s,
-            typed.feed_m_per_s,
-            (1e-6, 1e3),
-        )?;
+        let or_none = |name: &str, own: Option<f64>, of_cut: Option<f64>| {
+            number(name, own, of_cut, force).map(|found| found.unwrap_or(0.0))
+        };
+        let (radial, lateral) = (own.radial_n_per_tooth, own.lateral_n_per_tooth);
+        let feeds = (own.feed_m_per_s, typed.feed_m_per_s);
+        let feed = number("feed_m_per_s", feeds.0, feeds.1, (1e-6, 1e3))?;
         Ok(CutRun {
             rpm,
             speed_rad_per_s,
             tangential_n,
-            radial_n: number(
-                "radial_n_per_tooth",
-                radial,
-                typed.radial_n_per_tooth,
-                force,
-            )?
-            .unwrap_or(0.0),
-            lateral_n: number(
-                "lateral_n_per_tooth",
-                lateral,
-                typed.lateral_n_per_tooth,
-                force,
-            )?
-            .unwrap_or(0.0),
+            radial_n: or_none("radial_n_per_tooth", radial, typed.radial_n_per_tooth)?,
+            lateral_n: or_none("lateral_n_per_tooth", lateral, typed.lateral_n_per_tooth)?,
             tangential_of_power_n,
             duration_s: self.duration_s(feed)?,
         })

@@ -144,24 +144,18 @@ fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
         samples: between(ends).map(|rpm| sample(rpm, side)).collect(),
     };
 
-    let mut tracks = Vec::new();
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
-    for (outermost, ends) in [(first, [first.rpm, onset]), (last, [end, last.rpm])] {
-        if ends[0] >= ends[1] {
-            continue;
-        }
-        let upper = usize::from(outermost.hz[1] > outermost.hz[0]);
-        for (path, side) in [(upper, 1.0), (1 - upper, -1.0)] {
-            let look = match outermost.sign[path] {
-                1 => Look::Plus,
-                -1 => Look::Minus,
-                _ => Look::Damped(path),
-            };
-            let begins = outermost.rpm < onset;
-            let name = begins.then(|| entry.paths[path].name.clone());
-            tracks.push(track(ends, side, look, name));
-        }
-    }
+    let outside = [(first, [first.rpm, onset]), (last, [end, last.rpm])].into_iter();
+    let outside = outside.filter(|(_, ends)| ends[0] < ends[1]);
+    let mut tracks: Vec<Track> = outside
+        .flat_map(|(outermost, ends)| {
+            apart(outermost).map(|(path, side, look)| {
+                let begins = outermost.rpm < onset;
+                let name = begins.then(|| entry.paths[path].name.clone());
+                track(ends, side, look, name)
+            })
+        })
+        .collect();
     tracks.push(track([onset, end], -1.0, Look::Decaying, None));
     let growing = track([onset, end], 1.0, Look::Growing, None);
     let peak = highest(&growing.samples)?;
@@ -172,6 +166,19 @@ fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
         peak,
         end: sample(end, 1.0),
         merge: true,
+    })
+}
+
+/// Path, side of the mean and look of the two waves at a speed outside their band.
+fn apart(row: &Row) -> [(usize, f64, Look); 2] {
+    let upper = usize::from(row.hz[1] > row.hz[0]);
+    [(upper, 1.0), (1 - upper, -1.0)].map(|(path, side)| {
+        let look = match row.sign[path] {
+            1 => Look::Plus,
+            -1 => Look::Minus,
+            _ => Look::Damped(path),
+        };
+        (path, side, look)
     })
 }
 
