@@ -302,6 +302,8 @@ fn item_13_files_of_another_saw_do_not_stay() {
                 "root-loci.svg",
                 "membrane.png",
                 "membrane.svg",
+                "in-cut.png",
+                "in-cut.svg",
                 "scenes.csv",
                 "scenes.json",
             ][..],
