@@ -379,6 +379,24 @@ class Work(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Miscount(Entry):
+    """Modes of a speed that a count on the whole basis does not find, or finds besides."""
+
+    rpm: float
+    """The speed."""
+
+    from_hz: float
+    """Between which frequencies."""
+
+    to_hz: float
+    """The upper one."""
+
+    missing: int
+    """Modes of Krein sign + that the spectrum lacks there, less those of sign −; negative where
+    it has too many."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Mismatch(Entry):
     """A speed at which the list of bands contradicts the eigenvalues found there."""
 
@@ -419,6 +437,17 @@ class Certificate(Entry):
     violating_rpm: FloatArray
     """These speeds."""
 
+    full_basis_counts: int
+    """Counts on the whole basis, which know nothing of the reduced model, that modes were held
+    against."""
+
+    miscounted_modes: tuple[Miscount, ...]
+    """Modes that these counts say are missing, or too many; expected none."""
+
+    searched_again: bool
+    """Whether modes were missing at first, so that the bands were searched again on the whole
+    basis."""
+
     mismatches: tuple[Mismatch, ...]
     """Where the list of bands contradicts the eigenvalues that the search or the chart found;
     expected none."""
@@ -426,8 +455,15 @@ class Certificate(Entry):
     gave_up: bool
     """Whether the search for bands ended at its limit of work, so that bands may be missing."""
 
+    unproven_rpm: FloatArray
+    """The rest, which was searched and not proven: from and to."""
+
     max_backward_error: float
     """Largest backward error of any mode shown."""
+
+    proven_share: float | None = field(default=None)
+    """Share of the sweep that is proven to have no instability which is not listed, rounded
+    down to four digits; absent where no proof was tried."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
