@@ -14,7 +14,7 @@ pub enum SpectrumError {
     /// The stiffness at rest is not positive definite, so that no speed is critical
     /// in the usual sense.
     #[error(
-        "the blade is not stable at rest: its stiffness of order {order} is not positive definite"
+        "the blade is not stable at rest: its stiffness of order {order} is not positive definite; hold it by stiffer guides, or, where the forces of a cut bear on the chart (cut.chart_rpm), give smaller forces"
     )]
     UnstableAtRest {
         /// Order of the stiffness matrix.
