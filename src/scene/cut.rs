@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_GUIDE, MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_RPM, SPAN, positive, refuse, within};
+use super::wood::{Wood, WoodFile};
 use super::{Blade, SceneError, SceneFile, rad_per_s};
 
 /// Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth,
@@ -82,67 +83,6 @@ pub struct CutSpeedFile {
     /// Speed at which the wood is fed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feed_m_per_s: Option<f64>,
-}
-
-/// Wood in the kerf, a spring and a damper that stand in space around the middle of the cut.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WoodFile {
-    /// Lateral stiffness of the whole contact, both faces of the blade together.
-    #[serde(default)]
-    pub stiffness_n_per_m: f64,
-    /// Lateral viscous damping of the whole contact.
-    #[serde(default)]
-    pub damping_n_s_per_m: f64,
-    /// How far the contact reaches from the rim towards the axis; by default it is an arc of the
-    /// rim.
-    #[serde(default)]
-    pub depth_m: f64,
-    /// Arc of the contact; by default that of the teeth in the cut.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub arc_deg: Option<f64>,
-}
-
-/// Validated wood in the kerf.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wood {
-    /// Angle of its middle.
-    pub angle_rad: f64,
-    /// Its arc.
-    pub arc_rad: f64,
-    /// From the rim towards the axis; zero for an arc of the rim.
-    pub depth_m: f64,
-    /// Stiffness of the whole contact.
-    pub stiffness_n_per_m: f64,
-    /// Damping of the whole contact.
-    pub damping_n_s_per_m: f64,
-}
-
-impl Wood {
-    /// `None` without stiffness and damping.
-    fn new(typed: &WoodFile, cut: &Cut, blade: &Blade) -> Result<Option<Self>, SceneError> {
-        let key = |name: &str| format!("cut.wood.{name}");
-        let width = blade.outer_radius_m - blade.inner_radius_m;
-        let arc_rad = match typed.arc_deg {
-            Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
-            None => f64::from(cut.teeth) * cut.pitch_rad,
-        };
-        if !(0.0..=width).contains(&typed.depth_m) {
-            let allowed = format!("from 0 to the width of the moving ring ({width})");
-            let remedy = "say how far from the rim the wood touches the blade";
-            return Err(refuse(&key("depth_m"), typed.depth_m, allowed, remedy));
-        }
-        let range = (0.0, MAX_GUIDE);
-        let wood = Wood {
-            angle_rad: cut.angle_rad,
-            arc_rad,
-            depth_m: typed.depth_m,
-            stiffness_n_per_m: within(&key("stiffness_n_per_m"), typed.stiffness_n_per_m, range)?,
-            damping_n_s_per_m: within(&key("damping_n_s_per_m"), typed.damping_n_s_per_m, range)?,
-        };
-        let any = wood.stiffness_n_per_m > 0.0 || wood.damping_n_s_per_m > 0.0;
-        Ok(any.then_some(wood))
-    }
 }
 
 /// A validated cut.

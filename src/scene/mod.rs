@@ -22,9 +22,10 @@ mod spline;
 mod thickness;
 mod validate;
 mod validated;
+mod wood;
 
 pub(crate) use check::MAX_RPM;
-pub use cut::{Cut, CutFile, CutRun, CutSpeedFile, Wood, WoodFile};
+pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
@@ -50,6 +51,7 @@ pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
 pub use thickness::{RimFile, RimMass, ThicknessProfile, ThicknessRow};
 pub use validated::{Blade, Bore, Damping, Scene, SpeedRange};
+pub use wood::{Wood, WoodFile};
 
 /// Rotation speed in rad/s from revolutions per minute.
 pub fn rad_per_s(rpm: f64) -> f64 {
