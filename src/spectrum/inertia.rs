@@ -18,6 +18,7 @@
 //! on the same footing: L_high has them in full.
 
 mod coupling;
+mod damped;
 mod hermitian;
 mod waves;
 
@@ -26,6 +27,8 @@ use std::sync::OnceLock;
 
 use faer::{Mat, c64};
 use nalgebra::DMatrix;
+
+pub use self::damped::DampedBasis;
 
 use self::coupling::{Columns, Coupling, in_waves};
 use self::hermitian::negative_eigenvalues;
@@ -67,12 +70,7 @@ const LONG: f64 = 1e-3;
 impl WholeBasis {
     /// Of a plate; its damping is left aside.
     pub fn new(plate: &Plate) -> Self {
-        let scale = frequency_scale(plate);
-        let harmonics: Vec<Harmonic> = plate
-            .harmonics
-            .iter()
-            .map(|block| Harmonic::new(block, plate.offset(block.diameters), scale))
-            .collect();
+        let harmonics = Self::harmonics(plate);
         let order = plate.degrees_of_freedom();
         let guides = plate.contact.stiffness();
         let columns = match (&plate.edge_stiffness, guides) {
@@ -97,6 +95,13 @@ impl WholeBasis {
             harmonics,
             coupling,
         }
+    }
+
+    fn harmonics(plate: &Plate) -> Vec<Harmonic> {
+        let scale = frequency_scale(plate);
+        let harmonic =
+            |block: &HarmonicBlock| Harmonic::new(block, plate.offset(block.diameters), scale);
+        plate.harmonics.iter().map(harmonic).collect()
     }
 
     /// Whether a count needs a factorization of the order of the basis.

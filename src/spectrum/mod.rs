@@ -60,7 +60,7 @@ pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
 pub use growth::fastest_growing_of;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
-pub(crate) use inertia::{AtSpeed, WholeBasis};
+pub(crate) use inertia::{AtSpeed, DampedBasis, WholeBasis};
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]
 pub use lowest::LowestModes;

@@ -187,7 +187,7 @@ impl Checks<'_> {
 }
 
 /// Number k of a sequence over 0 … 1 that is the same on every machine (Steele, Lea and Flood, OOPSLA 2014).
-fn drawn_share(k: u64) -> f64 {
+pub(super) fn drawn_share(k: u64) -> f64 {
     let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -135,13 +135,21 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
         ) = (0.0, 0.0);
     });
     let stiff = Plate::new(&stiff.unwrap(), small());
+    let heated = Scene::paper().edited(|saw| {
+        let heat = serde_json::json!({
+            "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": 15.0 },
+        });
+        saw.membrane = serde_json::from_value(heat).ok();
+        assert!(saw.membrane.is_some());
+    });
+    let heated = Plate::new(&heated.unwrap(), small());
     let loads = [(0.1, 900.0, -300.0), (-0.2, 400.0, 100.0)].map(|(angle_rad, x, y)| RimForce {
         angle_rad,
         radial_n: x,
         tangential_n: y,
     });
     let cut = Plate::new(&Scene::paper(), small()).with_edge_loads(&loads);
-    for (plate, is_dense) in [(stiff, false), (cut, true)] {
+    for (plate, is_dense) in [(stiff, false), (heated, false), (cut, true)] {
         let (basis, system) = (WholeBasis::new(&plate), GyroscopicSystem::of_plate(&plate));
         assert_eq!(basis.is_dense(), is_dense);
         for place in places(&mut draw, 30) {
@@ -225,10 +233,16 @@ fn cost_of_a_count() {
         for _ in 0..20 {
             counted(&basis, place);
         }
+        let spent = start.elapsed() / 20;
+        let damped = DampedBasis::new(&plate).unwrap();
+        let start = std::time::Instant::now();
+        let values = [c64::new(-0.1, 50.0), c64::new(-0.1, 100.0)];
+        let unlisted = damped.unlisted(250.0, &values, [120.0, 120.0]);
+        println!("damped: {unlisted:?} unlisted, {:?}", start.elapsed());
         println!(
             "{accuracy:?}: {} functions, {columns} columns, prepared {prepared:?}, a count {:?}",
             plate.degrees_of_freedom(),
-            start.elapsed() / 20
+            spent
         );
     }
 }

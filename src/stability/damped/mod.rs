@@ -7,6 +7,7 @@
 //! humps ([`hump`]). The bands of the undamped twin lend speeds to begin with, and the names of
 //! the modes that meet.
 
+mod counts;
 mod hump;
 mod link;
 mod spectrum;
@@ -21,6 +22,7 @@ use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 use crate::tuned::Tuned;
+use counts::Counts;
 use spectrum::{Solver, Spectrum};
 
 /// Points of a band's curve that a straight line misses by more than this share of its peak
@@ -88,9 +90,18 @@ fn bands(
         .collect();
     let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
     instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
+    let range = (speeds.first().copied(), speeds.last().copied());
+    let counts = match range {
+        (Some(from), Some(to)) => Counts::new(model, &solver, &instabilities, (from, to))?,
+        _ => Counts::default(),
+    };
+    let mut violations = mismatches(&solver, &spectra, &instabilities);
+    violations.extend(mismatches(&solver, &counts.spectra, &instabilities));
     let certificate = Certificate {
-        speeds_checked: spectra.len(),
-        violations_rad_per_s: mismatches(&solver, &spectra, &instabilities),
+        speeds_checked: spectra.len() + counts.spectra.len(),
+        violations_rad_per_s: violations,
+        full_basis_counts: counts.made,
+        miscounts: counts.miscounts,
         gave_up: solver.is_exhausted(),
         ..Certificate::default()
     };

@@ -1,0 +1,152 @@
+//! Growing modes of a damped saw counted on the whole basis, by the argument principle.
+
+use rayon::prelude::*;
+
+use faer::c64;
+
+use super::spectrum::{Solver, Spectrum};
+use crate::spectrum::{DampedBasis, SpectralModel, SpectrumError};
+use crate::stability::band::Instability;
+use crate::stability::certified::drawn_share;
+use crate::stability::full_basis::Miscount;
+
+/// Bands on both sides of whose onset modes are counted, from the lowest: each count takes some
+/// forty determinants.
+const MOST_BANDS: usize = 8;
+/// Speeds drawn at random from a fixed seed.
+const DRAWN: u64 = 4;
+/// Distance from an onset, as a share of the band's width, and at least of the speed.
+const BESIDE: f64 = 0.02;
+const LEAST_BESIDE: f64 = 1e-4;
+/// The window ends in the widest gap above this share of the highest frequency that is sound.
+const LEAST_WINDOW: f64 = 0.6;
+
+/// What was counted.
+#[derive(Debug, Default)]
+pub struct Counts {
+    /// Speeds at which a count was made.
+    pub made: usize,
+    /// Where it contradicts the eigenvalues.
+    pub miscounts: Vec<Miscount>,
+    /// The eigenvalues there.
+    pub spectra: Vec<Spectrum>,
+}
+
+impl Counts {
+    /// Counts both sides of the onsets of bands, and at speeds between two.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(
+        model: &SpectralModel,
+        solver: &Solver<'_>,
+        bands: &[Instability],
+        range: (f64, f64),
+    ) -> Result<Self, SpectrumError> {
+        let is_free = model
+            .components
+            .iter()
+            .any(|c| !c.full.free_rigid.is_empty());
+        if model.plate.is_axisymmetric() || is_free {
+            return Ok(Counts::default());
+        }
+        let Some(basis) = DampedBasis::new(&model.plate) else {
+            return Ok(Counts::default());
+        };
+        let spectra: Result<Vec<Spectrum>, SpectrumError> = speeds(bands, range)
+            .par_iter()
+            .map(|&speed| solver.at(speed))
+            .collect();
+        let spectra = spectra?;
+        let counted: Vec<Option<Option<Miscount>>> = spectra
+            .par_iter()
+            .map(|spectrum| counted(&basis, spectrum, solver.highest()))
+            .collect();
+        Ok(Counts {
+            made: counted.iter().flatten().count(),
+            miscounts: counted.into_iter().flatten().flatten().collect(),
+            spectra,
+        })
+    }
+}
+
+fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
+    let drawn = (0..DRAWN).map(|k| from + drawn_share(k) * (to - from));
+    let beside = bands.iter().take(MOST_BANDS).flat_map(|band| {
+        let width = band.to_rad_per_s - band.from_rad_per_s;
+        let away = (BESIDE * width).max(LEAST_BESIDE * band.from_rad_per_s);
+        [band.from_rad_per_s - away, band.from_rad_per_s + away]
+    });
+    let mut speeds: Vec<f64> = beside.chain(drawn).collect();
+    speeds.retain(|speed| (from..=to).contains(speed) && *speed > 0.0);
+    speeds
+}
+
+/// `None` where nothing is certain, for an eigenvalue lies on the path.
+fn counted(basis: &DampedBasis, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
+    let listed: Vec<c64> = spectrum.values.iter().map(|value| value.lambda).collect();
+    let top = window(&listed, highest)?;
+    let unlisted = basis.unlisted(spectrum.speed, &listed, [top, top])?;
+    // A complex pair is one mode.
+    let modes = (unlisted + unlisted.signum()) / 2;
+    Some((unlisted != 0).then_some(Miscount {
+        speed_rad_per_s: spectrum.speed,
+        from_rad_per_s: 0.0,
+        to_rad_per_s: top,
+        missing: modes,
+    }))
+}
+
+/// The middle of the widest gap between frequencies below the highest.
+fn window(listed: &[c64], highest: f64) -> Option<f64> {
+    let mut frequencies: Vec<f64> = listed.iter().map(|value| value.im).collect();
+    frequencies.extend([LEAST_WINDOW * highest, highest]);
+    frequencies.retain(|f| (LEAST_WINDOW * highest..=highest).contains(f));
+    frequencies.sort_by(f64::total_cmp);
+    let gaps = frequencies.windows(2);
+    let widest = gaps.max_by(|x, y| (x[1] - x[0]).total_cmp(&(y[1] - y[0])))?;
+    Some(0.5 * (widest[0] + widest[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Accuracy, Scene, rad_per_s};
+    use crate::spectrum::Strategy;
+
+    /// A growing eigenvalue that is dropped, and a decaying one that is said to grow, are found.
+    #[test]
+    fn wrong_spectra_are_contradicted() {
+        let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
+        let range = (0.0, rad_per_s(2600.0));
+        let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
+        let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+        let solver = Solver::new(&model);
+        let counts = Counts::new(&model, &solver, &[], range).unwrap();
+        assert_eq!(counts.made, DRAWN as usize);
+        assert!(counts.miscounts.is_empty(), "{:?}", counts.miscounts);
+        let basis = DampedBasis::new(&model.plate).unwrap();
+        let spectra = (0..40).map(|k| solver.at(rad_per_s(1540.0 + 25.0 * f64::from(k))).unwrap());
+        let grows = |s: &Spectrum| s.values.iter().any(|v| v.lambda.re > 0.01);
+        let sound = spectra.into_iter().find(grows).unwrap();
+        assert_eq!(counted(&basis, &sound, solver.highest()), Some(None));
+        let growing = sound
+            .values
+            .iter()
+            .position(|v| v.lambda.re > 0.01)
+            .unwrap();
+        let mut missing = sound.clone();
+        missing.values.remove(growing);
+        let found = counted(&basis, &missing, solver.highest())
+            .unwrap()
+            .unwrap();
+        assert_eq!(found.missing, 1);
+        let mut invented = sound.clone();
+        let decaying = &mut invented.values[usize::from(growing == 0)].lambda;
+        decaying.re = decaying.re.abs() + 0.1;
+        let found = counted(&basis, &invented, solver.highest()).unwrap();
+        let was_growing = sound.values[usize::from(growing == 0)].lambda.re > 0.0;
+        assert!(was_growing || found.unwrap().missing == -1);
+    }
+}
