@@ -33,7 +33,8 @@ pub struct CertificateEntry {
     /// Whether the search for bands ended at its limit of work, so that bands may be missing.
     pub gave_up: bool,
     /// Share of the sweep that is proven to have no instability which is not listed, rounded down
-    /// to four digits; null where no proof was tried.
+    /// to four digits; absent where no proof was tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proven_share: Option<f64>,
     /// The rest, which was searched and not proven: from and to.
     pub unproven_rpm: Vec<[f64; 2]>,
