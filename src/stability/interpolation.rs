@@ -1,7 +1,5 @@
 //! Cubic interpolation between two speeds.
 
-use super::root::share_of_zero;
-
 /// Cubic Hermite polynomial on [0, 1]: values and slopes at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic {
@@ -53,9 +51,19 @@ impl Cubic {
         all.fold(f64::INFINITY, f64::min)
     }
 
-    /// A zero in [0, 1] where the ends differ in sign.
+    /// A zero in [0, 1] where the ends differ in sign, to seven digits: the cubic is a guess, and a
+    /// look at the very place where two waves meet would find eigenvalues that no sign can be told of.
     pub fn sign_change(&self) -> f64 {
-        share_of_zero(|t| self.at(t))
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..24 {
+            let middle = 0.5 * (low + high);
+            if self.at(middle) * self.values[0] > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
     }
 }
 
