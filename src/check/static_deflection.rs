@@ -1,11 +1,14 @@
 //! Static deflection under a lateral force over the speed, up to the lowest critical speed.
 
+use std::convert::Infallible;
+
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
 
 use crate::plate::Plate;
 use crate::scene::Cut;
 use crate::spectrum::orthonormal;
+use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
 
 /// Shares of the square of the lowest critical speed at which the response is solved on the whole
@@ -18,8 +21,8 @@ const SPEEDS: usize = 41;
 const LAST_SHARE: f64 = 0.99;
 /// Directions of the responses below this share of the longest are rounding.
 const LEAST: f64 = 1e-12;
-/// Halvings of an interval of the curve.
-const HALVINGS: usize = 40;
+/// Relative error of the speed at which a gap is filled.
+const SPEED_TOLERANCE: f64 = 1e-12;
 
 /// How the blade gives way to forces that stand in space.
 pub struct StaticDeflection {
@@ -107,25 +110,23 @@ impl StaticDeflection {
     /// Lowest speed, in rad/s, at which that deflection is as large as a gap, `None` where it stays
     /// smaller.
     pub fn fills_gap_at(&self, point: &Col<f64>, gap_m: f64) -> Option<f64> {
-        let filled = |speed: f64| {
-            let deflection = self.in_cut_m(point, speed);
-            deflection.is_some_and(|deflection| deflection.abs() >= gap_m)
+        let look = |speed: f64| Look {
+            at: speed,
+            value: self.in_cut_m(point, speed).unwrap_or(0.0).abs() - gap_m,
+            point: speed,
         };
-        let first = self.speeds().position(filled)?;
-        let speeds: Vec<f64> = self.speeds().collect();
+        let looks: Vec<Look<f64>> = self.speeds().map(look).collect();
+        let first = looks.iter().position(|look| look.value >= 0.0)?;
         let Some(before) = first.checked_sub(1) else {
             return Some(0.0);
         };
-        let (mut low, mut high) = (speeds[before], speeds[first]);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if filled(middle) {
-                high = middle;
-            } else {
-                low = middle;
-            }
+        let ends = [looks[before], looks[first]];
+        let found: Result<_, Infallible> = bracketed(ends, SPEED_TOLERANCE, |[from, to], share| {
+            Ok(look(from + share * (to - from)))
+        });
+        match found {
+            Ok(look) => Some(look.at),
         }
-        Some(high)
     }
 }
 

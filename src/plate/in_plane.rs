@@ -62,6 +62,7 @@ pub struct InPlaneField {
     edges_m: Vec<f64>,
     /// u, u′, v, v′ at the nodes of each element.
     nodes: Vec<[[f64; DEGREE + 1]; 4]>,
+    reference: Reference,
     youngs_modulus_pa: f64,
     poisson_ratio: f64,
 }
@@ -81,19 +82,19 @@ impl InPlaneField {
     /// Solves harmonic m. Loads of m = 1 must balance; of m = 0 only the radial part is solved.
     pub fn new(blade: &Blade, order: usize, load: &InPlaneLoad<'_>) -> Self {
         let edges_m = element_edges(blade, order, load);
-        let reference = Reference::new();
         let components = if order == 0 { 1 } else { 2 };
         let unknowns = components * (DEGREE * (edges_m.len() - 1) + 1);
         let mut field = InPlaneField {
             order: order as f64,
             edges_m,
             nodes: Vec::new(),
+            reference: Reference::new(),
             youngs_modulus_pa: blade.material.youngs_modulus_pa,
             poisson_ratio: blade.material.poisson_ratio,
         };
         let mut system = Banded::new(unknowns, components * (DEGREE + 1));
         for element in 0..field.edges_m.len() - 1 {
-            field.assemble(blade, &reference, load, element, &mut system);
+            field.assemble(blade, load, element, &mut system);
         }
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let (at_bore, at_rim) = (blade.thickness_at_bore_m(), blade.thickness_at_m(b));
@@ -110,25 +111,18 @@ impl InPlaneField {
             system.hold(0);
         }
         let solution = system.solved();
-        field.nodes = field.of_elements(&reference, &solution, components);
+        field.nodes = field.of_elements(&solution, components);
         field
     }
 
-    fn assemble(
-        &self,
-        blade: &Blade,
-        reference: &Reference,
-        load: &InPlaneLoad<'_>,
-        element: usize,
-        system: &mut Banded,
-    ) {
+    fn assemble(&self, blade: &Blade, load: &InPlaneLoad<'_>, element: usize, system: &mut Banded) {
         let (from, to) = (self.edges_m[element], self.edges_m[element + 1]);
         let half = 0.5 * (to - from);
         let components = if self.order == 0.0 { 1 } else { 2 };
         let first = components * DEGREE * element;
         let (e, nu) = (self.youngs_modulus_pa, self.poisson_ratio);
         for (r, w) in quadrature::graded(from, to, DEGREE + 4).iter() {
-            let (value, slope) = reference.functions((r - from) / half - 1.0);
+            let (value, slope) = self.reference.functions((r - from) / half - 1.0);
             let weight = w * r * blade.thickness_at_m(r);
             let free = (load.eigenstrain)(r);
             let body = (load.body_n_per_m3)(r);
@@ -169,12 +163,7 @@ impl InPlaneField {
         ]
     }
 
-    fn of_elements(
-        &self,
-        reference: &Reference,
-        solution: &[f64],
-        components: usize,
-    ) -> Vec<[[f64; DEGREE + 1]; 4]> {
+    fn of_elements(&self, solution: &[f64], components: usize) -> Vec<[[f64; DEGREE + 1]; 4]> {
         (0..self.edges_m.len() - 1)
             .map(|element| {
                 let half = 0.5 * (self.edges_m[element + 1] - self.edges_m[element]);
@@ -184,7 +173,7 @@ impl InPlaneField {
                         |node: usize| solution[components * (DEGREE * element + node) + part];
                     let values: [f64; DEGREE + 1] = std::array::from_fn(value);
                     let slope = |node: usize| {
-                        let (_, slopes) = reference.functions(reference.nodes[node]);
+                        let (_, slopes) = self.reference.at_node(node);
                         slopes.iter().zip(values).map(|(s, v)| s * v).sum::<f64>() / half
                     };
                     all[2 * part] = values;
@@ -201,7 +190,9 @@ impl InPlaneField {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         let element = next.saturating_sub(1).min(last);
         let (from, to) = (self.edges_m[element], self.edges_m[element + 1]);
-        let (values, _) = Reference::new().functions(2.0 * (radius_m - from) / (to - from) - 1.0);
+        let (values, _) = self
+            .reference
+            .functions(2.0 * (radius_m - from) / (to - from) - 1.0);
         let [u, du, v, dv] = self.nodes[element]
             .map(|nodes| nodes.iter().zip(&values).map(|(x, n)| x * n).sum::<f64>());
         let (m, r) = (self.order, radius_m);
@@ -242,6 +233,7 @@ fn element_edges(blade: &Blade, order: usize, load: &InPlaneLoad<'_>) -> Vec<f64
 const MERGED: f64 = 1e-12;
 
 /// Lagrange functions on the Chebyshev points of [−1, 1].
+#[derive(Debug, Clone, PartialEq)]
 struct Reference {
     nodes: [f64; DEGREE + 1],
 }
@@ -295,7 +287,9 @@ impl Reference {
     }
 }
 
-/// A symmetric positive definite band matrix and a right side.
+/// A symmetric positive definite band matrix and a right side. The libraries here have dense and
+/// sparse factorizations: a harmonic of high order takes twenty elements, and the dense one a
+/// hundred times the work.
 struct Banded {
     /// Row i: columns i − width + 1 … i.
     rows: Vec<Vec<f64>>,

@@ -1,7 +1,7 @@
 //! How fast the motion of a saw grows at one speed, from eigenvalues alone: for saws that
 //! are looked at once, such as one in the cut. A third of the work of modes.
 
-use faer::{Col, Side, c64};
+use faer::{Col, c64};
 
 use crate::plate::Plate;
 use crate::scene::rpm;
@@ -11,6 +11,7 @@ use super::arnoldi::lowest_eigenpairs;
 use super::companion::{companion_eigenpairs, deflated_companion};
 use super::component::{Component, frequency_scale};
 use super::error::SpectrumError;
+use super::hermitian::negative_eigenvalues;
 use super::mode::{GROWTH_NOISE, Mode, classify, pairs_of};
 use super::projection::Projection;
 use super::residual::MatrixNorms;
@@ -94,10 +95,9 @@ fn certified(
         return Ok(None);
     }
     let stiffness = full.stiffness_at(speed_rad_per_s);
-    let Ok(values) = stiffness.self_adjoint_eigenvalues(Side::Lower) else {
+    let Some(negative) = negative_eigenvalues(&stiffness) else {
         return Ok(None);
     };
-    let negative = values.iter().filter(|value| **value < 0.0).count();
     let vectors: Vec<Col<f64>> = lowest_eigenpairs(full, speed_rad_per_s, LOOKED_AT, scale)?
         .into_iter()
         .flat_map(|(_, q)| {

@@ -19,7 +19,6 @@
 
 mod coupling;
 mod damped;
-mod hermitian;
 mod waves;
 
 use std::ops::Range;
@@ -31,9 +30,9 @@ use nalgebra::DMatrix;
 pub use self::damped::DampedBasis;
 
 use self::coupling::{Columns, Coupling, in_waves};
-use self::hermitian::negative_eigenvalues;
 use self::waves::Waves;
 use super::component::frequency_scale;
+use super::hermitian::negative_eigenvalues;
 use crate::plate::{HarmonicBlock, Plate};
 
 /// The blade and what couples its harmonics, without damping.

@@ -27,6 +27,7 @@ mod generalized;
 mod growth;
 mod guided_reduction;
 mod hamiltonian;
+mod hermitian;
 mod inertia;
 mod larger_basis;
 mod lowest;

@@ -23,6 +23,9 @@ use super::projection::Projection;
 use super::reflected::ReflectedModel;
 use super::work::{Cancellation, WorkCounters};
 
+#[cfg(test)]
+mod planted;
+
 /// How the modes of a speed are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strategy {
@@ -295,27 +298,16 @@ impl SpectralModel {
         let [component] = self.components.as_slice() else {
             return None;
         };
-        let standing = self.standing(component);
-        let (system, standing, height_rad_per_s) = match &component.solution {
-            Solution::Projected { reflected, .. } => {
-                let reflected = reflected.as_ref()?;
-                let basis = &reflected.projection.basis;
-                let inward = |(speed, x)| (speed, basis.transpose() * x);
-                (
-                    &reflected.projection.reduced,
-                    standing.map(inward).collect(),
-                    reflected.height_rad_per_s,
-                )
-            }
-            Solution::Whole(_) | Solution::FreeWaves(_) => {
-                let own = standing.map(|(speed, x): (f64, &Col<f64>)| (speed, x.clone()));
-                (&component.full, own.collect(), self.complete_to_rad_per_s)
-            }
+        let Solution::Projected { reflected, .. } = &component.solution else {
+            return self.whole_reflected_model();
         };
+        let reflected = reflected.as_ref()?;
+        let basis = &reflected.projection.basis;
+        let inward = |(speed, x)| (speed, basis.transpose() * x);
         Some(ReflectedModel::new(
-            system,
-            standing,
-            height_rad_per_s,
+            &reflected.projection.reduced,
+            self.standing(component).map(inward).collect(),
+            reflected.height_rad_per_s,
             &self.counters,
         ))
     }
@@ -341,62 +333,6 @@ impl SpectralModel {
             height,
             &self.counters,
         ))
-    }
-
-    /// Plants a fault: takes the k-th oscillation of a speed out of the projection of the search.
-    #[cfg(test)]
-    pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
-        let modes = self.full_modes(speed_rad_per_s).unwrap();
-        let waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
-        let lost = waves.clone().nth(place).unwrap().coordinates.clone();
-        let component = &mut self.components[0];
-        let Solution::Projected {
-            reflected: Some(reflected),
-            ..
-        } = &mut component.solution
-        else {
-            panic!("no projection");
-        };
-        let basis = &reflected.projection.basis;
-        let (re, im) = super::vectors::split(&lost);
-        let lost = [re, im].map(|part| basis.transpose() * part);
-        let lost = super::vectors::orthonormal(basis.ncols(), &lost, 1e-6);
-        let whole = lost.qr().compute_Q();
-        let kept = whole.subcols(lost.ncols(), basis.ncols() - lost.ncols());
-        let basis = basis * kept;
-        let to = reflected.projection.to_rad_per_s;
-        reflected.projection = Projection::new(&component.full, basis, to);
-    }
-
-    /// Plants a fault: projects for the search on the modes of few speeds.
-    #[cfg(test)]
-    pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
-        let mut vectors: Vec<Col<f64>> = Vec::new();
-        for c in &self.critical {
-            vectors.push(c.shape.clone());
-        }
-        vectors.truncate(12);
-        let modes: Vec<Mode> = speeds_rad_per_s
-            .iter()
-            .flat_map(|speed| self.full_modes(*speed).unwrap())
-            .collect();
-        let component = &mut self.components[0];
-        let Solution::Projected {
-            reflected: Some(reflected),
-            ..
-        } = &mut component.solution
-        else {
-            panic!("no projection");
-        };
-        for mode in modes {
-            if mode.lambda.norm() <= 1.5 * reflected.height_rad_per_s {
-                let (re, im) = super::vectors::split(&mode.coordinates);
-                vectors.extend([re, im]);
-            }
-        }
-        let basis = super::vectors::orthonormal(component.full.order(), &vectors, 1e-6);
-        let to = reflected.projection.to_rad_per_s;
-        reflected.projection = Projection::new(&component.full, basis, to);
     }
 
     /// Critical speeds that the projections cover, and their standing waves.

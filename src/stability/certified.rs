@@ -7,7 +7,7 @@ use super::evaluator::SignatureEvaluator;
 use super::flutter::flutter;
 use super::full_basis::{FullBasis, Miscount};
 use super::proof::Proof;
-use super::search::Path;
+use super::search::{Path, least_beside};
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
@@ -26,10 +26,8 @@ const ANCHORS: usize = 12;
 const DRAWN: u64 = 8;
 /// Factorizations of the order of the basis cost a hundred times as much as counts by blocks.
 const DENSE_ANCHORS: usize = 3;
-/// Distance from the edges of a band at which its modes are counted, as a share of its width, and at
-/// least of the speed: the search's models shift edges by less.
+/// Distance from the edges of a band at which its modes are counted, as a share of its width.
 const BESIDE: f64 = 0.02;
-const LEAST_BESIDE: f64 = 6e-5;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
@@ -171,7 +169,7 @@ impl Checks<'_> {
             .filter(|b| b.kind == InstabilityKind::Flutter);
         let beside = flutter.flat_map(|band| {
             let (begin, end) = (band.from_rad_per_s, band.to_rad_per_s);
-            let away = (BESIDE * (end - begin)).max(LEAST_BESIDE * end);
+            let away = (BESIDE * (end - begin)).max(least_beside() * end);
             [begin - away, band.peak_rad_per_s, end + away]
         });
         let mut speeds: Vec<f64> = beside.chain(drawn).collect();

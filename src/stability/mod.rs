@@ -54,6 +54,7 @@ pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
+pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
 pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};

@@ -25,10 +25,12 @@ const LEAST_WIDTH: f64 = 1e-9;
 const CROSSING_WIDTH: Tuned = Tuned::new("stability/search::CROSSING_WIDTH", 1e-5);
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_FLOOR: f64 = 1e-7;
-/// Share of an interval, and at least so much of the speed, that is left on each side of a
-/// coalescence when the rest is searched.
+/// Share of an interval that is left on each side of a coalescence when the rest is searched.
 const BESIDE_EDGE: Tuned = Tuned::new("stability/search::BESIDE_EDGE", 0.02);
-fn least_beside() -> f64 {
+
+/// The least distance from an edge, as a share of its speed: the models of the search shift edges
+/// by less.
+pub(super) fn least_beside() -> f64 {
     2.0 * VICINITY.get()
 }
 

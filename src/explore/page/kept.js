@@ -78,9 +78,10 @@ export function download(name, blob) {
 // are headings. Decimal commas where the columns are parted by semicolons or tabs.
 export function measured(name, text) {
   const rows = [];
+  const decimal = (cell, parting) => (parting === "," ? cell : cell.replace(",", "."));
   for (const line of text.split(/\r?\n/)) {
     const parting = /[;\t]/.test(line) ? /[;\t]/ : ",";
-    const cells = line.split(parting).map((cell) => cell.trim().replace(parting === "," ? "" : ",", parting === "," ? "" : "."));
+    const cells = line.split(parting).map((cell) => decimal(cell.trim(), parting));
     if (cells[0] === "" || !Number.isFinite(Number(cells[0]))) continue;
     const frequencies_hz = cells.slice(1).filter((cell) => cell !== "").map(Number);
     if (frequencies_hz.length > 0) rows.push({ rpm: Number(cells[0]), frequencies_hz });

@@ -4,8 +4,8 @@ use faer::{Mat, c64};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::coupling::Columns;
-use super::hermitian::negative_eigenvalues;
 use super::{BoundedBlock, Harmonic};
+use crate::spectrum::hermitian::negative_eigenvalues;
 
 /// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.
 const RESONANT: f64 = 1e5;

@@ -1,20 +1,22 @@
-//! The inertia of a small Hermitian matrix.
+//! The inertia of a symmetric or Hermitian matrix.
 
 use faer::linalg::solvers::Lblt;
-use faer::{Mat, Side, c64};
+use faer::traits::ComplexField;
+use faer::traits::math_utils::{abs2, real};
+use faer::{Mat, Side};
 
 /// Number of negative eigenvalues of a Hermitian matrix, of which the lower triangle is read: by
 /// Sylvester's law that of B in A = PᵀLBLᴴP (J. R. Bunch & L. Kaufman, Math. Comp. 31, 1977).
 /// `None` where it is singular to working precision.
-pub fn negative_eigenvalues(matrix: &Mat<c64>) -> Option<usize> {
+pub fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: &Mat<T>) -> Option<usize> {
     let factors = Lblt::new(matrix.as_ref(), Side::Lower);
     let (diagonal, below) = (factors.B_diag(), factors.B_subdiag());
     let order = matrix.nrows();
     let mut negative = 0;
     let mut k = 0;
     while k < order {
-        let own = diagonal[k].re;
-        let coupling = below[k].norm_sqr();
+        let own = real(&diagonal[k]);
+        let coupling = abs2(&below[k]);
         if coupling == 0.0 {
             if own == 0.0 || !own.is_finite() {
                 return None;
@@ -23,7 +25,7 @@ pub fn negative_eigenvalues(matrix: &Mat<c64>) -> Option<usize> {
             k += 1;
             continue;
         }
-        let next = diagonal[k + 1].re;
+        let next = real(&diagonal[k + 1]);
         let determinant = own * next - coupling;
         if determinant == 0.0 || !determinant.is_finite() {
             return None;
@@ -40,7 +42,7 @@ pub fn negative_eigenvalues(matrix: &Mat<c64>) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use faer::Scale;
+    use faer::{Scale, c64};
 
     use super::*;
 
@@ -64,6 +66,6 @@ mod tests {
             let exact = values.iter().filter(|value| **value < 0.0).count();
             assert_eq!(negative_eigenvalues(&matrix), Some(exact), "order {order}");
         }
-        assert_eq!(negative_eigenvalues(&Mat::zeros(3, 3)), None);
+        assert_eq!(negative_eigenvalues(&Mat::<f64>::zeros(3, 3)), None);
     }
 }

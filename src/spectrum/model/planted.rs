@@ -1,0 +1,65 @@
+//! Faults that tests plant in the projection of the search, for the certificate to find.
+
+use faer::{Col, Mat};
+
+use super::super::vectors::{orthonormal, split};
+use super::*;
+
+/// Vectors closer than this to the span of the others are left out.
+const SPAN_TOLERANCE: f64 = 1e-6;
+/// Modes up to this multiple of the height are taken, as the sound projection does.
+const MARGIN: f64 = 1.5;
+/// Standing waves that a projection on few speeds still has.
+const STANDING: usize = 12;
+
+impl SpectralModel {
+    /// Takes the k-th oscillation of a speed out of the projection of the search.
+    pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
+        let modes = self.full_modes(speed_rad_per_s).unwrap();
+        let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
+        let (re, im) = split(&waves.nth(place).unwrap().coordinates);
+        self.project_again(|basis, _| {
+            let lost = [re, im].map(|part| basis.transpose() * part);
+            let lost = orthonormal(basis.ncols(), &lost, SPAN_TOLERANCE);
+            let whole = lost.qr().compute_Q();
+            let kept = whole.subcols(lost.ncols(), basis.ncols() - lost.ncols());
+            basis * kept
+        });
+    }
+
+    /// Projects for the search on the modes of few speeds.
+    pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
+        let standing = self.critical.iter().take(STANDING);
+        let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
+        let modes: Vec<Mode> = speeds_rad_per_s
+            .iter()
+            .flat_map(|speed| self.full_modes(*speed).unwrap())
+            .collect();
+        self.project_again(|basis, height_rad_per_s| {
+            let low = modes
+                .iter()
+                .filter(|mode| mode.lambda.norm() <= MARGIN * height_rad_per_s);
+            for mode in low {
+                let (re, im) = split(&mode.coordinates);
+                vectors.extend([re, im]);
+            }
+            orthonormal(basis.nrows(), &vectors, SPAN_TOLERANCE)
+        });
+    }
+
+    /// Replaces the projection of the search by one on another basis, made of it and its height.
+    fn project_again(&mut self, basis: impl FnOnce(&Mat<f64>, f64) -> Mat<f64>) {
+        let component = &mut self.components[0];
+        let Solution::Projected {
+            reflected: Some(reflected),
+            ..
+        } = &mut component.solution
+        else {
+            panic!("no projection");
+        };
+        let sound = &reflected.projection;
+        let basis = basis(&sound.basis, reflected.height_rad_per_s);
+        let to = sound.to_rad_per_s;
+        reflected.projection = Projection::new(&component.full, basis, to);
+    }
+}
