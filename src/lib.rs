@@ -57,6 +57,7 @@ pub mod system;
 pub mod text;
 pub mod transient;
 mod tuned;
+pub mod washboarding;
 
 /// What most programs that use the library need.
 pub mod prelude {

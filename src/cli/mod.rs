@@ -22,6 +22,7 @@ mod study;
 mod study_summary;
 mod summary;
 mod tradeoff;
+mod washboard;
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -51,6 +52,9 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
+    /// Do the teeth set the blade swinging, each on the surface left by the one before?
+    #[command(after_help = washboard::EXAMPLES)]
+    Washboard(washboard::Arguments),
     /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
@@ -142,6 +146,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Washboard(arguments)) => washboard::run(&arguments),
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),

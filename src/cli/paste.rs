@@ -33,6 +33,11 @@ pub fn cut_block(scene: &SceneFile) -> String {
     text
 }
 
+/// The key `cut.washboarding`, of a cut of middling stiffness.
+pub fn washboarding_block() -> String {
+    block("washboarding", &json!({ "stiffness_n_per_m": 20000, "overlap": 1 }))
+}
+
 /// The key `runup`, to half as fast again as the saw runs.
 pub fn runup_block(scene: &SceneFile) -> String {
     let usual_rpm = scene.operating_rpm.unwrap_or_else(|| usual_rpm(scene));

@@ -3,9 +3,11 @@
 use super::canvas::Sheet;
 use super::{
     FigureError, campbell, check, cut, cut_map, fit, in_cut, membrane, place, render, response_map,
-    root_loci, runup, spline_orbit, study,
+    root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use crate::report::{
+    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
+};
 use crate::stability::Setting;
 use crate::study::StudyReport;
 
@@ -137,6 +139,14 @@ impl Figures for RunUpReport {
     fn figures(&self) -> Vec<Figure> {
         let sheets = [runup::sheet(self), response_map::sheet(self)];
         named(Self::NAMES, sheets.map(Some))
+    }
+}
+
+impl Figures for WashboardReport {
+    const NAMES: &'static [Names] = &[["washboard.png", "washboard.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(washboard::sheet(self))])
     }
 }
 

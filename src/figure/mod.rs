@@ -46,6 +46,7 @@ mod style;
 #[cfg(test)]
 mod tidy;
 mod tradeoff;
+mod washboard;
 
 pub use drawn::{Figure, Figures, Names, tradeoff};
 pub use palette::{PALETTE, Palette, Rgb};

@@ -21,6 +21,7 @@ mod remarks;
 mod runup;
 mod schema;
 mod spline;
+mod washboard;
 mod whirl;
 
 use schemars::JsonSchema;
@@ -43,6 +44,7 @@ pub use self::place::{
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
+pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::{InstabilityKind, StabilityState};

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
-use super::{CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport};
+use super::{
+    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport, WashboardReport,
+};
 use crate::stability::Setting;
 use crate::study::StudyReport;
 
@@ -21,6 +23,7 @@ pub fn json_schema() -> Value {
         "runup": of::<RunUpReport>(),
         "study": of::<StudyReport>(),
         "tradeoff": of::<Vec<Setting>>(),
+        "washboard": of::<WashboardReport>(),
     })
 }
 

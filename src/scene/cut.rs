@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_RPM, SPAN, positive, refuse, within};
+use super::washboarding::{Washboarding, WashboardingFile};
 use super::wood::{Wood, WoodFile};
 use super::{Blade, SceneError, SceneFile, rad_per_s};
 
@@ -52,6 +53,10 @@ pub struct CutFile {
     /// The wood that leans against the blade in the kerf. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wood: Option<WoodFile>,
+    /// The force on a tooth that cuts the surface left by the one before, for
+    /// `sawflutter washboard`. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub washboarding: Option<WashboardingFile>,
     /// Speeds at which the saw cuts, and what differs there. By default the operating
     /// speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -100,6 +105,8 @@ pub struct Cut {
     pub runs: Vec<CutRun>,
     /// Wood against the blade, in the cut only.
     pub wood: Option<Wood>,
+    /// The force of the surface left by the tooth before, for a look at washboarding only.
+    pub washboarding: Option<Washboarding>,
     /// The forces that bear on a chart; `None` where it is of the idling saw.
     pub chart: Option<CutRun>,
     file: CutFile,
@@ -121,6 +128,8 @@ pub struct CutRun {
     pub lateral_n: f64,
     /// The tangential force that the power allows, P/(Ωb) shared by the teeth.
     pub tangential_of_power_n: Option<f64>,
+    /// Speed at which the wood is fed.
+    pub feed_m_per_s: Option<f64>,
     /// Time that the forces last.
     pub duration_s: f64,
 }
@@ -155,6 +164,7 @@ impl Cut {
             idle_s: within("cut.idle_s", typed.idle_s, (0.0, MAX_DURATION_S))?,
             runs: Vec::new(),
             wood: None,
+            washboarding: None,
             chart: None,
             file: typed.clone(),
             rim_radius_m: blade.outer_radius_m,
@@ -170,6 +180,10 @@ impl Cut {
         if let Some(wood) = &typed.wood {
             cut.wood = Wood::new(wood, &cut, blade)?;
         }
+        let washboarding = typed.washboarding.as_ref();
+        cut.washboarding = washboarding
+            .map(|washboarding| Washboarding::new(washboarding, &cut))
+            .transpose()?;
         cut.chart = typed.chart_rpm.map(|rpm| cut.at_rpm(rpm)).transpose()?;
         Ok(cut)
     }
@@ -224,6 +238,7 @@ impl Cut {
             radial_n: or_none("radial_n_per_tooth", radial, typed.radial_n_per_tooth)?,
             lateral_n: or_none("lateral_n_per_tooth", lateral, typed.lateral_n_per_tooth)?,
             tangential_of_power_n,
+            feed_m_per_s: feed,
             duration_s: self.duration_s(feed)?,
         })
     }

@@ -22,6 +22,7 @@ mod spline;
 mod thickness;
 mod validate;
 mod validated;
+mod washboarding;
 mod wood;
 
 pub(crate) use check::MAX_RPM;
@@ -51,6 +52,8 @@ pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};
 pub use thickness::{RimFile, RimMass, ThicknessProfile, ThicknessRow};
 pub use validated::{Blade, Bore, Damping, Scene, SpeedRange};
+pub(crate) use washboarding::MAX_CUTTING_STIFFNESS;
+pub use washboarding::{Washboarding, WashboardingFile};
 pub use wood::{Wood, WoodFile};
 
 /// Rotation speed in rad/s from revolutions per minute.

@@ -37,7 +37,7 @@ const fn q(
 /// machines that are built: from slitting saws of 50 mm to saws for stone of 4 m, from aluminium
 /// to tungsten carbide, from a felt pad to a steel one.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 78] = [
+pub const QUANTITIES: [Quantity; 82] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -101,6 +101,10 @@ pub const QUANTITIES: [Quantity; 78] = [
     q("cut.wood.damping_n_s_per_m", "damping of the wood", "N·s/m", 1e-3, 1e6),
     q("cut.wood.depth_m", "depth of the contact with the wood", "m", 1e-4, 2.0),
     q("cut.wood.arc_deg", "arc of the contact with the wood", "°", 0.01, 360.0),
+    q("cut.washboarding.stiffness_n_per_m", "lateral cutting stiffness", "N/m", 10.0, 1e8),
+    q("cut.washboarding.overlap", "overlap with the tooth before", "", 0.0, 1.0),
+    q("cut.washboarding.arc_deg", "arc of the teeth in the cut", "°", 0.01, 360.0),
+    q("cut.washboarding.pitches_deg[]", "pitch of a tooth", "°", 0.1, 360.0),
     q("cut.speeds[].rpm", "speed of the cut", "rpm", 30.0, 6e4),
     q("cut.speeds[].tangential_n_per_tooth", "tangential force on a tooth", "N", -1e5, 1e5),
     q("cut.speeds[].radial_n_per_tooth", "radial force on a tooth", "N", -1e5, 1e5),

@@ -14,6 +14,7 @@
 
 pub(crate) mod derivative;
 
+mod argument;
 mod arnoldi;
 mod at_rest;
 mod buckling;
@@ -44,6 +45,7 @@ mod work;
 
 #[doc(hidden)]
 pub use arnoldi::lowest_eigenpairs;
+pub(crate) use argument::turn_along;
 pub(crate) use at_rest::modes_at_rest;
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]
@@ -66,6 +68,7 @@ pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]
 pub use lowest::LowestModes;
 pub(crate) use matrix_slope::{Differences, matrix_slopes};
+pub(crate) use mode::classify;
 pub use mode::{Mode, ModeKind};
 pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};

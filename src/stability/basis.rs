@@ -17,7 +17,7 @@ use crate::tuned::Tuned;
 
 /// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
 /// polynomials lose digits on narrow rings.
-pub(super) const LADDER: [(usize, usize); 9] = [
+pub(crate) const LADDER: [(usize, usize); 9] = [
     (4, 3),
     (6, 4),
     (8, 5),

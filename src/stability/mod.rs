@@ -39,6 +39,7 @@ mod verdict;
 pub use analysis::{Analysis, AnalysisOptions, OPERATING_LIMIT};
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
+pub(crate) use basis::LADDER;
 pub(crate) use basis::resolved_plate;
 pub use certificate::{Certificate, Mismatch};
 #[doc(hidden)]

@@ -25,4 +25,5 @@ mod sensitivity;
 mod spline;
 mod static_deflection;
 mod thickness_profile;
+mod washboarding;
 mod witness;

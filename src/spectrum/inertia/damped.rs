@@ -13,6 +13,7 @@
 use faer::{Mat, c64};
 use nalgebra::DMatrix;
 
+use super::super::argument::turn_along;
 use super::coupling::Columns;
 use super::{Harmonic, WholeBasis};
 use crate::plate::Plate;
@@ -36,9 +37,6 @@ pub struct DampedBasis {
 
 /// Places along each side of the path, besides those of the listed eigenvalues.
 const PLACES: usize = 16;
-/// Turn between two neighbouring places beyond which there must be one in between.
-const LARGEST_TURN: f64 = 0.7;
-const MOST_HALVINGS: usize = 24;
 /// Share of the window's frequency at which the path ends: at zero the block of a rigid motion is singular.
 const NEXT_TO_ZERO: f64 = 1e-5;
 
@@ -100,14 +98,7 @@ impl DampedBasis {
         places.extend(beside.map(|value| 3.0 - value.im / frequency));
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let angle = |t: f64| self.angle(speed_rad_per_s, place(t), listed);
-        let mut before = (places[0], angle(places[0])?);
-        let mut total = 0.0;
-        for &t in &places[1..] {
-            let here = (t, angle(t)?);
-            total += turned(&angle, before, here, 0)?;
-            before = here;
-        }
+        let total = turn_along(&places, |t| self.angle(speed_rad_per_s, place(t), listed))?;
         Some((total / std::f64::consts::PI).round() as isize)
     }
 
@@ -225,28 +216,6 @@ fn entry(parts: &[(&Columns, c64)], row: usize, column: usize) -> (f64, f64) {
         column -= count;
     }
     (0.0, 0.0)
-}
-
-/// How far an angle turns between two places, with as many in between as it takes to tell.
-fn turned(
-    angle: &impl Fn(f64) -> Option<f64>,
-    (from, before): (f64, f64),
-    (to, after): (f64, f64),
-    halvings: usize,
-) -> Option<f64> {
-    use std::f64::consts::TAU;
-    let turn = after - before;
-    let turn = turn - TAU * (turn / TAU).round();
-    if turn.abs() < LARGEST_TURN {
-        return Some(turn);
-    }
-    if halvings == MOST_HALVINGS {
-        return None;
-    }
-    let middle = 0.5 * (from + to);
-    let here = (middle, angle(middle)?);
-    let first = turned(angle, (from, before), here, halvings + 1)?;
-    Some(first + turned(angle, here, (to, after), halvings + 1)?)
 }
 
 /// Whether a permutation takes an odd number of swaps.

@@ -1,0 +1,255 @@
+//! `washboard.json`: whether the teeth set the blade swinging, each on the surface left by the one
+//! before.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Verdict;
+use crate::scene::{SceneFile, rpm, unusual};
+use crate::spectrum::Direction;
+use crate::washboarding::{Washboard, WashboardMode};
+
+/// `washboard.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WashboardReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Rotation speed of the verdict.
+    pub rpm: f64,
+    /// Whether a motion grows at that speed.
+    pub verdict: Verdict,
+    /// Teeth that pass in a second.
+    pub tooth_passing_hz: f64,
+    /// Times from tooth to tooth: one of even teeth, else each of those that repeat.
+    pub delays_s: Vec<f64>,
+    /// Lateral cutting stiffness of all teeth in the cut together.
+    pub stiffness_n_per_m: f64,
+    /// Share of a tooth's cut on the surface left by the tooth before.
+    pub overlap: f64,
+    /// Arc of the rim on which the force acts.
+    pub arc_deg: f64,
+    /// Speed at which the wood is fed, if it is given.
+    pub feed_m_per_s: Option<f64>,
+    /// Least cutting stiffness at which a motion grows at that speed; null where there is none up to
+    /// `ceiling_n_per_m`, zero where one grows without the delayed force.
+    pub critical_stiffness_n_per_m: Option<f64>,
+    /// Frequency at which it then begins to.
+    pub critical_frequency_hz: Option<f64>,
+    /// Eigenvalues in the right half plane by the argument principle, which an oscillation has two of;
+    /// null where one lies on the imaginary axis.
+    pub growing_eigenvalues: Option<usize>,
+    /// The same without the delayed force.
+    pub growing_eigenvalues_without: usize,
+    /// Modes at that speed, the fastest growing or slowest decaying first.
+    pub modes: Vec<WashboardModeEntry>,
+    /// Least cutting stiffness at which a motion grows, over the speed.
+    pub lobes: LobesEntry,
+    /// Cutting stiffness up to which it was looked for.
+    pub ceiling_n_per_m: f64,
+    /// Frequency up to which the modes are complete.
+    pub complete_to_hz: f64,
+    /// Largest number of nodal diameters of the basis.
+    pub max_diameters: usize,
+    /// Radial functions for each.
+    pub radial_functions: usize,
+    /// Estimated relative error of the critical speeds in this basis.
+    pub estimated_relative_error: Option<f64>,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// A mode with the delayed force.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WashboardModeEntry {
+    /// Its harmonics in words, with shares where none dominates.
+    pub name: String,
+    /// How the wave runs, seen from space.
+    pub direction: Direction,
+    /// Im λ/2π in space.
+    pub frequency_hz: f64,
+    /// Re λ.
+    pub growth_per_s: f64,
+    /// Re λ of the mode without the delayed force; null for one that only the delay makes.
+    pub growth_without_per_s: Option<f64>,
+    /// Im λ/2π of the mode without the delayed force.
+    pub frequency_without_hz: Option<f64>,
+    /// The multiple of the tooth passing frequency next to its frequency; null for teeth that are not
+    /// evenly spaced.
+    pub tooth_passing_multiple: Option<u32>,
+    /// Its frequency less that multiple.
+    pub beside_tooth_passing_hz: Option<f64>,
+    /// Length of a wave of its pattern on the board, along the feed; null without a feed.
+    pub pattern_pitch_m: Option<f64>,
+}
+
+/// The lobe diagram.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LobesEntry {
+    /// Rotation speeds.
+    pub rpm: Vec<f64>,
+    /// Least cutting stiffness at which a motion grows; null where there is none up to
+    /// `ceiling_n_per_m`, zero where one grows without the delayed force.
+    pub critical_stiffness_n_per_m: Vec<Option<f64>>,
+    /// Frequency at which it begins to.
+    pub frequency_hz: Vec<Option<f64>>,
+    /// Whether the argument principle says that nothing grows right below it.
+    pub confirmed: Vec<bool>,
+}
+
+impl WashboardReport {
+    /// Reports what was found.
+    pub fn new(found: &Washboard) -> Self {
+        let (run, washboarding) = (&found.run, &found.washboarding);
+        let speed = run.speed_rad_per_s;
+        let passing = washboarding.tooth_passing_rad_per_s(speed);
+        let boundary = found.boundary;
+        let resolution = found.plate.resolution;
+        let error = found.estimated_relative_error;
+        let stable = found.growing == Some(0);
+        WashboardReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: found.scene.file().clone(),
+            rpm: run.rpm,
+            verdict: if stable { Verdict::Stable } else { Verdict::Unstable },
+            tooth_passing_hz: passing / TAU,
+            delays_s: washboarding.delays_s(speed),
+            stiffness_n_per_m: washboarding.stiffness_n_per_m,
+            overlap: washboarding.overlap,
+            arc_deg: washboarding.arc_rad.to_degrees(),
+            feed_m_per_s: run.feed_m_per_s,
+            critical_stiffness_n_per_m: boundary.map(|b| b.stiffness_n_per_m),
+            critical_frequency_hz: boundary.map(|b| b.frequency_rad_per_s / TAU),
+            growing_eigenvalues: found.growing,
+            growing_eigenvalues_without: found.growing_without,
+            modes: found.modes.iter().map(entry).collect(),
+            lobes: lobes(found),
+            ceiling_n_per_m: found.ceiling_n_per_m,
+            complete_to_hz: found.complete_to_rad_per_s / TAU,
+            max_diameters: resolution.max_diameters,
+            radial_functions: resolution.radial_functions,
+            estimated_relative_error: error.is_finite().then_some(error),
+            warnings: warnings(found),
+        }
+    }
+
+    /// The fastest growing mode, where one grows.
+    pub fn growing_mode(&self) -> Option<&WashboardModeEntry> {
+        self.modes.first().filter(|mode| mode.growth_per_s > 0.0)
+    }
+}
+
+fn entry(mode: &WashboardMode) -> WashboardModeEntry {
+    let pattern = mode.pattern;
+    WashboardModeEntry {
+        name: mode.name.in_shares(),
+        direction: mode.name.direction,
+        frequency_hz: mode.lambda.im / TAU,
+        growth_per_s: mode.lambda.re,
+        growth_without_per_s: mode.without.map(|lambda| lambda.re),
+        frequency_without_hz: mode.without.map(|lambda| lambda.im / TAU),
+        tooth_passing_multiple: pattern.map(|pattern| pattern.multiple),
+        beside_tooth_passing_hz: pattern.map(|pattern| pattern.beside_rad_per_s / TAU),
+        pattern_pitch_m: pattern.and_then(|pattern| pattern.pitch_m),
+    }
+}
+
+fn lobes(found: &Washboard) -> LobesEntry {
+    let points = || found.lobes.iter();
+    LobesEntry {
+        rpm: points().map(|point| rpm(point.speed_rad_per_s)).collect(),
+        critical_stiffness_n_per_m: points()
+            .map(|point| point.boundary.map(|b| b.stiffness_n_per_m))
+            .collect(),
+        frequency_hz: points()
+            .map(|point| point.boundary.map(|b| b.frequency_rad_per_s / TAU))
+            .collect(),
+        confirmed: points().map(|point| point.confirmed).collect(),
+    }
+}
+
+fn warnings(found: &Washboard) -> Vec<String> {
+    let all = [
+        without_delay(found),
+        on_the_axis(found),
+        unlisted(found),
+        beyond(found),
+        unconfirmed(found),
+        without_pitch(found),
+    ];
+    let of_scene = unusual(found.scene.file());
+    of_scene
+        .into_iter()
+        .chain(all.into_iter().flatten())
+        .collect()
+}
+
+fn without_delay(found: &Washboard) -> Option<String> {
+    (found.growing_without > 0).then(|| {
+        format!(
+            "at {:.0} rpm the saw in the cut is unstable without the delayed force; `sawflutter cut` tells why",
+            found.run.rpm
+        )
+    })
+}
+
+fn on_the_axis(found: &Washboard) -> Option<String> {
+    found.growing.is_none().then(|| {
+        "a motion neither grows nor decays to all digits: it cannot be told on which side of the boundary the saw is, and it is called unstable".to_owned()
+    })
+}
+
+fn unlisted(found: &Washboard) -> Option<String> {
+    let growing = found.modes.iter().filter(|mode| mode.lambda.re > 0.0);
+    let listed: usize = growing.map(|m| if m.lambda.im > 0.0 { 2 } else { 1 }).sum();
+    let count = found.growing?;
+    (count != listed).then(|| {
+        format!(
+            "the argument principle counts {count} growing eigenvalues, but {listed} were found: the list of modes lacks some"
+        )
+    })
+}
+
+fn beyond(found: &Washboard) -> Option<String> {
+    let complete_hz = found.complete_to_rad_per_s / TAU;
+    if found.complete_to_rad_per_s < found.needed_to_rad_per_s {
+        return Some(format!(
+            "the largest basis holds the modes up to {complete_hz:.0} Hz only, but teeth drive those up to {:.0} Hz: what they do is not known",
+            found.needed_to_rad_per_s / TAU
+        ));
+    }
+    let stiffness = found.washboarding.stiffness_n_per_m;
+    (stiffness > found.safe_beyond_n_per_m).then(|| {
+        format!(
+            "modes above {complete_hz:.0} Hz are not looked at; by its damping alone none of them grows up to {:.2e} N/m",
+            found.safe_beyond_n_per_m
+        )
+    })
+}
+
+fn unconfirmed(found: &Washboard) -> Option<String> {
+    let count = found.unconfirmed();
+    (count > 0).then(|| {
+        format!(
+            "at {count} of {} speeds of the diagram the argument principle does not confirm that nothing grows below the boundary",
+            found.lobes.len()
+        )
+    })
+}
+
+fn without_pitch(found: &Washboard) -> Option<String> {
+    if !found.washboarding.is_even() {
+        return Some(
+            "teeth that are not evenly spaced leave no pattern of one pitch: none is given".to_owned(),
+        );
+    }
+    found.run.feed_m_per_s.is_none().then(|| {
+        "without cut.feed_m_per_s the pitch of the pattern on the board is not known".to_owned()
+    })
+}

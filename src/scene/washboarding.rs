@@ -1,0 +1,206 @@
+//! Washboarding: the lateral force on a tooth that cuts the surface which the one before has left.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::SceneError;
+use super::check::{MAX_GUIDES, refuse, within};
+use super::cut::Cut;
+use super::wood::Wood;
+
+/// The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the surface
+/// that the tooth before it has left at the same place in space, one tooth period τ ago.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WashboardingFile {
+    /// Lateral cutting stiffness k of all teeth in the cut together: the force across the blade for
+    /// each metre that the teeth cut beside the surface left by those before.
+    pub stiffness_n_per_m: f64,
+    /// Share μ of a tooth's cut that lies on the surface left by the tooth before, 0 to 1.
+    #[serde(default = "full_overlap")]
+    pub overlap: f64,
+    /// Arc of the rim on which the force acts; by default that of the teeth in the cut.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arc_deg: Option<f64>,
+    /// Angles from tooth to tooth, repeated around the blade, of teeth that are not evenly spaced.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pitches_deg: Vec<f64>,
+}
+
+fn full_overlap() -> f64 {
+    1.0
+}
+
+/// Validated washboarding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Washboarding {
+    /// Lateral cutting stiffness k of all teeth in the cut together.
+    pub stiffness_n_per_m: f64,
+    /// μ.
+    pub overlap: f64,
+    /// Angles from tooth to tooth that repeat around the blade; a single one of even teeth.
+    pub pitches_rad: Vec<f64>,
+    /// Number of all teeth.
+    pub teeth: u32,
+    /// Angle of the middle of the arc.
+    pub angle_rad: f64,
+    /// The arc.
+    pub arc_rad: f64,
+}
+
+/// Stiffer than any wood, and than any blade to the side.
+pub(crate) const MAX_CUTTING_STIFFNESS: f64 = 1e9;
+/// How far the pitches may miss a whole turn: what people round to.
+const ROUNDED_DEG: f64 = 0.05;
+/// Teeth nearer than this share of the mean pitch are one.
+const LEAST_PITCH: f64 = 0.05;
+
+impl Washboarding {
+    pub(super) fn new(typed: &WashboardingFile, cut: &Cut) -> Result<Self, SceneError> {
+        let key = |name: &str| format!("cut.washboarding.{name}");
+        let stiffness = typed.stiffness_n_per_m;
+        if !(stiffness > 0.0 && stiffness <= MAX_CUTTING_STIFFNESS) {
+            let allowed = format!("above 0 and at most {MAX_CUTTING_STIFFNESS:e}");
+            let remedy = "give it in N/m, or take washboarding out";
+            return Err(refuse(
+                &key("stiffness_n_per_m"),
+                stiffness,
+                allowed,
+                remedy,
+            ));
+        }
+        let arc_rad = match typed.arc_deg {
+            Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
+            None => f64::from(cut.teeth) * cut.pitch_rad,
+        };
+        let teeth = (TAU / cut.pitch_rad).round() as u32;
+        Ok(Washboarding {
+            stiffness_n_per_m: stiffness,
+            overlap: within(&key("overlap"), typed.overlap, (0.0, 1.0))?,
+            pitches_rad: pitches_rad(&key("pitches_deg"), &typed.pitches_deg, teeth)?,
+            teeth,
+            angle_rad: cut.angle_rad,
+            arc_rad,
+        })
+    }
+
+    /// The delays τ at a speed, in s: a place of the wood is cut by each tooth once a turn, so that
+    /// each counts as much as every other.
+    pub fn delays_s(&self, speed_rad_per_s: f64) -> Vec<f64> {
+        let of = |pitch: &f64| pitch / speed_rad_per_s;
+        self.pitches_rad.iter().map(of).collect()
+    }
+
+    /// Teeth that pass in a second, times 2π.
+    pub fn tooth_passing_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
+        f64::from(self.teeth) * speed_rad_per_s
+    }
+
+    /// Whether the teeth are evenly spaced.
+    pub fn is_even(&self) -> bool {
+        self.pitches_rad.len() == 1
+    }
+
+    /// A spring of 1 N/m on the arc of the rim, as the undelayed force is one of k.
+    pub fn unit_spring(&self) -> Wood {
+        Wood {
+            angle_rad: self.angle_rad,
+            arc_rad: self.arc_rad,
+            depth_m: 0.0,
+            stiffness_n_per_m: 1.0,
+            damping_n_s_per_m: 0.0,
+        }
+    }
+}
+
+/// One pitch of even teeth; else those given, made to fill the turn exactly.
+fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneError> {
+    let mean_deg = 360.0 / f64::from(teeth);
+    if typed.is_empty() {
+        return Ok(vec![mean_deg.to_radians()]);
+    }
+    let count = typed.len();
+    if count > MAX_GUIDES || !(teeth as usize).is_multiple_of(count) {
+        let allowed = format!(
+            "a number of pitches that divides blade.teeth ({teeth}), at most {MAX_GUIDES}"
+        );
+        let remedy = "list the pitches that repeat around the blade, each once";
+        return Err(refuse(key, count as f64, allowed, remedy));
+    }
+    for (index, pitch) in typed.iter().enumerate() {
+        let range = (LEAST_PITCH * mean_deg, 360.0);
+        within(&format!("{key}[{index}]"), *pitch, range)?;
+    }
+    let turn = typed.iter().sum::<f64>() * f64::from(teeth) / count as f64;
+    if (turn - 360.0).abs() > ROUNDED_DEG * f64::from(teeth) {
+        return Err(SceneError::Value {
+            key: key.to_owned(),
+            value: format!("{turn} degrees in all, repeated around {teeth} teeth"),
+            allowed: "a whole turn of 360 degrees".into(),
+            remedy: "give pitches whose mean is 360 degrees over the number of teeth",
+        });
+    }
+    let even = typed.iter().all(|pitch| *pitch == typed[0]);
+    let filling = 360.0 / turn;
+    let pitches = typed.iter().map(|pitch| (pitch * filling).to_radians());
+    Ok(pitches.take(if even { 1 } else { count }).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn with(change: impl FnOnce(&mut WashboardingFile)) -> Result<Washboarding, SceneError> {
+        let scene = Scene::paper().edited(|saw| {
+            let mut washboarding = WashboardingFile {
+                stiffness_n_per_m: 1e4,
+                overlap: 1.0,
+                arc_deg: None,
+                pitches_deg: Vec::new(),
+            };
+            change(&mut washboarding);
+            saw.cut.as_mut().expect("a cut").washboarding = Some(washboarding);
+        });
+        let cut = scene.map(|scene| scene.cut().expect("a cut").clone());
+        cut.map(|cut| cut.washboarding.expect("washboarding"))
+    }
+
+    /// 42 teeth, four of them in the cut, at 100 rad/s.
+    #[test]
+    fn teeth_give_the_arc_and_the_delays() {
+        let even = with(|_| ()).unwrap();
+        assert_eq!(even.teeth, 42);
+        assert!((even.arc_rad - 4.0 * TAU / 42.0).abs() < 1e-12);
+        let delays = even.delays_s(100.0);
+        assert!(delays.len() == 1 && (delays[0] - TAU / 4200.0).abs() < 1e-12);
+        // 8 + 10 degrees are 5 % more than two of 42 pitches, 8.07 + 9.07 are rounded.
+        assert!(with(|w| w.pitches_deg = vec![8.0, 10.0]).is_err());
+        let uneven = with(|w| w.pitches_deg = vec![8.07, 9.07]).unwrap();
+        let turn = 21.0 * uneven.pitches_rad.iter().sum::<f64>();
+        assert!((turn - TAU).abs() < 1e-12 && !uneven.is_even());
+        let mean = 360.0 / 42.0;
+        assert!(with(|w| w.pitches_deg = vec![mean; 3]).unwrap().is_even());
+    }
+
+    #[test]
+    fn refusals_name_the_key() {
+        type Change = fn(&mut WashboardingFile);
+        let cases: [(&str, Change); 8] = [
+            ("stiffness_n_per_m", |w| w.stiffness_n_per_m = 0.0),
+            ("stiffness_n_per_m", |w| w.stiffness_n_per_m = f64::NAN),
+            ("stiffness_n_per_m", |w| w.stiffness_n_per_m = 1e12),
+            ("overlap", |w| w.overlap = 1.1),
+            ("arc_deg", |w| w.arc_deg = Some(400.0)),
+            ("pitches_deg", |w| w.pitches_deg = vec![8.0; 5]),
+            ("pitches_deg", |w| w.pitches_deg = vec![8.0, 9.9]),
+            ("pitches_deg[1]", |w| w.pitches_deg = vec![17.0, 0.1]),
+        ];
+        for (key, change) in cases {
+            let error = with(change).unwrap_err().to_string();
+            assert!(error.contains(&format!("cut.washboarding.{key} ")), "{error}");
+        }
+    }
+}

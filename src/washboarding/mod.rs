@@ -1,0 +1,217 @@
+//! Washboarding: a blade that the teeth set swinging, each on the surface left by the one before.
+//!
+//! In goes a scene whose cut names `washboarding`; out comes a [`Washboard`]: whether a motion grows
+//! at the operating speed, which, and the least cutting stiffness at which one would, over the speed.
+//!
+//! The force on a tooth is −k (w(t) − μ w(t − τ)). The wood stands in space, and each tooth passes the
+//! same arc one tooth period after the one before it, so that in the frame fixed in space the delayed
+//! term does not change with time, and eigenvalues are those of
+//!
+//! λ² + λD(Ω) + K(Ω) + k h(λ) P, h(λ) = 1 − μ/p Σ e^(−λτ_j), P = ∫ φφᵀ dθ/arc on the arc of the rim.
+//!
+//! References: S. A. Tobias, *Machine-Tool Vibration* (1965), for the regenerative effect; J. F. Tian &
+//! S. G. Hutton, *Cutting-induced vibration in circular saws*, J. Sound Vib. 242 (2001), 907–922, for
+//! saws; Z. Luo, *Parametric vibrations of traveling plates and the mechanics of washboarding in
+//! bandsaws*, thesis, University of British Columbia (2001); Y. Altintas, S. Engin & E. Budak, *Analytical
+//! stability prediction and design of variable pitch cutters*, J. Manuf. Sci. Eng. 121 (1999), 173–178,
+//! for teeth that are not evenly spaced, and for the mean over the passing teeth.
+
+mod basis;
+mod count;
+mod delay;
+mod delayed;
+mod modes;
+mod roots;
+#[cfg(test)]
+mod tests;
+mod transfer;
+
+use faer::Mat;
+use rayon::prelude::*;
+
+pub use self::count::Boundary;
+pub use self::modes::{Pattern, WashboardMode};
+
+use self::basis::Motions;
+use self::count::LoopGains;
+use self::delayed::DelayedSaw;
+use self::modes::described;
+use crate::campbell::Progress;
+use crate::plate::Plate;
+use crate::scene::{Cut, CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboarding};
+use crate::spectrum::{Cancellation, SpectrumError};
+use crate::stability::AnalysisError;
+
+/// Why washboarding could not be looked at.
+#[derive(Debug, thiserror::Error)]
+pub enum WashboardError {
+    /// The scene is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// Nothing to weigh the delayed force against.
+    #[error(
+        "damping is missing for the mode of {frequency_hz:.1} Hz at {rpm:.0} rpm, but every mode must lose energy: a delayed force, however small, makes an undamped mode grow or leaves it at the limit; give damping.material_retardation_time_s (1e-6 s is of the order of steel) or damping.air_n_s_per_m3"
+    )]
+    Undamped {
+        /// Rotation speed.
+        rpm: f64,
+        /// Frequency of the mode.
+        frequency_hz: f64,
+    },
+    /// A rigid motion without stiffness.
+    #[error(
+        "guides is empty or too soft, but must hold the blade against every rigid motion; give a guide with a stiffness, cut.wood, or mount the blade on a collar"
+    )]
+    Loose,
+}
+
+/// Washboarding of a saw.
+#[derive(Debug)]
+pub struct Washboard {
+    /// The saw.
+    pub scene: Scene,
+    /// The saw in the cut, without the delayed force.
+    pub plate: Plate,
+    /// Speed, forces and feed of the cut.
+    pub run: CutRun,
+    /// The delayed force.
+    pub washboarding: Washboarding,
+    /// Frequency in space up to which the modes are complete.
+    pub complete_to_rad_per_s: f64,
+    /// Frequency up to which they would have to be, for the fastest speed of the diagram.
+    pub needed_to_rad_per_s: f64,
+    /// Estimated relative error of the critical speeds in this basis.
+    pub estimated_relative_error: f64,
+    /// Eigenvalues in the right half plane, by the argument principle; `None` where one lies on the
+    /// axis.
+    pub growing: Option<usize>,
+    /// The same without the delayed force.
+    pub growing_without: usize,
+    /// Modes at the speed of the cut, the fastest growing first.
+    pub modes: Vec<WashboardMode>,
+    /// Least cutting stiffness at which a motion grows, at the speed of the cut.
+    pub boundary: Option<Boundary>,
+    /// The same over the speed.
+    pub lobes: Vec<LobePoint>,
+    /// Cutting stiffness up to which it was looked for.
+    pub ceiling_n_per_m: f64,
+    /// Least cutting stiffness at which a mode beyond `complete_to_rad_per_s` may grow, by its
+    /// damping alone.
+    pub safe_beyond_n_per_m: f64,
+}
+
+/// The boundary at one speed.
+#[derive(Debug, Clone, Copy)]
+pub struct LobePoint {
+    /// Rotation speed.
+    pub speed_rad_per_s: f64,
+    /// Least cutting stiffness at which a motion grows; `None` where there is none up to the ceiling.
+    pub boundary: Option<Boundary>,
+    /// Whether the count says that nothing grows right below it.
+    pub confirmed: bool,
+}
+
+/// The diagram reaches from and to these shares of the speed of the cut.
+const DIAGRAM: [f64; 2] = [0.6, 1.25];
+/// Speeds of the diagram.
+const SPEEDS: usize = 131;
+/// Boundaries are looked for up to this many times the cutting stiffness.
+const CEILING: f64 = 1e3;
+
+impl Washboard {
+    /// Looks at the washboarding of a saw at one speed of its cut, and around it.
+    ///
+    /// # Errors
+    /// [`WashboardError`].
+    pub fn new(
+        scene: &Scene,
+        (cut, washboarding): (&Cut, &Washboarding),
+        run: &CutRun,
+        progress: Progress<'_>,
+    ) -> Result<Self, WashboardError> {
+        let idling = scene.idling()?;
+        let motions = Motions::new(&idling, cut, washboarding, run, DIAGRAM[1])?;
+        let at = |speed: f64| motions.delayed_at(washboarding, speed);
+        let (speed, stiffness) = (run.speed_rad_per_s, washboarding.stiffness_n_per_m);
+        let saw = at(speed)?;
+        let ceiling = (CEILING * stiffness).min(MAX_CUTTING_STIFFNESS);
+        let gains = LoopGains::new(&saw, ceiling);
+        let growing = gains.as_ref().and_then(|gains| gains.growing(stiffness));
+        let modes = described(&motions, &saw, washboarding, run, growing);
+        let lobes = lobes(&at, speed, ceiling, progress)?;
+        Ok(Washboard {
+            scene: scene.clone(),
+            run: *run,
+            washboarding: washboarding.clone(),
+            complete_to_rad_per_s: motions.complete_to_rad_per_s,
+            needed_to_rad_per_s: motions.needed_to_rad_per_s,
+            estimated_relative_error: motions.estimated_relative_error,
+            growing,
+            growing_without: saw.unstable_poles(),
+            modes,
+            boundary: gains.and_then(|gains| gains.boundary()),
+            lobes,
+            ceiling_n_per_m: ceiling,
+            safe_beyond_n_per_m: motions.safe_beyond_n_per_m(washboarding),
+            plate: motions.plate,
+        })
+    }
+
+    /// Speeds of which the count does not say that nothing grows below the boundary.
+    pub fn unconfirmed(&self) -> usize {
+        self.lobes.iter().filter(|point| !point.confirmed).count()
+    }
+}
+
+fn lobes(
+    at: &(impl Fn(f64) -> Result<DelayedSaw, WashboardError> + Sync),
+    speed: f64,
+    ceiling: f64,
+    progress: Progress<'_>,
+) -> Result<Vec<LobePoint>, WashboardError> {
+    let cancellation = Cancellation::current();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let [from, to] = DIAGRAM.map(|share| share * speed);
+    (0..SPEEDS)
+        .into_par_iter()
+        .map(|k| {
+            cancellation.check()?;
+            let speed = from + (to - from) * k as f64 / (SPEEDS - 1) as f64;
+            let saw = at(speed)?;
+            let gains = LoopGains::new(&saw, ceiling);
+            let boundary = gains.as_ref().and_then(LoopGains::boundary);
+            let confirmed = gains.is_some_and(|gains| gains.confirms(boundary));
+            progress(
+                1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed),
+                SPEEDS,
+            );
+            Ok(LobePoint {
+                speed_rad_per_s: speed,
+                boundary,
+                confirmed,
+            })
+        })
+        .collect()
+}
+
+/// B of BBᵀ = P, without the columns that are rounding beside the largest.
+fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
+    const LEAST: f64 = 1e-9;
+    let order = arc.nrows();
+    let eigen = arc
+        .self_adjoint_eigen(faer::Side::Lower)
+        .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
+    let largest = eigen.S()[order - 1];
+    let kept: Vec<usize> = (0..order)
+        .filter(|&k| eigen.S()[k] > LEAST * largest)
+        .collect();
+    Ok(Mat::from_fn(order, kept.len(), |i, k| {
+        eigen.U()[(i, kept[k])] * eigen.S()[kept[k]].sqrt()
+    }))
+}

@@ -1,0 +1,128 @@
+//! The modes with the delayed force, and the pattern that each leaves on the board.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, c64};
+
+use super::basis::Motions;
+use super::delayed::DelayedSaw;
+use super::roots::{Root, roots_with_all_growing};
+use crate::scene::{CutRun, Washboarding};
+use crate::spectrum::{ModeName, classify};
+
+/// A mode with the delayed force.
+#[derive(Debug, Clone)]
+pub struct WashboardMode {
+    /// λ, Im λ ≥ 0.
+    pub lambda: c64,
+    /// λ without the delayed force; `None` for a mode that only the delay makes.
+    pub without: Option<c64>,
+    /// Its name.
+    pub name: ModeName,
+    /// What it leaves on the board; `None` for teeth that are not evenly spaced.
+    pub pattern: Option<Pattern>,
+}
+
+/// The waves that a motion leaves on the board.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pattern {
+    /// The multiple of the tooth passing frequency next to the frequency of the motion.
+    pub multiple: u32,
+    /// The frequency less that multiple, in rad/s.
+    pub beside_rad_per_s: f64,
+    /// Length of a wave along the feed; `None` without a feed, and where each tooth leaves the same.
+    pub pitch_m: Option<f64>,
+}
+
+/// Modes that are told of, beside all that grow.
+const TOLD: usize = 8;
+/// A motion this near to tooth passing, relative to it, leaves the same with every tooth.
+const SAME: f64 = 1e-9;
+
+impl Pattern {
+    /// Each tooth passes a place of the kerf a tooth period after the one before and a feed per tooth
+    /// farther on. From tooth to tooth the motion of frequency ω has turned by ωτ, which cannot be
+    /// told from its difference to the next multiple of 2π: along the feed v the surface has the wave
+    /// length 2πv/|ω − m·2π/τ|.
+    pub fn new(omega: f64, tooth_passing: f64, feed_m_per_s: Option<f64>) -> Self {
+        let multiple = (omega / tooth_passing).round();
+        let beside = omega - multiple * tooth_passing;
+        let differs = beside.abs() > SAME * tooth_passing;
+        Pattern {
+            multiple: multiple as u32,
+            beside_rad_per_s: beside,
+            pitch_m: feed_m_per_s
+                .filter(|_| differs)
+                .map(|feed| TAU * feed / beside.abs()),
+        }
+    }
+}
+
+/// Those of largest growth up to where the modes are complete, and all that grow.
+pub fn described(
+    motions: &Motions,
+    saw: &DelayedSaw,
+    washboarding: &Washboarding,
+    run: &CutRun,
+    growing: Option<usize>,
+) -> Vec<WashboardMode> {
+    let stiffness = washboarding.stiffness_n_per_m;
+    let mut found = roots_with_all_growing(saw, stiffness, growing);
+    found.sort_by(|x, y| y.lambda.re.total_cmp(&x.lambda.re));
+    let told = |(k, root): &(usize, Root)| {
+        root.lambda.re > 0.0 || (*k < TOLD && root.lambda.im <= motions.complete_to_rad_per_s)
+    };
+    let told = found.into_iter().enumerate().filter(told);
+    told.filter_map(|(_, root)| mode(motions, washboarding, run, root))
+        .collect()
+}
+
+fn mode(
+    motions: &Motions,
+    washboarding: &Washboarding,
+    run: &CutRun,
+    root: Root,
+) -> Option<WashboardMode> {
+    let speed = run.speed_rad_per_s;
+    let q = shape(motions, washboarding, speed, root.lambda);
+    let pairs = vec![(root.lambda, q)];
+    let mode = classify(&motions.system, speed, 0, pairs).pop()?;
+    let (re, im) = crate::spectrum::split(&mode.coordinates);
+    let basis = motions.blade.basis();
+    let (re, im) = (basis * re, basis * im);
+    let lifted = Col::from_fn(basis.nrows(), |i| c64::new(re[i], im[i]));
+    let passing = washboarding.tooth_passing_rad_per_s(speed);
+    let pattern = || Pattern::new(root.lambda.im, passing, run.feed_m_per_s);
+    Some(WashboardMode {
+        lambda: root.lambda,
+        without: root.without,
+        name: ModeName::new(&motions.plate, &mode, &lifted, speed),
+        pattern: washboarding.is_even().then(pattern),
+    })
+}
+
+/// x of (L(λ) + k h(λ) BBᵀ) x = 0 by inverse iteration, ‖x‖ = 1.
+fn shape(motions: &Motions, washboarding: &Washboarding, speed: f64, lambda: c64) -> Col<c64> {
+    const BESIDE: f64 = 1e-9;
+    const STEPS: usize = 3;
+    let system = &motions.system;
+    let order = system.order();
+    let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
+    let delay = super::delay::Delay::new(washboarding, speed);
+    let lambda = lambda * (1.0 + BESIDE);
+    let cutting = delay.at(lambda) * washboarding.stiffness_n_per_m;
+    let arc = &motions.columns * motions.columns.transpose();
+    let dynamic = Mat::from_fn(order, order, |i, k| {
+        let own = lambda * velocity[(i, k)] + stiffness[(i, k)] + cutting * arc[(i, k)];
+        if i == k { own + lambda * lambda } else { own }
+    });
+    let factors = dynamic.partial_piv_lu();
+    let mut x = Mat::from_fn(order, 1, |i, _| c64::new((1.3 * i as f64 + 0.7).sin(), 0.0));
+    for _ in 0..STEPS {
+        x = factors.solve(&x);
+        let norm = c64::new(x.norm_l2().recip(), 0.0);
+        x = faer::Scale(norm) * x;
+    }
+    x.col(0).to_owned()
+}

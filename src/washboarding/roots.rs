@@ -1,0 +1,161 @@
+//! Eigenvalues with the delayed force, from those without it.
+//!
+//! Newton's method on det(1 + kX(λ)) Π(λ − λ_k), which is smooth at the eigenvalues λ_k of the saw
+//! without the force, for all of them at once; that no two come to the same root is Aberth's term.
+//! References: O. Aberth, Math. Comp. 27 (1973), 339–344.
+
+use faer::c64;
+
+use super::delayed::DelayedSaw;
+
+/// An eigenvalue with the delayed force, Im λ ≥ 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    /// λ.
+    pub lambda: c64,
+    /// The eigenvalue without the force that the search began at; `None` for one that only the
+    /// delay makes.
+    pub without: Option<c64>,
+}
+
+const MOST_STEPS: usize = 80;
+/// Relative change at which a root has been found.
+const CONVERGED: f64 = 1e-11;
+/// A first step beside the eigenvalue without the force, where the function has a pole and a zero.
+const BESIDE: f64 = 1e-7;
+
+/// The roots next to all eigenvalues without the force, and as many that only the delay makes as it takes
+/// to have all that grow, if it is known how many do.
+pub fn roots_with_all_growing(
+    saw: &DelayedSaw,
+    stiffness: f64,
+    growing: Option<usize>,
+) -> Vec<Root> {
+    let mut found = roots(saw, stiffness);
+    let highest = saw.reach(stiffness);
+    let places = 8 + (2.0 * highest * saw.delay.longest_s()) as usize;
+    while growing.is_some_and(|count| count > right_of_axis(&found)) {
+        let starts = (0..=places).map(|k| c64::new(1.0, highest * k as f64 / places as f64));
+        match another(saw, stiffness, &found, starts) {
+            Some(root) => found.push(root),
+            None => break,
+        }
+    }
+    found
+}
+
+/// Eigenvalues in the right half plane that some roots stand for.
+pub fn right_of_axis(found: &[Root]) -> usize {
+    let growing = found.iter().filter(|root| root.lambda.re > 0.0);
+    growing
+        .map(|root| if root.lambda.im > 0.0 { 2 } else { 1 })
+        .sum()
+}
+
+/// The roots next to all eigenvalues without the force; those that were not found are left out.
+fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
+    let all = &saw.transfer.poles;
+    let own: Vec<usize> = (0..all.len()).filter(|&k| all[k].im >= 0.0).collect();
+    let mut found: Vec<c64> = own.iter().map(|&k| first_guess(saw, stiffness, k)).collect();
+    let mut done = vec![false; found.len()];
+    for _ in 0..MOST_STEPS {
+        for j in 0..found.len() {
+            if done[j] {
+                continue;
+            }
+            let Some(step) = step(saw, stiffness, found[j], others(&found, j)) else {
+                continue;
+            };
+            found[j] -= step;
+            done[j] = step.norm() <= CONVERGED * found[j].norm();
+        }
+        if done.iter().all(|done| *done) {
+            break;
+        }
+    }
+    let found = own.iter().zip(found).zip(done);
+    let found = found.filter(|((_, lambda), done)| *done && lambda.is_finite());
+    let root = |(k, lambda): (&usize, c64)| Root {
+        lambda: upper(lambda),
+        without: Some(all[*k]),
+    };
+    found.map(|(pair, _)| root(pair)).collect()
+}
+
+/// A root in the right half plane beside the known ones, from any of some places.
+fn another(
+    saw: &DelayedSaw,
+    stiffness: f64,
+    known: &[Root],
+    from: impl Iterator<Item = c64>,
+) -> Option<Root> {
+    let values: Vec<c64> = known.iter().map(|root| root.lambda).collect();
+    for start in from {
+        let mut lambda = start;
+        for _ in 0..MOST_STEPS {
+            let mut all = values.clone();
+            all.push(lambda);
+            let others = others(&all, values.len());
+            let Some(step) = step(saw, stiffness, lambda, others) else {
+                break;
+            };
+            lambda -= step;
+            if step.norm() <= CONVERGED * lambda.norm() {
+                if lambda.re > 0.0 {
+                    return Some(Root {
+                        lambda: upper(lambda),
+                        without: None,
+                    });
+                }
+                break;
+            }
+        }
+    }
+    None
+}
+
+fn upper(lambda: c64) -> c64 {
+    c64::new(lambda.re, lambda.im.abs())
+}
+
+fn first_guess(saw: &DelayedSaw, stiffness: f64, pole: usize) -> c64 {
+    let lambda = saw.transfer.poles[pole];
+    let moved = -saw.delay.at(lambda) * saw.transfer.mobility(pole) * stiffness;
+    let beside = c64::new(BESIDE * lambda.norm().max(1.0), 0.0);
+    // What moves farther than to the next mode has no first order.
+    match moved.is_finite() && moved.norm() < 0.1 * lambda.norm() {
+        true => lambda + moved + beside,
+        false => lambda + beside,
+    }
+}
+
+/// The other roots and their conjugates, and the conjugate of this one.
+fn others(found: &[c64], own: usize) -> impl Iterator<Item = c64> + '_ {
+    let all = found.iter().enumerate();
+    all.flat_map(move |(k, value)| {
+        let conjugate = (value.im != 0.0).then(|| value.conj());
+        [(k != own).then_some(*value), conjugate]
+            .into_iter()
+            .flatten()
+    })
+}
+
+fn step(
+    saw: &DelayedSaw,
+    stiffness: f64,
+    lambda: c64,
+    others: impl Iterator<Item = c64>,
+) -> Option<c64> {
+    let poles = saw.transfer.poles.iter();
+    let poles: c64 = poles.map(|pole| (lambda - pole).inv()).sum();
+    let others: c64 = others.map(|other| (lambda - other).inv()).sum();
+    let slope = saw.logarithmic_slope(stiffness, lambda)? + poles - others;
+    let step = slope.inv();
+    // No step is longer than to the axis and a good deal beyond.
+    let longest = 0.3 * lambda.norm();
+    let size = step.norm();
+    if !step.is_finite() {
+        return None;
+    }
+    Some(if size > longest { step * (longest / size) } else { step })
+}
