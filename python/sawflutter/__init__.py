@@ -29,6 +29,7 @@ from .results import (
     RunUpResults,
     StudyResults,
     TradeoffResults,
+    WashboardResults,
     load,
 )
 from .scene import Matrices, Scene
@@ -61,5 +62,6 @@ __all__ = [
     "StudyError",
     "StudyResults",
     "TradeoffResults",
+    "WashboardResults",
     "load",
 ]

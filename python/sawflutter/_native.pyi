@@ -28,6 +28,7 @@ __all__ = [
     "schema",
     "summary",
     "tradeoff",
+    "washboard",
 ]
 
 # Called with what is done, of how many, and a word for it.
@@ -57,6 +58,7 @@ def check(
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...
 def runup(scene: str, *, progress: _Progress = None) -> str: ...
+def washboard(scene: str, rpm: float | None = None, *, progress: _Progress = None) -> str: ...
 def fit(
     scene: str,
     measured: tuple[str, str] | None,

@@ -1768,3 +1768,127 @@ class Setting(Entry):
 
     on_front: bool
     """Whether no other chart is faster and as accurate."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WashboardMode(Entry):
+    """A mode with the delayed force."""
+
+    name: str
+    """Its harmonics in words, with shares where none dominates."""
+
+    direction: Direction
+    """How the wave runs, seen from space."""
+
+    frequency_hz: float
+    """Im λ/2π in space."""
+
+    growth_per_s: float
+    """Re λ."""
+
+    growth_without_per_s: float | None
+    """Re λ of the mode without the delayed force; null for one that only the delay makes."""
+
+    frequency_without_hz: float | None
+    """Im λ/2π of the mode without the delayed force."""
+
+    tooth_passing_multiple: int | None
+    """The multiple of the tooth passing frequency next to its frequency; null for teeth that
+    are not evenly spaced."""
+
+    beside_tooth_passing_hz: float | None
+    """Its frequency less that multiple."""
+
+    pattern_pitch_m: float | None
+    """Length of a wave of its pattern on the board, along the feed; null without a feed."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Lobes(Entry):
+    """The lobe diagram."""
+
+    rpm: FloatArray
+    """Rotation speeds."""
+
+    critical_stiffness_n_per_m: FloatArray
+    """Least cutting stiffness at which a motion grows; null where there is none up to
+    `ceiling_n_per_m`, zero where one grows without the delayed force."""
+
+    frequency_hz: FloatArray
+    """Frequency at which it begins to."""
+
+    confirmed: BoolArray
+    """Whether the argument principle says that nothing grows right below it."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WashboardReport(Entry):
+    """washboard.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The scene, as typed."""
+
+    rpm: float
+    """Rotation speed of the verdict."""
+
+    verdict: Verdict
+    """Whether a motion grows at that speed."""
+
+    tooth_passing_hz: float
+    """Teeth that pass in a second."""
+
+    delays_s: FloatArray
+    """Times from tooth to tooth: one of even teeth, else each of those that repeat."""
+
+    stiffness_n_per_m: float
+    """Lateral cutting stiffness of all teeth in the cut together."""
+
+    overlap: float
+    """Share of a tooth's cut on the surface left by the tooth before."""
+
+    arc_deg: float
+    """Arc of the rim on which the force acts."""
+
+    feed_m_per_s: float | None
+    """Speed at which the wood is fed, if it is given."""
+
+    critical_stiffness_n_per_m: float | None
+    """Least cutting stiffness at which a motion grows at that speed; null where there is none
+    up to `ceiling_n_per_m`, zero where one grows without the delayed force."""
+
+    critical_frequency_hz: float | None
+    """Frequency at which it then begins to."""
+
+    growing_eigenvalues: int | None
+    """Eigenvalues in the right half plane by the argument principle, which an oscillation has
+    two of; null where one lies on the imaginary axis."""
+
+    growing_eigenvalues_without: int
+    """The same without the delayed force."""
+
+    modes: tuple[WashboardMode, ...]
+    """Modes at that speed, the fastest growing or slowest decaying first."""
+
+    lobes: Lobes
+    """Least cutting stiffness at which a motion grows, over the speed."""
+
+    ceiling_n_per_m: float
+    """Cutting stiffness up to which it was looked for."""
+
+    complete_to_hz: float
+    """Frequency up to which the modes are complete."""
+
+    max_diameters: int
+    """Largest number of nodal diameters of the basis."""
+
+    radial_functions: int
+    """Radial functions for each."""
+
+    estimated_relative_error: float | None
+    """Estimated relative error of the critical speeds in this basis."""
+
+    warnings: tuple[str, ...]
+    """Remarks on the validity of the result."""

@@ -321,6 +321,32 @@ class WoodDict(TypedDict, total=False):
     """Arc of the contact; by default that of the teeth in the cut."""
 
 
+class _WashboardingDict(TypedDict):
+    """The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the
+    surface that the tooth before it has left at the same place in space, one tooth period τ
+    ago."""
+
+    stiffness_n_per_m: float
+    """Lateral cutting stiffness k of all teeth in the cut together: the force across the blade
+    for each metre that the teeth cut beside the surface left by those before."""
+
+
+class WashboardingDict(_WashboardingDict, total=False):
+    """The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the
+    surface that the tooth before it has left at the same place in space, one tooth period τ
+    ago."""
+
+    overlap: float
+    """Share μ of a tooth's cut that lies on the surface left by the tooth before, 0 to 1."""
+
+    arc_deg: float | None
+    """Arc of the rim on which the force acts; by default that of the teeth in the cut."""
+
+    pitches_deg: list[float]
+    """Angles from tooth to tooth, repeated around the blade, of teeth that are not evenly
+    spaced."""
+
+
 class _CutSpeedDict(TypedDict):
     """A speed at which the saw cuts. What is not given is that of the cut."""
 
@@ -388,6 +414,10 @@ class CutDict(TypedDict, total=False):
 
     wood: WoodDict | None
     """The wood that leans against the blade in the kerf. None by default."""
+
+    washboarding: WashboardingDict | None
+    """The force on a tooth that cuts the surface left by the one before, for `sawflutter
+    washboard`. None by default."""
 
     speeds: list[CutSpeedDict]
     """Speeds at which the saw cuts, and what differs there. By default the operating speed."""

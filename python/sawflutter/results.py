@@ -24,6 +24,7 @@ from ._report_types import (
     RunUpReport,
     Setting,
     StudyReport,
+    WashboardReport,
 )
 from ._table import frame, read
 from ._view import html
@@ -319,6 +320,27 @@ class RunUpResults(Result, RunUpReport):
         return f"{self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm, {len(self.bands)} bands crossed"
 
 
+class WashboardResults(Result, WashboardReport):
+    """Whether the teeth set the blade swinging, each on the surface left by the one before."""
+
+    figure_names = ("washboard.svg", "washboard.png")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a mode; needs pandas."""
+        return frame(self.modes)
+
+    def chart(self) -> Chart:
+        """Least cutting stiffness at which a motion grows, and its frequency, over the speed."""
+        from .plot.washboard import lobes
+
+        return lobes(self)
+
+    def _facts(self) -> str:
+        least = self.critical_stiffness_n_per_m
+        beyond = f"none up to {self.ceiling_n_per_m:.3g}" if least is None else f"{least:.4g}"
+        return f"{self.verdict} at {self.rpm:.0f} rpm, critical cutting stiffness {beyond} N/m"
+
+
 class FitResults(Result, FitReport):
     """A saw fitted to measured frequencies: :attr:`saw` is the calibrated one."""
 
@@ -492,6 +514,7 @@ _KINDS: tuple[tuple[str, type[Result]], ...] = (
     ("criteria", CheckResults),
     ("tooth_angles_deg", CutResults),
     ("rate_rpm_per_s", RunUpResults),
+    ("lobes", WashboardResults),
     ("without_effect", FitResults),
     ("swept_to_rpm", StudyResults),
 )
@@ -535,5 +558,6 @@ __all__ = [
     "RunUpResults",
     "StudyResults",
     "TradeoffResults",
+    "WashboardResults",
     "load",
 ]

@@ -27,6 +27,7 @@ from .results import (
     PlaceResults,
     RunUpResults,
     TradeoffResults,
+    WashboardResults,
 )
 
 if TYPE_CHECKING:
@@ -346,6 +347,27 @@ class Scene:
         with reporting(progress, "steps") as told:
             text = _native.runup(scene._text, progress=told)
         return RunUpResults.from_json(text)
+
+    def run_washboard(
+        self,
+        rpm: float | None = None,
+        *,
+        accuracy: Accuracy | None = None,
+        tolerance: float | None = None,
+        progress: Progress = None,
+    ) -> WashboardResults:
+        """Whether the teeth set the blade swinging, with the force that the scene's
+        ``cut.washboarding`` names.
+
+        Parameters
+        ----------
+        rpm : float, optional
+            Speed to cut at; the scene's operating speed by default.
+        """
+        scene = self.with_accuracy(accuracy, tolerance)
+        with reporting(progress, "speeds") as told:
+            text = _native.washboard(scene._text, rpm, progress=told)
+        return WashboardResults.from_json(text)
 
     def fit(
         self,

@@ -7,11 +7,13 @@ use sawflutter::fit::{Compared, Fit, Measurement, Options as FitOptions};
 use sawflutter::place::Placement;
 use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
+    WashboardReport,
 };
 use sawflutter::scene::{CutRun, Freed, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, sensitivities};
 use sawflutter::transient::{Cutting, RunningUp};
+use sawflutter::washboarding::Washboard;
 use serde::Serialize;
 
 use crate::arguments::{self, Bounds};
@@ -151,6 +153,32 @@ pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) ->
         })?;
         let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
         json(&RunUpReport::new(&found))
+    })
+}
+
+/// `washboard.json` of a scene, at its operating speed or another one.
+#[pyfunction]
+#[pyo3(signature = (scene, rpm=None, *, progress=None))]
+pub fn washboard(
+    py: Python<'_>,
+    scene: &str,
+    rpm: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    compute(py, progress, move |meter| {
+        let cut = scene.cut();
+        let delayed = cut.and_then(|cut| Some((cut, cut.washboarding.as_ref()?)));
+        let (cut, washboarding) = delayed.ok_or_else(|| {
+            let allowed = "the lateral cutting stiffness".to_owned();
+            missing("cut.washboarding", allowed)
+        })?;
+        let rpm = rpm.or(scene.file().operating_rpm);
+        let rpm = rpm.ok_or_else(|| missing("rpm", "a speed to cut at".to_owned()))?;
+        let run = cut.at_rpm(rpm)?;
+        let progress = |done, of| meter.show(done, of);
+        let found = Washboard::new(&scene, (cut, washboarding), &run, &progress)?;
+        json(&WashboardReport::new(&found))
     })
 }
 

@@ -13,6 +13,7 @@ use sawflutter::stability::{AnalysisError, SensitivityError};
 use sawflutter::study::{LogError, StudyError};
 use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
+use sawflutter::washboarding::WashboardError;
 
 /// Why a computation failed.
 #[derive(Debug)]
@@ -164,6 +165,20 @@ impl From<TransientError> for Failure {
         match error {
             TransientError::Scene(source) => source.into(),
             other => Failure::Failed(other.to_string()),
+        }
+    }
+}
+
+impl From<WashboardError> for Failure {
+    fn from(error: WashboardError) -> Self {
+        let message = error.to_string();
+        match error {
+            WashboardError::Scene(source) => source.into(),
+            WashboardError::Undamped { .. } => {
+                Refusal::saying("SceneError", message, Some("damping".into()))
+            }
+            WashboardError::Loose => Refusal::saying("SceneError", message, Some("guides".into())),
+            _ => Failure::Failed(message),
         }
     }
 }

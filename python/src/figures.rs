@@ -3,7 +3,9 @@
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use sawflutter::figure::{self, Figures};
-use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport};
+use sawflutter::report::{
+    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
+};
 use sawflutter::study::StudyReport;
 use serde::de::DeserializeOwned;
 
@@ -21,6 +23,7 @@ fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
         of::<Report>,
         of::<CutReport>,
         of::<RunUpReport>,
+        of::<WashboardReport>,
         of::<CheckReport>,
         of::<FitReport>,
         of::<PlaceReport>,

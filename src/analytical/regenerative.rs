@@ -71,7 +71,10 @@ mod tests {
             let real = 300.0_f64.powi(2) - omega * omega + point.stiffness * (1.0 - cos);
             let imaginary = 2.0 * 0.02 * 300.0 * omega + point.stiffness * sin;
             assert!(real.abs() < 1e-9 * omega * omega, "{omega}: {real}");
-            assert!(imaginary.abs() < 1e-9 * omega * omega, "{omega}: {imaginary}");
+            assert!(
+                imaginary.abs() < 1e-9 * omega * omega,
+                "{omega}: {imaginary}"
+            );
         }
         assert_eq!(MODE.lobe(299.0, 0), None);
     }

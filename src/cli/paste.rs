@@ -35,7 +35,10 @@ pub fn cut_block(scene: &SceneFile) -> String {
 
 /// The key `cut.washboarding`, of a cut of middling stiffness.
 pub fn washboarding_block() -> String {
-    block("washboarding", &json!({ "stiffness_n_per_m": 20000, "overlap": 1 }))
+    block(
+        "washboarding",
+        &json!({ "stiffness_n_per_m": 20000, "overlap": 1 }),
+    )
 }
 
 /// The key `runup`, to half as fast again as the saw runs.

@@ -95,9 +95,9 @@ fn verdict(report: &WashboardReport) -> String {
         (Verdict::Stable, _) => format!("{rpm} rpm: stable, no washboarding"),
         (Verdict::Unstable, None) => format!("{rpm} rpm: UNSTABLE"),
         (Verdict::Unstable, Some(mode)) => {
-            let pattern = mode.pattern_pitch_m.map(|pitch| {
-                format!(", waves of {} along the feed", length(pitch))
-            });
+            let pattern = mode
+                .pattern_pitch_m
+                .map(|pitch| format!(", waves of {} along the feed", length(pitch)));
             format!(
                 "{rpm} rpm: UNSTABLE, washboarding grows by {:.3} 1/s at {:.1} Hz ({}){}",
                 mode.growth_per_s,
@@ -110,9 +110,12 @@ fn verdict(report: &WashboardReport) -> String {
 }
 
 fn boundary(report: &WashboardReport) -> String {
-    match (report.critical_stiffness_n_per_m, report.critical_frequency_hz) {
+    match (
+        report.critical_stiffness_n_per_m,
+        report.critical_frequency_hz,
+    ) {
         (Some(stiffness), Some(hz)) if stiffness > 0.0 => format!(
-            "Least cutting stiffness at which a motion grows: {stiffness:.3e} N/m, at {hz:.1} Hz; the cut has {:.2} times that",
+            "Least cutting stiffness at which a motion grows: {stiffness:.3e} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
             report.stiffness_n_per_m / stiffness
         ),
         (Some(_), _) => "A motion grows without the delayed force".to_owned(),

@@ -7,8 +7,8 @@ use super::clip::clip;
 use super::heading;
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, DASH, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK, PAPER,
-    QUIET,
+    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, DASH, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK,
+    PAPER, QUIET,
 };
 use crate::report::{Verdict, WashboardReport};
 
@@ -104,20 +104,22 @@ fn draw_decades(sheet: &mut Sheet, stiffness: &Axis) {
     sheet.text([28.0, middle], upright, name);
 }
 
-/// A column from the boundary upwards at every speed.
+/// A column from the boundary upwards at every speed, half way to the next ones.
 fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
     let lobes = &report.lobes;
-    let half = 0.5 * (LOBES.right - LOBES.left) / (lobes.rpm.len() as f64 - 1.0).max(1.0);
-    for (rpm, critical) in lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m) {
+    let places: Vec<f64> = lobes.rpm.iter().map(|rpm| speed.at(*rpm)).collect();
+    for (k, critical) in lobes.critical_stiffness_n_per_m.iter().enumerate() {
         let Some(critical) = critical else {
             continue;
         };
         let low = stiffness.values()[0];
         let y = stiffness.at(critical.max(10f64.powf(low)).log10());
-        let x = speed.at(*rpm);
+        let x = places[k];
+        let before = k.checked_sub(1).map_or(x, |before| places[before]);
+        let after = places.get(k + 1).copied().unwrap_or(x);
         let frame = Frame {
-            left: (x - half).max(LOBES.left),
-            right: (x + half).min(LOBES.right),
+            left: 0.5 * (x + before),
+            right: 0.5 * (x + after),
             top: LOBES.top,
             bottom: y.min(LOBES.bottom),
         };

@@ -117,7 +117,11 @@ impl WashboardReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
             rpm: run.rpm,
-            verdict: if stable { Verdict::Stable } else { Verdict::Unstable },
+            verdict: if stable {
+                Verdict::Stable
+            } else {
+                Verdict::Unstable
+            },
             tooth_passing_hz: passing / TAU,
             delays_s: washboarding.delays_s(speed),
             stiffness_n_per_m: washboarding.stiffness_n_per_m,
@@ -246,7 +250,8 @@ fn unconfirmed(found: &Washboard) -> Option<String> {
 fn without_pitch(found: &Washboard) -> Option<String> {
     if !found.washboarding.is_even() {
         return Some(
-            "teeth that are not evenly spaced leave no pattern of one pitch: none is given".to_owned(),
+            "teeth that are not evenly spaced leave no pattern of one pitch: none is given"
+                .to_owned(),
         );
     }
     found.run.feed_m_per_s.is_none().then(|| {

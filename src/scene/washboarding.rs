@@ -123,9 +123,8 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
     }
     let count = typed.len();
     if count > MAX_GUIDES || !(teeth as usize).is_multiple_of(count) {
-        let allowed = format!(
-            "a number of pitches that divides blade.teeth ({teeth}), at most {MAX_GUIDES}"
-        );
+        let allowed =
+            format!("a number of pitches that divides blade.teeth ({teeth}), at most {MAX_GUIDES}");
         let remedy = "list the pitches that repeat around the blade, each once";
         return Err(refuse(key, count as f64, allowed, remedy));
     }
@@ -200,7 +199,10 @@ mod tests {
         ];
         for (key, change) in cases {
             let error = with(change).unwrap_err().to_string();
-            assert!(error.contains(&format!("cut.washboarding.{key} ")), "{error}");
+            assert!(
+                error.contains(&format!("cut.washboarding.{key} ")),
+                "{error}"
+            );
         }
     }
 }

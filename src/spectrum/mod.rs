@@ -43,9 +43,9 @@ mod residual;
 mod vectors;
 mod work;
 
+pub(crate) use argument::turn_along;
 #[doc(hidden)]
 pub use arnoldi::lowest_eigenpairs;
-pub(crate) use argument::turn_along;
 pub(crate) use at_rest::modes_at_rest;
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]

@@ -29,7 +29,6 @@ pub use newmark::{Motion, Newmark};
 pub(crate) use on_spline::{OnSpline, on_spline};
 #[doc(hidden)]
 pub use propagator::{Propagator, State};
-pub(crate) use reduced::{ReducedBlade, Snapshot};
 pub use response::ResponseMap;
 pub(crate) use response::response_map;
 pub use runup::RunUpHistory;

@@ -1,8 +1,10 @@
-//! The motions that washboarding is made of: all modes up to the tooth passing frequency and beyond.
+//! The motions that washboarding is made of: all modes up to the tooth passing frequency and beyond,
+//! and the flexibility of the others.
 
 use std::f64::consts::TAU;
 
-use faer::{Col, Mat, Side};
+use faer::{Mat, Scale, Side};
+use nalgebra::DMatrix;
 
 use super::delayed::DelayedSaw;
 use super::{WashboardError, columns};
@@ -11,32 +13,38 @@ use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{ChosenBasis, LADDER};
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
-use crate::transient::{ReducedBlade, Snapshot};
 
 /// The saw in the cut on its lower modes.
 #[derive(Debug)]
 pub struct Motions {
     /// The saw in the cut.
     pub plate: Plate,
-    /// The motions, and the whole saw on them.
-    pub blade: ReducedBlade,
+    /// The shapes V that span the motions, N × m.
+    pub shapes: Mat<f64>,
+    /// The saw on them.
     pub system: GyroscopicSystem,
-    /// B of the arc on them.
+    /// Bᵀ of the arc on them, transposed.
     pub columns: Mat<f64>,
+    /// What the shapes left out give way to a force on the arc, Bᵀ(S⁻¹ − V(VᵀSV)⁻¹Vᵀ)B.
+    pub flexibility: DMatrix<f64>,
     pub complete_to_rad_per_s: f64,
     pub needed_to_rad_per_s: f64,
     pub estimated_relative_error: f64,
+    /// The largest xᵀPx of a shape.
+    most_moved: f64,
 }
 
 /// The modes reach beyond the tooth passing frequency of the fastest speed by this factor: a mode is
 /// driven when teeth pass at up to twice its frequency, and most of all right above it.
 const BEYOND_TOOTH_PASSING: f64 = 1.05;
-/// Shapes at rest reach beyond the modes that they are to span by this factor.
+/// Beyond the modes, damping alone is to withstand this many times the cutting stiffness; but they
+/// reach no farther than so many times the tooth passing frequency.
+const WITHSTOOD: f64 = 3.0;
+const MOST_BEYOND: f64 = 2.0;
+/// Shapes reach beyond the modes that they are to span by this factor.
 const BEYOND_MODES: f64 = 1.2;
 /// Radial functions that the highest shape without nodal diameters needs beside those of its kind.
 const RADIAL_MARGIN: usize = 3;
-/// Modes of the saw at the speed of the cut that are spanned exactly.
-const EXACT_MODES: usize = 16;
 /// Share of |λ| that a mode has to lose to be damped at all.
 const LEAST_DAMPING: f64 = 1e-8;
 
@@ -50,27 +58,32 @@ impl Motions {
         highest: f64,
     ) -> Result<Self, WashboardError> {
         let fastest = highest * run.speed_rad_per_s;
-        let needed = BEYOND_TOOTH_PASSING * washboarding.tooth_passing_rad_per_s(fastest);
         let swept = idling.swept(SpeedRange {
             from_rad_per_s: 0.0,
             to_rad_per_s: fastest,
         })?;
         let chosen = ChosenBasis::new(&swept, idling.tolerance())?;
-        let idle = complete_plate(idling, chosen.plate, fastest, needed);
-        let plate = idle.in_cut(cut, run);
+        let needed = needed(&chosen.plate, washboarding, run, fastest)?;
+        let plate = complete_plate(idling, chosen.plate, fastest, needed).in_cut(cut, run);
         let full = GyroscopicSystem::of_plate(&plate);
         if !full.free_rigid.is_empty() {
             return Err(WashboardError::Loose);
         }
+        let complete_to = complete_to(&plate, fastest).min(needed);
+        let all = Shapes::new(&full, run.speed_rad_per_s)?;
         let arc = columns(&arc(&plate, washboarding))?;
-        let blade = motions(&plate, &full, &arc, run, needed.min(complete_to(&plate, fastest)))?;
+        let kept = all.up_to(BEYOND_MODES * on_blade(&plate, run.speed_rad_per_s, complete_to));
+        let shapes = all.vectors.subcols(0, kept).to_owned();
+        let moved = all.vectors.transpose() * &arc;
         Ok(Motions {
-            system: blade.system(&full),
-            columns: blade.basis().transpose() * &arc,
-            complete_to_rad_per_s: complete_to(&plate, fastest).min(needed),
+            system: full.project(shapes.as_ref()),
+            columns: moved.subrows(0, kept).to_owned(),
+            flexibility: all.flexibility_beyond(kept, &moved),
+            most_moved: most_moved(&moved, kept),
+            complete_to_rad_per_s: complete_to,
             needed_to_rad_per_s: needed,
             estimated_relative_error: chosen.estimated_relative_error,
-            blade,
+            shapes,
             plate,
         })
     }
@@ -81,7 +94,8 @@ impl Motions {
         washboarding: &Washboarding,
         speed_rad_per_s: f64,
     ) -> Result<DelayedSaw, WashboardError> {
-        let saw = DelayedSaw::new(&self.system, &self.columns, washboarding, speed_rad_per_s)?;
+        let arc = (&self.columns, self.flexibility.clone());
+        let saw = DelayedSaw::new(&self.system, arc, washboarding, speed_rad_per_s)?;
         let undamped = |pole: &&faer::c64| pole.re.abs() <= LEAST_DAMPING * pole.norm();
         match saw.transfer.poles.iter().find(undamped) {
             Some(pole) => Err(WashboardError::Undamped {
@@ -92,36 +106,93 @@ impl Motions {
         }
     }
 
-    /// A mode of frequency ω that decays by δ is fed by no more than kμ xᵀPx/2ω: it cannot grow below
-    /// 2ωδ/(μ xᵀPx). Beyond the modes kept, ω and δ are no less than there, and xᵀPx is taken from those
-    /// kept.
+    /// Cutting stiffness up to which no mode beyond those kept grows, by its damping alone.
     pub fn safe_beyond_n_per_m(&self, washboarding: &Washboarding) -> f64 {
-        let Some(damping) = self.plate.damping else {
-            return 0.0;
-        };
-        let omega = self.complete_to_rad_per_s;
-        let air = damping.air_n_s_per_m3 / self.plate.blade.mass_per_area_kg_per_m2();
-        let decay = 0.5 * (air + damping.material_retardation_time_s * omega * omega);
-        let fed = washboarding.overlap * self.most_moved(omega);
-        match fed > 0.0 {
-            true => 2.0 * omega * decay / fed,
-            false => f64::INFINITY,
-        }
+        let fed = washboarding.overlap * self.most_moved;
+        withstood_n_per_m(&self.plate, self.complete_to_rad_per_s, fed)
     }
 }
 
-impl Motions {
-    /// The largest xᵀPx of a shape at rest below a frequency, xᵀx = 1.
-    fn most_moved(&self, highest: f64) -> f64 {
-        let Ok(shapes) = self.system.stiffness.self_adjoint_eigen(Side::Lower) else {
-            return f64::INFINITY;
-        };
-        let moved = shapes.U().transpose() * &self.columns;
-        (0..moved.nrows())
-            .filter(|&k| shapes.S()[k] <= highest * highest)
-            .map(|k| moved.row(k).squared_norm_l2())
-            .fold(0.0, f64::max)
+/// A mode of frequency ω that decays by δ is fed by no more than kμ xᵀPx/2ω: it cannot grow below
+/// 2ωδ/(μ xᵀPx), which rises with the frequency.
+fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
+    let Some(damping) = plate.damping else {
+        return 0.0;
+    };
+    let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
+    let decay = 0.5 * (air + damping.material_retardation_time_s * omega * omega);
+    match fed > 0.0 {
+        true => 2.0 * omega * decay / fed,
+        false => f64::INFINITY,
     }
+}
+
+/// Frequency up to which all modes are to be there: past tooth passing, and to where damping alone
+/// withstands the force.
+fn needed(
+    plate: &Plate,
+    washboarding: &Washboarding,
+    run: &CutRun,
+    fastest: f64,
+) -> Result<f64, WashboardError> {
+    let passing = washboarding.tooth_passing_rad_per_s(fastest);
+    let system = GyroscopicSystem::of_plate(plate);
+    let shapes = Shapes::new(&system, run.speed_rad_per_s)?;
+    let moved = shapes.vectors.transpose() * columns(&arc(plate, washboarding))?;
+    let kept = shapes.up_to(passing);
+    let fed = washboarding.overlap * most_moved(&moved, kept);
+    let stiffness = WITHSTOOD * washboarding.stiffness_n_per_m;
+    let mut needed = BEYOND_TOOTH_PASSING * passing;
+    while withstood_n_per_m(plate, needed, fed) < stiffness && needed < MOST_BEYOND * passing {
+        needed *= 1.05;
+    }
+    Ok(needed)
+}
+
+/// The shapes of the blade in the frame that turns with it, S = K₀ + Ω²K_σ with what touches it, by
+/// their frequencies: without guides they are the modes at that speed.
+struct Shapes {
+    squares: Vec<f64>,
+    vectors: Mat<f64>,
+}
+
+impl Shapes {
+    fn new(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Result<Self, SpectrumError> {
+        let gyroscopic = &system.gyroscopic;
+        let tension = &system.spin + gyroscopic.transpose() * gyroscopic;
+        let stiffness = &system.stiffness + Scale(speed_rad_per_s.powi(2)) * tension;
+        let failed = |_| SpectrumError::NoConvergence {
+            order: system.order(),
+            rpm: rpm(speed_rad_per_s),
+        };
+        let eigen = stiffness.self_adjoint_eigen(Side::Lower).map_err(failed)?;
+        Ok(Shapes {
+            squares: eigen.S().column_vector().iter().copied().collect(),
+            vectors: eigen.U().to_owned(),
+        })
+    }
+
+    /// How many lie below a frequency.
+    fn up_to(&self, omega: f64) -> usize {
+        self.squares
+            .partition_point(|square| *square <= omega * omega)
+    }
+
+    /// What the shapes beyond some give way to forces on the arc: positive, for they are stiff.
+    fn flexibility_beyond(&self, kept: usize, moved: &Mat<f64>) -> DMatrix<f64> {
+        let size = moved.ncols();
+        DMatrix::from_fn(size, size, |i, j| {
+            let beyond = kept..self.squares.len();
+            let each = beyond.map(|k| moved[(k, i)] * moved[(k, j)] / self.squares[k]);
+            each.sum()
+        })
+    }
+}
+
+/// The largest xᵀPx of the lower shapes, xᵀx = 1.
+fn most_moved(moved: &Mat<f64>, kept: usize) -> f64 {
+    let each = (0..kept).map(|k| moved.row(k).squared_norm_l2());
+    each.fold(0.0, f64::max)
 }
 
 /// P, the mean of φφᵀ over the arc of the rim.
@@ -141,13 +212,14 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
     } = plate.resolution;
     let mut plate = plate;
     let larger = LADDER.into_iter();
-    for (diameters, functions) in larger.filter(|(n, j)| *n > max_diameters && *j >= radial_functions) {
+    let larger = larger.filter(|(n, j)| *n > max_diameters && *j >= radial_functions);
+    for (max_diameters, radial_functions) in larger {
         if complete_to(&plate, fastest) >= needed {
             break;
         }
         let resolution = Resolution {
-            max_diameters: diameters,
-            radial_functions: functions,
+            max_diameters,
+            radial_functions,
         };
         plate = Plate::new(scene, resolution);
     }
@@ -158,47 +230,27 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
 /// diameters at the fastest speed, and the most nodal circles.
 fn complete_to(plate: &Plate, fastest: f64) -> f64 {
     let last = plate.max_diameters();
-    let frequency = |n: usize, k: usize| -> f64 {
-        let block = body_frame_stiffness(&plate.harmonics[n], 0.0);
-        let values = block.self_adjoint_eigenvalues(Side::Lower);
-        let square = values.ok().and_then(|values| values.get(k).copied());
-        square.unwrap_or(0.0).max(0.0).sqrt()
-    };
     let circles = plate.basis.count().saturating_sub(RADIAL_MARGIN);
-    let waves = frequency(last, 0) - last as f64 * fastest;
-    waves.min(frequency(0, circles)).max(0.0)
+    let waves = body_frequency(plate, last, 0, 0.0) - last as f64 * fastest;
+    waves.min(body_frequency(plate, 0, circles, 0.0)).max(0.0)
 }
 
-/// Shapes at rest up to the highest that the modes up to a frequency in space are made of, the lowest
-/// modes at the speed of the cut, and the static answers to forces on the arc.
-fn motions(
-    plate: &Plate,
-    full: &GyroscopicSystem,
-    arc: &Mat<f64>,
-    run: &CutRun,
-    complete_to: f64,
-) -> Result<ReducedBlade, SpectrumError> {
-    let speed = run.speed_rad_per_s;
-    let snapshot = Snapshot {
-        system: full,
-        speed_rad_per_s: speed,
-    };
-    let loads: Vec<Col<f64>> = (0..arc.ncols()).map(|k| arc.col(k).to_owned()).collect();
-    let blade = ReducedBlade::new(plate, &[snapshot], EXACT_MODES, &loads);
-    // Of a wave of n diameters the blade sees its frequency in space and n times the speed.
+/// Frequency on the blade of the shape of n nodal diameters and k nodal circles.
+fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
+    let block = body_frame_stiffness(&plate.harmonics[n], speed);
+    let values = block.self_adjoint_eigenvalues(Side::Lower);
+    let square = values.ok().and_then(|values| values.get(k).copied());
+    square.unwrap_or(0.0).max(0.0).sqrt()
+}
+
+/// The highest frequency on the blade of the modes up to a frequency in space: of a wave of n
+/// diameters the blade sees n times the speed more.
+fn on_blade(plate: &Plate, speed: f64, complete_to: f64) -> f64 {
     let waves = 0..=plate.max_diameters();
-    let on_blade = waves.map(|n| {
-        let block = body_frame_stiffness(&plate.harmonics[n], speed);
-        let values = block.self_adjoint_eigenvalues(Side::Lower);
-        let lowest = values.ok().and_then(|values| values.first().copied());
-        let lowest = lowest.unwrap_or(0.0).max(0.0).sqrt();
+    let within = waves.filter(|&n| {
         let turned = n as f64 * speed;
-        if lowest - turned <= complete_to {
-            complete_to + turned
-        } else {
-            0.0
-        }
+        body_frequency(plate, n, 0, speed) - turned <= complete_to
     });
-    let highest = on_blade.fold(0.0, f64::max);
-    blade.with_shapes_below(full, BEYOND_MODES * highest)
+    let most = within.max().unwrap_or(0);
+    complete_to + most as f64 * speed
 }

@@ -23,18 +23,19 @@ pub struct DelayedSaw {
 }
 
 impl DelayedSaw {
-    /// Of a system, the columns B of the arc and the delays at a speed.
+    /// Of a system, the columns B of the arc with the flexibility of what is left out, and the delays at
+    /// a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] where the eigenproblem fails.
     pub fn new(
         system: &GyroscopicSystem,
-        columns: &Mat<f64>,
+        (columns, flexibility): (&Mat<f64>, DMatrix<f64>),
         washboarding: &Washboarding,
         speed_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         Ok(DelayedSaw {
-            transfer: Transfer::new(system, columns, speed_rad_per_s)?,
+            transfer: Transfer::new(system, (columns, flexibility), speed_rad_per_s)?,
             delay: Delay::new(washboarding, speed_rad_per_s),
             norms: [
                 system.velocity_at(speed_rad_per_s).norm_l2(),
@@ -83,7 +84,9 @@ impl DelayedSaw {
 
     /// |λ| from which on nothing lies in the right half plane, however the phase of the delay falls:
     /// there |h| ≤ 1 + μ and ‖L(λ)⁻¹‖ ≤ 1/(|λ|² − |λ|‖D‖ − ‖K‖), so that beyond the root of
-    /// |λ|² − |λ|‖D‖ − ‖K‖ = 2k(1 + μ)‖BBᵀ‖ every factor 1 + k x_i is within ½ of one.
+    /// |λ|² − |λ|‖D‖ − ‖K‖ = 2k(1 + μ)‖BBᵀ‖ the part kX − khF is no larger than ½. The real part of
+    /// 1 + khF is at least one, for that of h is not negative, and F is positive: every factor
+    /// 1 + k x_i has a positive real part.
     pub fn reach(&self, stiffness: f64) -> f64 {
         let [velocity, own, arc] = self.norms;
         let square = own + 2.0 * stiffness * self.delay.bound() * arc;

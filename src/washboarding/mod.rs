@@ -26,6 +26,8 @@ mod roots;
 mod tests;
 mod transfer;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use faer::Mat;
 use rayon::prelude::*;
 
@@ -56,7 +58,7 @@ pub enum WashboardError {
     Analysis(#[from] AnalysisError),
     /// Nothing to weigh the delayed force against.
     #[error(
-        "damping is missing for the mode of {frequency_hz:.1} Hz at {rpm:.0} rpm, but every mode must lose energy: a delayed force, however small, makes an undamped mode grow or leaves it at the limit; give damping.material_retardation_time_s (1e-6 s is of the order of steel) or damping.air_n_s_per_m3"
+        "damping is missing or too small for the mode of {frequency_hz:.1} Hz at {rpm:.0} rpm, but every mode must lose energy: a delayed force, however small, makes an undamped mode grow or leaves it at the limit; give damping.material_retardation_time_s (1e-6 s is of the order of steel) or damping.air_n_s_per_m3"
     )]
     Undamped {
         /// Rotation speed.
@@ -121,7 +123,12 @@ pub struct LobePoint {
 const DIAGRAM: [f64; 2] = [0.6, 1.25];
 /// Speeds of the diagram.
 const SPEEDS: usize = 131;
-/// Boundaries are looked for up to this many times the cutting stiffness.
+/// Where one mode follows on another, the speeds between are halved so many times.
+const HALVINGS: usize = 3;
+/// Relative change of the frequency from speed to speed that is another mode.
+const JUMP: f64 = 0.03;
+/// Boundaries are looked for up to this many times the cutting stiffness, and not beyond what the
+/// modes that are left out withstand.
 const CEILING: f64 = 1e3;
 
 impl Washboard {
@@ -140,7 +147,9 @@ impl Washboard {
         let at = |speed: f64| motions.delayed_at(washboarding, speed);
         let (speed, stiffness) = (run.speed_rad_per_s, washboarding.stiffness_n_per_m);
         let saw = at(speed)?;
+        let safe_beyond_n_per_m = motions.safe_beyond_n_per_m(washboarding);
         let ceiling = (CEILING * stiffness).min(MAX_CUTTING_STIFFNESS);
+        let ceiling = ceiling.min(safe_beyond_n_per_m.max(stiffness));
         let gains = LoopGains::new(&saw, ceiling);
         let growing = gains.as_ref().and_then(|gains| gains.growing(stiffness));
         let modes = described(&motions, &saw, washboarding, run, growing);
@@ -158,7 +167,7 @@ impl Washboard {
             boundary: gains.and_then(|gains| gains.boundary()),
             lobes,
             ceiling_n_per_m: ceiling,
-            safe_beyond_n_per_m: motions.safe_beyond_n_per_m(washboarding),
+            safe_beyond_n_per_m,
             plate: motions.plate,
         })
     }
@@ -176,28 +185,48 @@ fn lobes(
     progress: Progress<'_>,
 ) -> Result<Vec<LobePoint>, WashboardError> {
     let cancellation = Cancellation::current();
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let [from, to] = DIAGRAM.map(|share| share * speed);
-    (0..SPEEDS)
-        .into_par_iter()
-        .map(|k| {
-            cancellation.check()?;
-            let speed = from + (to - from) * k as f64 / (SPEEDS - 1) as f64;
-            let saw = at(speed)?;
-            let gains = LoopGains::new(&saw, ceiling);
-            let boundary = gains.as_ref().and_then(LoopGains::boundary);
-            let confirmed = gains.is_some_and(|gains| gains.confirms(boundary));
-            progress(
-                1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed),
-                SPEEDS,
-            );
-            Ok(LobePoint {
-                speed_rad_per_s: speed,
-                boundary,
-                confirmed,
-            })
+    let done = AtomicUsize::new(0);
+    let look = |speed: f64| {
+        cancellation.check()?;
+        let saw = at(speed)?;
+        let gains = LoopGains::new(&saw, ceiling);
+        let boundary = gains.as_ref().and_then(LoopGains::boundary);
+        let confirmed = gains.is_some_and(|gains| gains.confirms(boundary));
+        let count = 1 + done.fetch_add(1, Ordering::Relaxed);
+        progress(count.min(SPEEDS), SPEEDS);
+        Ok::<_, WashboardError>(LobePoint {
+            speed_rad_per_s: speed,
+            boundary,
+            confirmed,
         })
-        .collect()
+    };
+    let [from, to] = DIAGRAM.map(|share| share * speed);
+    let even = (0..SPEEDS).map(|k| from + (to - from) * k as f64 / (SPEEDS - 1) as f64);
+    let mut speeds: Vec<f64> = even.collect();
+    let mut points: Vec<LobePoint> = Vec::new();
+    for _ in 0..=HALVINGS {
+        let more = speeds.into_par_iter().map(look);
+        points.extend(more.collect::<Result<Vec<_>, _>>()?);
+        points.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        let between = points.windows(2).filter(|pair| pair[0].jumps_to(&pair[1]));
+        let middle = |pair: &[LobePoint]| 0.5 * (pair[0].speed_rad_per_s + pair[1].speed_rad_per_s);
+        speeds = between.map(middle).collect();
+    }
+    Ok(points)
+}
+
+impl LobePoint {
+    /// Whether another mode begins to grow at the next speed.
+    fn jumps_to(&self, next: &LobePoint) -> bool {
+        match (self.boundary, next.boundary) {
+            (None, None) => false,
+            (Some(x), Some(y)) => {
+                let [x, y] = [x, y].map(|boundary| boundary.frequency_rad_per_s);
+                (x - y).abs() > JUMP * x.max(y)
+            }
+            _ => true,
+        }
+    }
 }
 
 /// B of BBᵀ = P, without the columns that are rounding beside the largest.

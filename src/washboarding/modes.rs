@@ -9,7 +9,7 @@ use super::basis::Motions;
 use super::delayed::DelayedSaw;
 use super::roots::{Root, roots_with_all_growing};
 use crate::scene::{CutRun, Washboarding};
-use crate::spectrum::{ModeName, classify};
+use crate::spectrum::{ModeName, classify, split};
 
 /// A mode with the delayed force.
 #[derive(Debug, Clone)]
@@ -35,7 +35,7 @@ pub struct Pattern {
     pub pitch_m: Option<f64>,
 }
 
-/// Modes that are told of, beside all that grow.
+/// Modes that are told of at least.
 const TOLD: usize = 8;
 /// A motion this near to tooth passing, relative to it, leaves the same with every tooth.
 const SAME: f64 = 1e-9;
@@ -70,11 +70,12 @@ pub fn described(
     let stiffness = washboarding.stiffness_n_per_m;
     let mut found = roots_with_all_growing(saw, stiffness, growing);
     found.sort_by(|x, y| y.lambda.re.total_cmp(&x.lambda.re));
-    let told = |(k, root): &(usize, Root)| {
-        root.lambda.re > 0.0 || (*k < TOLD && root.lambda.im <= motions.complete_to_rad_per_s)
-    };
-    let told = found.into_iter().enumerate().filter(told);
-    told.filter_map(|(_, root)| mode(motions, washboarding, run, root))
+    found.retain(|root| root.lambda.re > 0.0 || root.lambda.im <= motions.complete_to_rad_per_s);
+    let growing = found.partition_point(|root| root.lambda.re > 0.0);
+    found.truncate(TOLD.max(growing));
+    let found = found.into_iter();
+    found
+        .filter_map(|root| mode(motions, washboarding, run, root))
         .collect()
 }
 
@@ -88,10 +89,9 @@ fn mode(
     let q = shape(motions, washboarding, speed, root.lambda);
     let pairs = vec![(root.lambda, q)];
     let mode = classify(&motions.system, speed, 0, pairs).pop()?;
-    let (re, im) = crate::spectrum::split(&mode.coordinates);
-    let basis = motions.blade.basis();
-    let (re, im) = (basis * re, basis * im);
-    let lifted = Col::from_fn(basis.nrows(), |i| c64::new(re[i], im[i]));
+    let (re, im) = split(&mode.coordinates);
+    let (re, im) = (&motions.shapes * re, &motions.shapes * im);
+    let lifted = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
     let passing = washboarding.tooth_passing_rad_per_s(speed);
     let pattern = || Pattern::new(root.lambda.im, passing, run.feed_m_per_s);
     Some(WashboardMode {
@@ -102,7 +102,7 @@ fn mode(
     })
 }
 
-/// x of (L(λ) + k h(λ) BBᵀ) x = 0 by inverse iteration, ‖x‖ = 1.
+/// x of (L(λ) + k h(λ) B(1 + k h(λ) F)⁻¹Bᵀ) x = 0 by inverse iteration, ‖x‖ = 1.
 fn shape(motions: &Motions, washboarding: &Washboarding, speed: f64, lambda: c64) -> Col<c64> {
     const BESIDE: f64 = 1e-9;
     const STEPS: usize = 3;
@@ -112,7 +112,13 @@ fn shape(motions: &Motions, washboarding: &Washboarding, speed: f64, lambda: c64
     let delay = super::delay::Delay::new(washboarding, speed);
     let lambda = lambda * (1.0 + BESIDE);
     let cutting = delay.at(lambda) * washboarding.stiffness_n_per_m;
-    let arc = &motions.columns * motions.columns.transpose();
+    let size = motions.columns.ncols();
+    let yielding = Mat::from_fn(size, size, |i, k| {
+        let unit = if i == k { 1.0 } else { 0.0 };
+        unit + cutting * motions.flexibility[(i, k)]
+    });
+    let columns = Mat::from_fn(order, size, |i, k| c64::new(motions.columns[(i, k)], 0.0));
+    let arc = &columns * yielding.partial_piv_lu().solve(columns.transpose());
     let dynamic = Mat::from_fn(order, order, |i, k| {
         let own = lambda * velocity[(i, k)] + stiffness[(i, k)] + cutting * arc[(i, k)];
         if i == k { own + lambda * lambda } else { own }

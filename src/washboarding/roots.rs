@@ -56,7 +56,10 @@ pub fn right_of_axis(found: &[Root]) -> usize {
 fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
     let all = &saw.transfer.poles;
     let own: Vec<usize> = (0..all.len()).filter(|&k| all[k].im >= 0.0).collect();
-    let mut found: Vec<c64> = own.iter().map(|&k| first_guess(saw, stiffness, k)).collect();
+    let mut found: Vec<c64> = own
+        .iter()
+        .map(|&k| first_guess(saw, stiffness, k))
+        .collect();
     let mut done = vec![false; found.len()];
     for _ in 0..MOST_STEPS {
         for j in 0..found.len() {
@@ -157,5 +160,9 @@ fn step(
     if !step.is_finite() {
         return None;
     }
-    Some(if size > longest { step * (longest / size) } else { step })
+    Some(if size > longest {
+        step * (longest / size)
+    } else {
+        step
+    })
 }

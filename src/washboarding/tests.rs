@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
+use nalgebra::DMatrix;
 
 use super::count::LoopGains;
 use super::delayed::DelayedSaw;
@@ -23,7 +24,11 @@ fn system(frequencies: &[f64], damping_ratio: f64) -> GyroscopicSystem {
     let order = frequencies.len();
     let zero = || Mat::<f64>::zeros(order, order);
     let diagonal = |of: &dyn Fn(f64) -> f64| {
-        Mat::from_fn(order, order, |i, k| if i == k { of(frequencies[i]) } else { 0.0 })
+        Mat::from_fn(
+            order,
+            order,
+            |i, k| if i == k { of(frequencies[i]) } else { 0.0 },
+        )
     };
     GyroscopicSystem {
         stiffness: diagonal(&|omega| omega * omega),
@@ -52,7 +57,9 @@ fn cutting(stiffness: f64, overlap: f64, delays_s: &[f64]) -> Washboarding {
 fn saw(frequencies: &[f64], overlap: f64, delays_s: &[f64]) -> DelayedSaw {
     let columns = Mat::from_fn(frequencies.len(), 1, |i, _| 1.0 - 0.2 * i as f64);
     let washboarding = cutting(1.0, overlap, delays_s);
-    DelayedSaw::new(&system(frequencies, MODE.damping_ratio), &columns, &washboarding, 1.0).unwrap()
+    let system = system(frequencies, MODE.damping_ratio);
+    let arc = (&columns, DMatrix::zeros(1, 1));
+    DelayedSaw::new(&system, arc, &washboarding, 1.0).unwrap()
 }
 
 /// The lowest of all lobes at a delay, by bisection of each lobe's own closed form.
@@ -92,7 +99,10 @@ fn the_boundary_of_one_mode_is_that_of_lobe_theory() {
         let [stiffness, omega] = exact_boundary(delay);
         let error = (found.stiffness_n_per_m / stiffness - 1.0).abs();
         assert!(error < 1e-9, "{turns}: {found:?} {stiffness}");
-        assert!((found.frequency_rad_per_s / omega - 1.0).abs() < 1e-9, "{turns}");
+        assert!(
+            (found.frequency_rad_per_s / omega - 1.0).abs() < 1e-9,
+            "{turns}"
+        );
         assert!(found.stiffness_n_per_m >= MODE.least_stiffness());
         assert!(gains.confirms(Some(found)));
         assert_eq!(gains.growing(0.999 * stiffness), Some(0));
@@ -131,7 +141,10 @@ fn without_stiffness_nothing_is_moved() {
     let saw = saw(&[300.0, 700.0], 1.0, &[0.018]);
     let moved = |stiffness: f64| {
         let found = roots_with_all_growing(&saw, stiffness, None);
-        let moves: Vec<c64> = found.iter().map(|r| r.lambda - r.without.unwrap()).collect();
+        let moves: Vec<c64> = found
+            .iter()
+            .map(|r| r.lambda - r.without.unwrap())
+            .collect();
         moves
     };
     let (small, smaller) = (moved(1e-1), moved(1e-2));
@@ -180,6 +193,9 @@ fn the_pattern_is_what_the_teeth_leave() {
             assert!((left - wave).abs() < 1e-9, "{hz}: {left} {wave}");
         }
     }
-    assert_eq!(Pattern::new(2.0 * passing, passing, Some(feed)).pitch_m, None);
+    assert_eq!(
+        Pattern::new(2.0 * passing, passing, Some(feed)).pitch_m,
+        None
+    );
     assert_eq!(Pattern::new(passing, passing, None).multiple, 1);
 }

@@ -8,25 +8,25 @@ use crate::scene::rpm;
 use crate::spectrum::{SpectrumError, companion_eigenpairs, time_scale};
 use crate::system::GyroscopicSystem;
 
-/// G(λ) = Bᵀ L(λ)⁻¹ B = Σ_k b_k c_k/(λ − λ_k) over all 2m eigenvalues of the saw without delay;
-/// r × r, in m/N where P = BBᵀ is that of 1 N/m.
+/// G(λ) = Bᵀ L(λ)⁻¹ B = F + Σ_k b_k c_k/(λ − λ_k) over all 2m eigenvalues of the saw without delay, F
+/// being the flexibility of the shapes that are left out; r × r, in m/N where P = BBᵀ is that of 1 N/m.
 #[derive(Debug)]
 pub struct Transfer {
     /// λ_k, each complex one followed by its conjugate.
     pub poles: Vec<c64>,
     /// b_k c_k, r × r by columns, one after the other.
     residues: Vec<c64>,
-    size: usize,
+    flexibility: DMatrix<c64>,
 }
 
 impl Transfer {
-    /// Of a system at a speed; B has r columns.
+    /// Of a system at a speed; B has r columns, F is r × r.
     ///
     /// # Errors
     /// [`SpectrumError`] where the eigenproblem fails.
     pub fn new(
         system: &GyroscopicSystem,
-        columns: &Mat<f64>,
+        (columns, flexibility): (&Mat<f64>, DMatrix<f64>),
         speed_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         let (order, size) = (system.order(), columns.ncols());
@@ -78,13 +78,13 @@ impl Transfer {
         Ok(Transfer {
             poles,
             residues,
-            size,
+            flexibility: flexibility.map(|f| c64::new(f, 0.0)),
         })
     }
 
     /// G(λ).
     pub fn at(&self, lambda: c64) -> DMatrix<c64> {
-        self.sum(|pole| (lambda - pole).inv())
+        self.sum(|pole| (lambda - pole).inv()) + &self.flexibility
     }
 
     /// G and dG/dλ.
@@ -95,12 +95,14 @@ impl Transfer {
 
     /// Trace of b_k c_k: by how much −kh times it moves λ_k at first.
     pub fn mobility(&self, pole: usize) -> c64 {
-        let block = &self.residues[pole * self.size * self.size..];
-        (0..self.size).map(|i| block[i * (self.size + 1)]).sum()
+        let size = self.flexibility.nrows();
+        let block = &self.residues[pole * size * size..];
+        (0..size).map(|i| block[i * (size + 1)]).sum()
     }
 
     fn sum(&self, factor: impl Fn(c64) -> c64) -> DMatrix<c64> {
-        let count = self.size * self.size;
+        let size = self.flexibility.nrows();
+        let count = size * size;
         let mut total = vec![c64::new(0.0, 0.0); count];
         for (pole, block) in self.poles.iter().zip(self.residues.chunks_exact(count)) {
             let factor = factor(*pole);
@@ -108,7 +110,7 @@ impl Transfer {
                 *sum += residue * factor;
             }
         }
-        DMatrix::from_vec(self.size, self.size, total)
+        DMatrix::from_vec(size, size, total)
     }
 }
 
@@ -136,12 +138,16 @@ mod tests {
         let order = system.order();
         let columns = Mat::from_fn(order, 2, |i, k| ((i + 3 * k) as f64).sin());
         let speed = rad_per_s(2500.0);
-        let transfer = Transfer::new(&system, &columns, speed).unwrap();
+        let transfer = Transfer::new(&system, (&columns, DMatrix::zeros(2, 2)), speed).unwrap();
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
         for lambda in [(0.0, 70.0), (3.0, 900.0), (-20.0, 5000.0), (50.0, 0.0)] {
             let lambda = c64::new(lambda.0, lambda.1);
             let dynamic = Mat::from_fn(order, order, |i, k| {
-                let unit = if i == k { lambda * lambda } else { c64::new(0.0, 0.0) };
+                let unit = if i == k {
+                    lambda * lambda
+                } else {
+                    c64::new(0.0, 0.0)
+                };
                 unit + lambda * velocity[(i, k)] + stiffness[(i, k)]
             });
             let force = Mat::from_fn(order, 2, |i, k| c64::new(columns[(i, k)], 0.0));

@@ -92,7 +92,11 @@ fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c6
     }
     let speed = rad_per_s(report.rpm);
     generator(
-        [&system.stiffness_at(speed), &system.velocity_at(speed), &columns],
+        [
+            &system.stiffness_at(speed),
+            &system.velocity_at(speed),
+            &columns,
+        ],
         stiffness,
         delayed.overlap,
         &report.delays_s,
@@ -123,7 +127,9 @@ fn chebyshev(longest: f64) -> (Vec<f64>, Mat<f64>) {
 fn lagrange(nodes: &[f64], at: f64) -> Vec<f64> {
     let of = |k: usize| -> f64 {
         let others = (0..nodes.len()).filter(|i| *i != k);
-        others.map(|i| (at - nodes[i]) / (nodes[k] - nodes[i])).product()
+        others
+            .map(|i| (at - nodes[i]) / (nodes[k] - nodes[i]))
+            .product()
     };
     (0..nodes.len()).map(of).collect()
 }
@@ -167,7 +173,8 @@ fn generator(
                     derivative[(node, 0)] * columns[(i, column)] / unit;
             }
             for other in 1..=OF_DELAY {
-                matrix[(place(node, column), place(other, column))] = derivative[(node, other)] / unit;
+                matrix[(place(node, column), place(other, column))] =
+                    derivative[(node, other)] / unit;
             }
         }
     }
@@ -205,7 +212,11 @@ fn washboarding_is_that_of_a_collocated_delay() {
         assert_eq!(report.verdict == Verdict::Unstable, growing > 0);
         let fastest = rightmost(&values, &report);
         let told = &report.modes[0];
-        assert!((told.growth_per_s - fastest.re).abs() < 5e-3, "{} {fastest}", told.growth_per_s);
+        assert!(
+            (told.growth_per_s - fastest.re).abs() < 5e-3,
+            "{} {fastest}",
+            told.growth_per_s
+        );
         // At the boundary the rightmost eigenvalue is on the axis, at the frequency told.
         let critical = report.critical_stiffness_n_per_m.unwrap();
         let at = |share: f64| rightmost(&collocated(&scene, &report, share * critical), &report);
@@ -289,7 +300,13 @@ fn an_undamped_and_a_loose_saw_are_refused() {
             ..DampingFile::default()
         });
         let cut = saw.cut.as_mut().expect("a cut");
-        cut.washboarding = resaw(|_| ()).file().cut.as_ref().unwrap().washboarding.clone();
+        cut.washboarding = resaw(|_| ())
+            .file()
+            .cut
+            .as_ref()
+            .unwrap()
+            .washboarding
+            .clone();
     });
     let error = look(&loose.unwrap()).unwrap_err();
     assert!(matches!(error, WashboardError::Loose), "{error}");
