@@ -14,11 +14,12 @@ use super::summary::{WIDTH, shortened, wrapped};
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter washboard my-saw.json                 is the board smooth?
-  sawflutter washboard my-saw.json --rpm 2400      at another speed
+  sawflutter washboard my-saw.json                        is the board smooth?
+  sawflutter washboard my-saw.json --rpm 2400             at another speed
   sawflutter washboard my-saw.json --json | jq .verdict   for scripts
 
-The cutting stiffness is the scene's `cut.washboarding`; `sawflutter schema` says what it may contain.";
+The cutting stiffness is the scene's `cut.washboarding`; `sawflutter schema`
+says what that may contain.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -1,10 +1,11 @@
 //! The figures of the cut and of the run-up, drawn from reports made up for it.
 
 use super::tidy::{assert_tidy, texts};
-use super::{cut, cut_map, response_map, runup, spline_orbit};
-use crate::report::{CutReport, RunUpReport};
+use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
+use crate::report::{CutReport, RunUpReport, WashboardReport};
 use crate::scene::{Accuracy, CutRun, RunUp, Scene, SpeedRange, rad_per_s};
 use crate::transient::{Cutting, RunningUp};
+use crate::washboarding::Washboard;
 
 /// As many speeds as make two rows.
 fn cut_report(scene: &Scene) -> CutReport {
@@ -108,4 +109,35 @@ fn the_figures_of_a_run_up_are_tidy() {
     assert_tidy(&response_map::sheet(&report));
     let chart = found.analysis.report();
     assert_eq!(chart.instabilities.len(), report.bands.len());
+}
+
+/// Unstable, stable, unstable without the force, and without a boundary.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
+    let scene = include_str!("../../scenes/gallery/washboarding.json");
+    let scene = Scene::from_json(scene).unwrap();
+    for (stiffness, overlap, power_w, said) in [
+        (3e4, 1.0, 15e3, "2400 rpm: unstable at"),
+        (10.0, 1.0, 15e3, "2400 rpm: stable"),
+        (3e4, 0.0, 15e3, "2400 rpm: stable"),
+        (3e4, 1.0, 15e6, "2400 rpm: unstable at"),
+    ] {
+        let scene = scene.edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            let cut = saw.cut.as_mut().unwrap();
+            cut.power_w = Some(power_w);
+            let delayed = cut.washboarding.as_mut().unwrap();
+            (delayed.stiffness_n_per_m, delayed.overlap) = (stiffness, overlap);
+        });
+        let scene = scene.unwrap();
+        let cut = scene.cut().unwrap();
+        let run = cut.at_rpm(2400.0).unwrap();
+        let delayed = cut.washboarding.as_ref().unwrap();
+        let found = Washboard::new(&scene, (cut, delayed), &run, &|_, _| ()).unwrap();
+        let sheet = washboard::sheet(&WashboardReport::new(&found));
+        assert_tidy(&sheet);
+        let mut all = texts(&sheet).into_iter();
+        assert!(all.any(|(_, text)| text.starts_with(said)), "{said}");
+    }
 }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Verdict;
-use crate::scene::{SceneFile, rpm, unusual};
+use crate::scene::{SceneFile, rpm, unusual, unusual_number};
 use crate::spectrum::Direction;
 use crate::washboarding::{Washboard, WashboardMode};
 
@@ -188,8 +188,12 @@ fn warnings(found: &Washboard) -> Vec<String> {
         without_pitch(found),
     ];
     let of_scene = unusual(found.scene.file());
+    let rpm = found.run.rpm;
+    let asked = (found.scene.file().operating_rpm != Some(rpm))
+        .then(|| unusual_number("the speed of the cut", "operating_rpm", rpm));
     of_scene
         .into_iter()
+        .chain(asked.flatten())
         .chain(all.into_iter().flatten())
         .collect()
 }

@@ -21,6 +21,10 @@ pub struct Root {
 const MOST_STEPS: usize = 80;
 /// Relative change at which a root has been found.
 const CONVERGED: f64 = 1e-11;
+/// Relative imaginary part of a real value.
+const REAL: f64 = 1e-12;
+/// Relative distance that the determinant itself may tell of a root.
+const NEAR: f64 = 1e-6;
 /// A first step beside the eigenvalue without the force, where the function has a pole and a zero.
 const BESIDE: f64 = 1e-7;
 
@@ -77,7 +81,7 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
         }
     }
     let found = own.iter().zip(found).zip(done);
-    let found = found.filter(|((_, lambda), done)| *done && lambda.is_finite());
+    let found = found.filter(|((_, lambda), done)| *done && is_root(saw, stiffness, *lambda));
     let root = |(k, lambda): (&usize, c64)| Root {
         lambda: upper(lambda),
         without: Some(all[*k]),
@@ -104,7 +108,7 @@ fn another(
             };
             lambda -= step;
             if step.norm() <= CONVERGED * lambda.norm() {
-                if lambda.re > 0.0 {
+                if lambda.re > 0.0 && is_root(saw, stiffness, lambda) {
                     return Some(Root {
                         lambda: upper(lambda),
                         without: None,
@@ -115,6 +119,13 @@ fn another(
         }
     }
     None
+}
+
+/// Whether the determinant vanishes there: Newton's step for it alone is none.
+fn is_root(saw: &DelayedSaw, stiffness: f64, lambda: c64) -> bool {
+    let slope = saw.logarithmic_slope(stiffness, lambda);
+    // On the root itself the matrix is singular.
+    lambda.is_finite() && slope.is_none_or(|slope| slope.norm() * NEAR * lambda.norm() >= 1.0)
 }
 
 fn upper(lambda: c64) -> c64 {
@@ -136,7 +147,9 @@ fn first_guess(saw: &DelayedSaw, stiffness: f64, pole: usize) -> c64 {
 fn others(found: &[c64], own: usize) -> impl Iterator<Item = c64> + '_ {
     let all = found.iter().enumerate();
     all.flat_map(move |(k, value)| {
-        let conjugate = (value.im != 0.0).then(|| value.conj());
+        // A real value is its own conjugate.
+        let is_complex = value.im.abs() > REAL * value.norm();
+        let conjugate = is_complex.then(|| value.conj());
         [(k != own).then_some(*value), conjugate]
             .into_iter()
             .flatten()

@@ -17,3 +17,4 @@ mod refusals;
 mod scenes;
 mod study;
 mod summaries;
+mod washboard;

@@ -131,8 +131,18 @@ fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
 #[test]
 fn examples_of_every_help_fit_80_columns() {
     let commands = [
-        "", "analyze", "cut", "runup", "check", "fit", "place", "study", "tradeoff", "export",
+        "",
+        "analyze",
+        "cut",
+        "runup",
+        "check",
+        "fit",
+        "place",
+        "study",
+        "tradeoff",
+        "export",
         "schema",
+        "washboard",
     ];
     for command in commands {
         let arguments: Vec<&str> = [command, "--help"]

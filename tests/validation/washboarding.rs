@@ -23,7 +23,7 @@ use crate::common::relative_error;
 
 /// Collocation points, on the arc and of the delay.
 const ON_ARC: usize = 8;
-const OF_DELAY: usize = 22;
+const OF_DELAY: usize = 18;
 
 fn resaw(change: impl FnOnce(&mut SceneFile)) -> Scene {
     let scene = crate::common::scene("gallery/washboarding");
@@ -144,7 +144,7 @@ fn generator(
     let longest = delays.iter().copied().fold(0.0, f64::max);
     let (nodes, derivative) = chebyshev(longest);
     // 1 − μ Σ over the delays, as weights of the values at the points.
-    let mut force = vec![0.0; OF_DELAY + 1];
+    let mut force = [0.0; OF_DELAY + 1];
     force[0] = 1.0;
     for delay in delays {
         for (sum, value) in force.iter_mut().zip(lagrange(&nodes, -delay)) {
@@ -197,7 +197,7 @@ fn washboarding_is_that_of_a_collocated_delay() {
         resaw(|saw| washboarding(saw).pitches_deg = vec![9.0, 11.0]),
         resaw(|saw| washboarding(saw).overlap = 0.6),
     ];
-    for scene in scenes {
+    for (case, scene) in scenes.into_iter().enumerate() {
         let report = report(&scene);
         let values = collocated(&scene, &report, report.stiffness_n_per_m);
         assert!(report.modes.len() >= 8);
@@ -217,15 +217,22 @@ fn washboarding_is_that_of_a_collocated_delay() {
             "{} {fastest}",
             told.growth_per_s
         );
-        // At the boundary the rightmost eigenvalue is on the axis, at the frequency told.
-        let critical = report.critical_stiffness_n_per_m.unwrap();
-        let at = |share: f64| rightmost(&collocated(&scene, &report, share * critical), &report);
-        let (below, above) = (at(0.99), at(1.01));
-        assert!(below.re < 0.0 && above.re > 0.0, "{below} {above}");
-        let frequency = above.im / TAU;
-        assert!(relative_error(frequency, report.critical_frequency_hz.unwrap()) < 1e-3);
         assert!(report.lobes.confirmed.iter().all(|confirmed| *confirmed));
+        // One of them is enough for the boundary, which takes two more.
+        if case == 0 {
+            boundary_is_between(&scene, &report);
+        }
     }
+}
+
+/// Right of the boundary an eigenvalue is right of the axis, at the frequency told.
+fn boundary_is_between(scene: &Scene, report: &WashboardReport) {
+    let critical = report.critical_stiffness_n_per_m.unwrap();
+    let at = |share: f64| rightmost(&collocated(scene, report, share * critical), report);
+    let (below, above) = (at(0.999), at(1.001));
+    assert!(below.re < 0.0 && above.re > 0.0, "{below} {above}");
+    let frequency = above.im / TAU;
+    assert!(relative_error(frequency, report.critical_frequency_hz.unwrap()) < 1e-3);
 }
 
 /// The diagram's curve passes through the boundary at the speed of the cut.

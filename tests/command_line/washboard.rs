@@ -1,0 +1,162 @@
+//! Goal: `washboard` keeps its word to the person or script that runs it.
+//!
+//! Source: `--help` and docs/how-to/washboarding.md.
+
+use sawflutter::report::{Verdict, WashboardReport};
+use sawflutter::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
+use tempfile::TempDir;
+
+use super::program::{names_in, out, run, text, write_scene};
+
+fn resaw(change: impl FnOnce(&mut SceneFile)) -> SceneFile {
+    let scene = include_str!("../../scenes/gallery/washboarding.json");
+    let mut file = Scene::from_json(scene).unwrap().file().clone();
+    file.accuracy = Accuracy::Draft;
+    change(&mut file);
+    file
+}
+
+fn delayed(saw: &mut SceneFile) -> &mut WashboardingFile {
+    let cut = saw.cut.as_mut().unwrap();
+    cut.washboarding.as_mut().unwrap()
+}
+
+/// Verdict first, files, and JSON that says the same.
+#[test]
+fn the_verdict_comes_first_and_is_that_of_the_report() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &resaw(|_| ()));
+    let output = run(&["washboard", scene.to_str().unwrap()], &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let expected = ["washboard.json", "washboard.png", "washboard.svg"];
+    assert_eq!(names_in(&out(&folder)), expected);
+    let summary = text(&output.stdout);
+    let second = summary.lines().nth(1).unwrap();
+    assert!(second.starts_with("2400 rpm: UNSTABLE"), "{summary}");
+    assert!(
+        summary.lines().all(|line| line.chars().count() <= 80),
+        "{summary}"
+    );
+    let json = std::fs::read(folder.path().join("out/washboard.json")).unwrap();
+    let report: WashboardReport = serde_json::from_slice(&json).unwrap();
+    assert_eq!(report.verdict, Verdict::Unstable);
+    let mode = report.growing_mode().unwrap();
+    assert!(
+        summary.contains(&format!("{:.3} 1/s", mode.growth_per_s)),
+        "{summary}"
+    );
+    let pitch = format!(
+        "{:.1} mm along the feed",
+        1e3 * mode.pattern_pitch_m.unwrap()
+    );
+    assert!(
+        summary
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+            .contains(&pitch),
+        "{summary}"
+    );
+    // Without the delayed force, and below the boundary, nothing grows.
+    let small = write_scene(&folder, &resaw(|saw| delayed(saw).stiffness_n_per_m = 15e3));
+    let output = run(&["washboard", small.to_str().unwrap(), "--json"], &folder);
+    let small: WashboardReport = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(
+        (small.verdict, small.growing_eigenvalues),
+        (Verdict::Stable, Some(0))
+    );
+    assert!(small.critical_stiffness_n_per_m.unwrap() > 15e3);
+}
+
+/// Without a feed, and with teeth that are not evenly spaced, no pitch is made up.
+#[test]
+fn a_pitch_that_is_not_known_is_not_told() {
+    type Change = fn(&mut SceneFile);
+    let cases: [(Change, &str); 2] = [
+        (
+            |saw| saw.cut.as_mut().unwrap().feed_m_per_s = None,
+            "cut.feed_m_per_s",
+        ),
+        (
+            |saw| delayed(saw).pitches_deg = vec![9.0, 11.0],
+            "not evenly spaced",
+        ),
+    ];
+    for (change, said) in cases {
+        let folder = TempDir::new().unwrap();
+        let scene = write_scene(&folder, &resaw(change));
+        let output = run(&["washboard", scene.to_str().unwrap(), "--json"], &folder);
+        let report: WashboardReport = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(
+            report
+                .modes
+                .iter()
+                .all(|mode| mode.pattern_pitch_m.is_none())
+        );
+        assert!(
+            report.warnings.iter().any(|w| w.contains(said)),
+            "{:?}",
+            report.warnings
+        );
+    }
+}
+
+/// What is missing is named, with exit code 2 and nothing written.
+#[test]
+fn what_washboarding_lacks_is_refused_by_name() {
+    type Change = fn(&mut SceneFile);
+    let cases: [(Change, &str); 7] = [
+        (|saw| saw.cut = None, "cut is missing"),
+        (
+            |saw| saw.cut.as_mut().unwrap().washboarding = None,
+            "cut.washboarding is missing",
+        ),
+        (|saw| saw.operating_rpm = None, "operating_rpm is missing"),
+        (|saw| saw.damping = None, "damping is missing"),
+        (
+            |saw| {
+                saw.damping = Some(DampingFile {
+                    air_n_s_per_m3: 1e-6,
+                    ..DampingFile::default()
+                });
+            },
+            "damping is missing or too small",
+        ),
+        (
+            |saw| saw.mount = Mount::Spline {},
+            "guides is empty or too soft",
+        ),
+        (
+            |saw| delayed(saw).overlap = -0.1,
+            "cut.washboarding.overlap is -0.1",
+        ),
+    ];
+    for (change, expected) in cases {
+        let folder = TempDir::new().unwrap();
+        let scene = write_scene(&folder, &resaw(change));
+        let output = run(&["washboard", scene.to_str().unwrap()], &folder);
+        assert_eq!(output.status.code(), Some(2), "{expected}");
+        let error = text(&output.stderr);
+        assert!(error.contains(expected), "{expected}: {error}");
+        assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{expected}");
+    }
+}
+
+/// 2.4 for 2400.
+#[test]
+fn a_speed_in_another_unit_is_warned_of() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &resaw(|_| ()));
+    let arguments = [
+        "washboard",
+        scene.to_str().unwrap(),
+        "--rpm",
+        "24",
+        "--json",
+    ];
+    let output = run(&arguments, &folder);
+    let report: WashboardReport = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
+    let warned = |w: &String| w.contains("the speed of the cut is 24 rpm");
+    assert!(report.warnings.iter().any(warned), "{:?}", report.warnings);
+}
