@@ -9,6 +9,7 @@ use super::companion::companion_eigenpairs;
 use super::error::SpectrumError;
 use super::free_wave;
 use super::projection::Projection;
+use super::reflected::KnownStates;
 use super::residual::MatrixNorms;
 use super::vectors::{Eigenpair, real_times};
 
@@ -47,6 +48,9 @@ pub(super) struct ReflectedProjection {
     pub projection: Projection,
     /// Frequency up to which it is complete.
     pub height_rad_per_s: f64,
+    /// Modes of some ascending speeds, from the first at which waves are reflected to the last, in
+    /// the coordinates of the projection: what is between them follows from their states.
+    pub known: Vec<KnownStates>,
 }
 
 impl Component {

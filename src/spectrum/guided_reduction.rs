@@ -10,10 +10,12 @@ use rayon::prelude::*;
 
 use super::arnoldi::lowest_eigenpairs;
 use super::companion::companion_eigenpairs;
+use super::component::ReflectedProjection;
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::mode::{ModeKind, classify};
 use super::projection::Projection;
+use super::reflected::{KnownStates, SPAN_MARGIN};
 use super::vectors::{Eigenpair, orthonormal, split};
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
@@ -35,6 +37,9 @@ const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED
 const SNAPSHOT_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::SNAPSHOT_MARGIN", 1.5);
 /// Length given to vectors of which no part may be left out.
 const KEPT_WHOLE: f64 = 1e6;
+/// Relative distance of the first speed of the search for bands from the lowest critical speed: more
+/// than the search itself keeps from it.
+const BELOW_CRITICAL: f64 = 1e-3;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
@@ -45,11 +50,9 @@ pub struct GuidedReductions {
     pub chart: Vec<Projection>,
     /// Every mode up to a little above the highest reflected wave, if there is one,
     /// for the whole range: the search for bands needs no more, and so asks less.
-    pub low: Option<Projection>,
+    pub low: Option<ReflectedProjection>,
     /// Height of the chart.
     pub chart_rad_per_s: f64,
-    /// Height of `low`.
-    pub low_rad_per_s: f64,
     /// Largest estimated error of a frequency above its tolerance, in rad/s: 0 unless the
     /// snapshots ran out.
     pub unsettled_rad_per_s: f64,
@@ -84,7 +87,6 @@ pub fn of_guided(
         chart: builder.pieces()?,
         low,
         chart_rad_per_s: builder.window,
-        low_rad_per_s,
         unsettled_rad_per_s: builder.unsettled_rad_per_s,
     })
 }
@@ -92,15 +94,14 @@ pub fn of_guided(
 /// The projection on the modes that bands are made of alone.
 pub struct BandReduction {
     /// The projection.
-    pub low: Projection,
-    /// Its height.
-    pub low_rad_per_s: f64,
+    pub low: ReflectedProjection,
     /// As in [`GuidedReductions`].
     pub unsettled_rad_per_s: f64,
 }
 
 /// The projection on the modes that bands are made of alone; nothing where no wave is reflected.
-/// Without the modes above, that only a chart shows, it costs a third.
+/// Without the modes above, that only a chart shows, and the speeds below the lowest critical one,
+/// where no wave is reflected, it costs a sixth.
 pub fn for_bands(
     system: &GyroscopicSystem,
     range: (f64, f64),
@@ -114,15 +115,16 @@ pub fn for_bands(
         return Ok(None);
     }
     builder.window = height;
+    builder.range.0 = builder.first_reflecting();
     builder.add_first_snapshots([None, last])?;
     Ok(Some(BandReduction {
         low: builder.whole_range(height)?,
-        low_rad_per_s: height,
         unsettled_rad_per_s: builder.unsettled_rad_per_s,
     }))
 }
 
 /// Low modes of the whole system at one speed.
+#[derive(Clone)]
 struct Snapshot {
     speed: f64,
     pairs: Vec<Eigenpair>,
@@ -282,40 +284,83 @@ impl<'a> Builder<'a> {
         orthonormal(self.system.order(), &vectors, SPAN_TOLERANCE.get())
     }
 
-    /// One projection for all speeds, from the modes up to a height at every snapshot;
-    /// snapshots are added until it is right halfway between them. What was right once stays
-    /// so, for the space only grows.
-    fn whole_range(&mut self, height: f64) -> Result<Projection, SpectrumError> {
-        let mut settled: Vec<f64> = Vec::new();
+    /// Where the search for bands begins: a little below the lowest critical speed, as far as the
+    /// range goes.
+    fn first_reflecting(&self) -> f64 {
+        let (from, to) = self.range;
+        let lowest = self.critical.first().map_or(from, |c| c.speed_rad_per_s);
+        match lowest * (1.0 + BELOW_CRITICAL) < to {
+            true => (lowest * (1.0 - BELOW_CRITICAL)).max(from),
+            false => from,
+        }
+    }
+
+    /// One projection for all speeds at which waves are reflected, from the modes up to a height
+    /// at every snapshot; snapshots are added until it is right halfway between them. What was
+    /// right once stays so, for the space only grows.
+    fn whole_range(&mut self, height: f64) -> Result<ReflectedProjection, SpectrumError> {
+        let mut settled: Vec<Snapshot> = Vec::new();
+        let from = self.first_reflecting();
         loop {
             self.counters.cancellation.check()?;
+            let first = self.snapshots.partition_point(|s| s.speed <= from);
+            let snapshots = &self.snapshots[first.saturating_sub(1)..];
             let basis = self.basis(&self.snapshots, height);
             let projection = Projection::new(self.system, basis, self.range.1);
-            let mut halfway = self.halfway();
-            halfway.retain(|speed| !settled.contains(speed));
-            let errors: Vec<f64> = halfway
+            let mut halfway = halfway(snapshots);
+            halfway.retain(|speed| settled.iter().all(|known| known.speed != *speed));
+            let tried: Vec<(f64, Snapshot)> = halfway
                 .par_iter()
                 .map(|&speed| {
                     let pairs = self.pairs(&projection, speed)?;
-                    Ok(self.frequency_error(&projection, speed, height, &pairs))
+                    let error = self.frequency_error(&projection, speed, height, &pairs);
+                    let pairs = projection.outward(low_pairs(pairs, 2.0 * height));
+                    Ok((error, Snapshot { speed, pairs }))
                 })
                 .collect::<Result<_, SpectrumError>>()?;
-            let largest = errors.iter().copied().fold(0.0, f64::max);
-            let (coarse, fine): (Vec<_>, Vec<_>) = halfway
+            let largest = tried.iter().map(|(error, _)| *error).fold(0.0, f64::max);
+            let (coarse, fine): (Vec<_>, Vec<_>) = tried
                 .into_iter()
-                .zip(errors)
-                .partition(|(_, error)| *error > FREQUENCY_TOLERANCE.get() * self.window);
-            settled.extend(fine.into_iter().map(|(speed, _)| speed));
-            if coarse.is_empty() {
-                return Ok(projection);
+                .partition(|(error, _)| *error > FREQUENCY_TOLERANCE.get() * self.window);
+            settled.extend(fine.into_iter().map(|(_, found)| found));
+            let has_given_up = self.snapshots.len() >= MAX_SNAPSHOTS;
+            if coarse.is_empty() || has_given_up {
+                if has_given_up {
+                    self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(largest);
+                }
+                settled.extend(snapshots.iter().cloned());
+                return Ok(ReflectedProjection {
+                    known: self.states(&projection, height, settled)?,
+                    projection,
+                    height_rad_per_s: height,
+                });
             }
-            if self.snapshots.len() >= MAX_SNAPSHOTS {
-                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(largest);
-                return Ok(projection);
-            }
-            let speeds: Vec<f64> = coarse.into_iter().map(|(speed, _)| speed).collect();
+            let speeds: Vec<f64> = coarse.into_iter().map(|(_, found)| found.speed).collect();
             self.add_snapshots(&speeds)?;
         }
+    }
+
+    /// The states of the modes that a search for bands up to a height goes by, by ascending speed.
+    fn states(
+        &self,
+        projection: &Projection,
+        height: f64,
+        known: Vec<Snapshot>,
+    ) -> Result<Vec<KnownStates>, SpectrumError> {
+        let height = SPAN_MARGIN.get() * height;
+        let states = |Snapshot { speed, pairs }| {
+            let is_complete = pairs.iter().any(|(lambda, _)| lambda.norm() > height);
+            let mut pairs = match is_complete {
+                true => pairs.iter().map(|pair| projection.inward(pair)).collect(),
+                false => self.pairs(projection, speed)?,
+            };
+            pairs.retain(|(lambda, _)| lambda.im <= height);
+            Ok((speed, projection.states(speed, pairs)))
+        };
+        let states = known.into_par_iter().map(states);
+        let mut states: Vec<KnownStates> = states.collect::<Result<_, SpectrumError>>()?;
+        states.sort_by(|x, y| x.0.total_cmp(&y.0));
+        Ok(states)
     }
 
     /// Projections between neighbouring snapshots, halved until right in their middle.
@@ -368,15 +413,20 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn halfway(&self) -> Vec<f64> {
-        let middle = |pair: &[Snapshot]| 0.5 * (pair[0].speed + pair[1].speed);
-        self.snapshots.windows(2).map(middle).collect()
-    }
-
     fn pairs(&self, projection: &Projection, speed: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         companion_eigenpairs(&projection.reduced, speed)
     }
+}
+
+fn halfway(snapshots: &[Snapshot]) -> Vec<f64> {
+    let middle = |pair: &[Snapshot]| 0.5 * (pair[0].speed + pair[1].speed);
+    snapshots.windows(2).map(middle).collect()
+}
+
+fn low_pairs(mut pairs: Vec<Eigenpair>, height: f64) -> Vec<Eigenpair> {
+    pairs.retain(|(lambda, _)| lambda.norm() <= height);
+    pairs
 }
 
 /// Speeds of the first snapshots.

@@ -14,7 +14,7 @@ use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::error::SpectrumError;
-use super::vectors::{Eigenpair, by_magnitude, orthonormal, split, unit};
+use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,18 +124,19 @@ impl HamiltonianReduction {
             rpm: rpm(speed_rad_per_s),
         };
         let eigen = Eigen::new_from_real(matrix.as_ref()).map_err(failed)?;
-        let pairs = (0..matrix.nrows())
-            .map(|i| (eigen.S()[i] * self.scale, i))
-            .filter(|(lambda, _)| lambda.im >= 0.0)
-            .map(|(lambda, i)| {
-                let y = eigen.U().col(i).to_owned();
-                let (re, im) = split(&y);
-                let (re, im) = (&self.deflections * re, &self.deflections * im);
-                let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
-                (lambda, unit(q.as_ref()))
-            })
+        let upper: Vec<usize> = (0..matrix.nrows())
+            .filter(|&i| eigen.S()[i].im >= 0.0)
             .collect();
-        Ok(by_magnitude(pairs))
+        let halves = Mat::from_fn(matrix.nrows(), 2 * upper.len(), |i, k| {
+            let y = eigen.U()[(i, upper[k / 2])];
+            if k % 2 == 0 { y.re } else { y.im }
+        });
+        let shapes = &self.deflections * halves;
+        let pairs = upper.iter().enumerate().map(|(k, &i)| {
+            let q = joined(&shapes, k);
+            (eigen.S()[i] * self.scale, unit(q.as_ref()))
+        });
+        Ok(by_magnitude(pairs.collect()))
     }
 
     /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth

@@ -19,6 +19,7 @@
 
 mod coupling;
 mod damped;
+mod jacobi;
 mod waves;
 
 use std::ops::Range;
@@ -30,6 +31,7 @@ use nalgebra::DMatrix;
 pub use self::damped::DampedBasis;
 
 use self::coupling::{Columns, Coupling, in_waves};
+use self::jacobi::Eigenvectors;
 use self::waves::Waves;
 use super::component::frequency_scale;
 use super::hermitian::negative_eigenvalues;
@@ -59,6 +61,8 @@ pub struct Harmonic {
     pub scale: DMatrix<f64>,
     /// σ.
     shift: f64,
+    /// Eigenvectors of K_b + K_m: near those of every speed.
+    resting: DMatrix<f64>,
 }
 
 /// Share of T = B(0) + σ that rounding may change L by.
@@ -114,6 +118,7 @@ impl WholeBasis {
         AtSpeed {
             speed_rad_per_s,
             blocks: self.harmonics.iter().map(stiffness).collect(),
+            free: OnceLock::new(),
             waves: [OnceLock::new(), OnceLock::new()],
         }
     }
@@ -176,8 +181,10 @@ impl WholeBasis {
         let at = if bound == Bound::Low { a } else { b };
         match &self.coupling {
             Coupling::Columns(columns) => {
-                let waves = at.waves[look]
-                    .get_or_init(|| Waves::new(&at.blocks, columns, columns.rests[look].0));
+                let waves = at.waves[look].get_or_init(|| {
+                    let free = at.free.get_or_init(|| self.free_waves(&at.blocks));
+                    Waves::new(free, columns, columns.rests[look].0)
+                });
                 waves.count(&self.harmonics, &blocks)
             }
             Coupling::Dense(coupling) => {
@@ -186,6 +193,12 @@ impl WholeBasis {
                 negative_eigenvalues(&matrix)
             }
         }
+    }
+
+    fn free_waves(&self, blocks: &[DMatrix<f64>]) -> Vec<Eigenvectors> {
+        let each = self.harmonics.iter().zip(blocks);
+        each.map(|(harmonic, block)| Eigenvectors::near(&harmonic.resting, block))
+            .collect()
     }
 
     fn add_blocks(
@@ -216,6 +229,8 @@ impl WholeBasis {
 pub struct AtSpeed {
     speed_rad_per_s: f64,
     blocks: Vec<DMatrix<f64>>,
+    /// The waves of every block.
+    free: OnceLock<Vec<Eigenvectors>>,
     /// With the first columns alone, and with all.
     waves: [OnceLock<Waves>; 2],
 }
@@ -238,7 +253,8 @@ impl Harmonic {
             rest += membrane;
         }
         let least = |matrix: &DMatrix<f64>| matrix.symmetric_eigenvalues().min();
-        let shift = frequency_scale.powi(2) + 2.0 * (-least(&rest)).max(0.0);
+        let resting = rest.clone().symmetric_eigen();
+        let shift = frequency_scale.powi(2) + 2.0 * (-resting.eigenvalues.min()).max(0.0);
         Harmonic {
             diameters: block.diameters,
             first,
@@ -247,6 +263,7 @@ impl Harmonic {
             rest,
             tension,
             shift,
+            resting: resting.eigenvectors,
         }
     }
 

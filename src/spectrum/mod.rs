@@ -74,7 +74,7 @@ pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};
 pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
-pub(crate) use reflected::{ReflectedModel, ReflectedModes};
+pub(crate) use reflected::{KnownStates, ReflectedModel};
 #[doc(hidden)]
 pub use vectors::{orthonormal, split};
 pub use work::{Cancellation, WorkCounters};

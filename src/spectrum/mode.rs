@@ -1,11 +1,11 @@
 //! What kind of mode an eigenpair is, and which sign its energy has.
 
-use faer::{Col, c64};
+use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
 use super::companion::time_scale;
-use super::vectors::{Eigenpair, quadratic_form, real_times};
+use super::vectors::{Eigenpair, halves, real_times};
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,10 +130,12 @@ pub fn classify(
 ) -> Vec<Mode> {
     let rigid_noise = rigid_noise(system);
     let growth_slopes = growth_slopes(system, speed_rad_per_s, &pairs);
+    let forms = Forms::of(system, &pairs);
     pairs
         .into_iter()
         .zip(growth_slopes)
-        .filter_map(|((lambda, q), growth_slope)| {
+        .zip(forms)
+        .filter_map(|(((lambda, q), growth_slope), forms)| {
             let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
             let rigid = lambda.norm() < rigid_noise;
             let mut mode = Mode {
@@ -149,9 +151,9 @@ pub fn classify(
                 mode.kind = ModeKind::Rigid;
                 mode.lambda = c64::new(0.0, 0.0);
             } else if system.is_conservative() {
-                undamped_kind(system, speed_rad_per_s, noise, &mut mode)?;
+                undamped_kind(forms, speed_rad_per_s, noise, &mut mode)?;
             } else if lambda.im > noise {
-                set_action(system, speed_rad_per_s, &mut mode);
+                forms.set_action(speed_rad_per_s, &mut mode);
             }
             Some(mode)
         })
@@ -189,7 +191,7 @@ fn growth_slopes(system: &GyroscopicSystem, speed: f64, pairs: &[Eigenpair]) -> 
 }
 
 /// Kind of a mode of an undamped system; `None` for the mirror image of a divergent one.
-fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut Mode) -> Option<()> {
+fn undamped_kind(forms: Forms, speed: f64, noise: f64, mode: &mut Mode) -> Option<()> {
     let oscillates = mode.lambda.im > noise;
     if mode.lambda.re > noise {
         mode.kind = if oscillates {
@@ -204,7 +206,7 @@ fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut M
         mode.action = -1;
     } else {
         mode.lambda.re = 0.0;
-        set_action(system, speed, mode);
+        forms.set_action(speed, mode);
         mode.kind = if mode.action > 0 {
             ModeKind::Positive
         } else {
@@ -214,18 +216,43 @@ fn undamped_kind(system: &GyroscopicSystem, speed: f64, noise: f64, mode: &mut M
     Some(())
 }
 
-/// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; of a damped one
-/// what they would be without damping.
-///
-/// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
-/// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
-fn set_action(system: &GyroscopicSystem, speed: f64, mode: &mut Mode) {
-    let q = &mode.coordinates;
-    let omega = mode.lambda.im;
-    let gamma = quadratic_form(q, &system.gyroscopic).im;
-    let spin = quadratic_form(q, &system.spin).re;
-    let form = omega + speed * gamma;
-    mode.action = if form >= 0.0 { 1 } else { -1 };
-    let slope = (speed * spin - omega * gamma) / form;
-    mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
+/// Quadratic forms of q, qᴴq = 1.
+#[derive(Clone, Copy)]
+struct Forms {
+    /// γ of qᴴGq = iγ.
+    gamma: f64,
+    /// qᴴ(K_σ − N)q.
+    spin: f64,
+}
+
+impl Forms {
+    /// Those of many vectors, by products of matrices.
+    fn of(system: &GyroscopicSystem, pairs: &[Eigenpair]) -> Vec<Self> {
+        let halves = halves(system.order(), pairs.iter().map(|(_, q)| q));
+        let (turned, spun) = (&system.gyroscopic * &halves, &system.spin * &halves);
+        let form = |k: usize| {
+            let [re, im] = [2 * k, 2 * k + 1];
+            let dot = |x: usize, product: &Mat<f64>, y: usize| -> f64 {
+                halves.col(x).transpose() * product.col(y)
+            };
+            Forms {
+                gamma: dot(re, &turned, im) - dot(im, &turned, re),
+                spin: dot(re, &spun, re) + dot(im, &spun, im),
+            }
+        };
+        (0..pairs.len()).map(form).collect()
+    }
+
+    /// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; of a damped one
+    /// what they would be without damping.
+    ///
+    /// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
+    /// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
+    fn set_action(self, speed: f64, mode: &mut Mode) {
+        let omega = mode.lambda.im;
+        let form = omega + speed * self.gamma;
+        mode.action = if form >= 0.0 { 1 } else { -1 };
+        let slope = (speed * self.spin - omega * self.gamma) / form;
+        mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
+    }
 }

@@ -6,6 +6,7 @@ use faer::{Col, Mat, Scale, c64};
 use crate::system::GyroscopicSystem;
 
 use super::hamiltonian::{HamiltonianReduction, State};
+use super::vectors::Eigenpair;
 
 /// The invariant subspace of two modes at one speed, and what it says next to that speed.
 #[derive(Debug)]
@@ -28,20 +29,20 @@ const STEPS: std::ops::RangeInclusive<usize> = 2..=12;
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 impl ModePair {
-    /// The pair of two states of a speed, refined there. `None` where block inverse iteration
+    /// The pair of two modes of a speed, refined there. `None` where block inverse iteration
     /// does not settle on two modes.
     pub(super) fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
         scale: f64,
-        states: [&State; 2],
+        pairs: [&Eigenpair; 2],
     ) -> Option<Self> {
         let order = system.order();
         let start = Subspace {
-            q: Mat::from_fn(order, 2, |i, k| states[k].q[i]),
-            v: Mat::from_fn(order, 2, |i, k| states[k].q[i] * states[k].lambda),
+            q: Mat::from_fn(order, 2, |i, k| pairs[k].1[i]),
+            v: Mat::from_fn(order, 2, |i, k| pairs[k].1[i] * pairs[k].0),
         };
-        let lambdas = states.map(|state| state.lambda);
+        let lambdas = pairs.map(|pair| pair.0);
         Self::iterated(system, speed_rad_per_s, scale, start, lambdas)
     }
 
@@ -77,23 +78,28 @@ impl ModePair {
         let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
         // A hair off, so that L is not singular to the last bit.
         let shifts = lambdas.map(|lambda| lambda * (1.0 + 1e-9));
-        let inverses = shifts.map(|shift| {
-            let dynamic: Mat<c64> = Mat::from_fn(order, order, |i, k| {
-                let inertia = if i == k {
-                    shift * shift
-                } else {
-                    c64::new(0.0, 0.0)
-                };
-                inertia + shift * velocity[(i, k)] + stiffness[(i, k)]
+        let factors = |shift: c64| {
+            let mut dynamic = Mat::from_fn(order, order, |i, k| {
+                shift * velocity[(i, k)] + stiffness[(i, k)]
             });
-            (shift, dynamic.partial_piv_lu())
-        });
+            (0..order).for_each(|i| dynamic[(i, i)] += shift * shift);
+            dynamic.partial_piv_lu()
+        };
+        let first = factors(shifts[0]);
+        // Undamped, L(−λ̄) is L(λ)ᴴ.
+        let are_mirrored = system.is_conservative() && shifts[1] == -shifts[0].conj();
+        let second = (!are_mirrored).then(|| factors(shifts[1]));
+        let solve = |which: usize, load: Mat<c64>| match (which, &second) {
+            (0, _) => first.solve(load),
+            (_, Some(second)) => second.solve(load),
+            (_, None) => first.solve_adjoint(load),
+        };
         let Subspace { mut q, mut v } = start;
         for step in 1..=*STEPS.end() {
-            for (shift, factors) in &inverses {
+            for (which, shift) in shifts.iter().enumerate() {
                 // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
                 let load = &damping * &q + Scale(*shift) * &q + &v;
-                let u = Scale(c64::new(-1.0, 0.0)) * factors.solve(load);
+                let u = Scale(c64::new(-1.0, 0.0)) * solve(which, load);
                 v = &q + Scale(*shift) * &u;
                 q = u;
                 orthonormalise(&mut q, &mut v, scale)?;

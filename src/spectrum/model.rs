@@ -12,7 +12,7 @@ use crate::plate::Plate;
 
 use super::buckling;
 use super::companion::companion_eigenpairs;
-use super::component::{Component, ReflectedProjection, Solution, frequency_scale};
+use super::component::{Component, Solution, frequency_scale};
 use super::critical::{NamedCriticalSpeed, named_critical_speeds};
 use super::derivative;
 use super::error::SpectrumError;
@@ -137,23 +137,17 @@ impl SpectralModel {
                 false => None,
             };
             if let Some(found) = bands_alone {
+                self.complete_to_rad_per_s = found.low.height_rad_per_s;
                 component.solution = Solution::Projected {
-                    chart: vec![found.low.clone()],
-                    reflected: Some(ReflectedProjection {
-                        projection: found.low,
-                        height_rad_per_s: found.low_rad_per_s,
-                    }),
+                    chart: vec![found.low.projection.clone()],
+                    reflected: Some(found.low),
                 };
-                self.complete_to_rad_per_s = found.low_rad_per_s;
                 self.unsettled_rad_per_s = found.unsettled_rad_per_s;
             } else {
                 let found = guided_reduction::of_guided(system, range, scale, critical, counters)?;
                 component.solution = Solution::Projected {
                     chart: found.chart,
-                    reflected: found.low.map(|projection| ReflectedProjection {
-                        projection,
-                        height_rad_per_s: found.low_rad_per_s,
-                    }),
+                    reflected: found.low,
                 };
                 self.complete_to_rad_per_s = found.chart_rad_per_s;
                 self.unsettled_rad_per_s = found.unsettled_rad_per_s;
@@ -308,6 +302,7 @@ impl SpectralModel {
             &reflected.projection.reduced,
             self.standing(component).map(inward).collect(),
             reflected.height_rad_per_s,
+            &reflected.known,
             &self.counters,
         ))
     }
@@ -331,6 +326,7 @@ impl SpectralModel {
             &component.full,
             own.collect(),
             height,
+            &[],
             &self.counters,
         ))
     }

@@ -6,7 +6,7 @@ use crate::system::GyroscopicSystem;
 
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::residual::Lifted;
-use super::vectors::{Eigenpair, split};
+use super::vectors::{Eigenpair, real_times, split};
 
 /// A component projected on few orthonormal vectors.
 #[derive(Debug, Clone)]
@@ -56,6 +56,12 @@ impl Projection {
             *lambda,
             Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])),
         )
+    }
+
+    /// Pairs of the projection as pairs of the whole component.
+    pub fn outward(&self, pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
+        let lift = |(lambda, q): Eigenpair| (lambda, real_times(&self.basis, &q));
+        pairs.into_iter().map(lift).collect()
     }
 
     /// The states of pairs of the projection at a speed.

@@ -25,30 +25,22 @@ pub struct ReflectedModel<'a> {
     /// Critical speeds and their standing waves.
     standing: Vec<(f64, Col<f64>)>,
     height_rad_per_s: f64,
+    known: &'a [KnownStates],
     counters: &'a WorkCounters,
 }
 
-/// The low modes of one speed.
-#[derive(Debug, Clone)]
-pub struct ReflectedModes {
-    /// Ω.
-    pub speed_rad_per_s: f64,
-    /// Those above the height are there to tell what comes next, and not to be trusted to
-    /// many digits.
-    pub modes: Vec<Mode>,
-    /// The states of the lowest, also those that are no modes of their own: the mirror
-    /// images of growing ones.
-    pub states: Vec<State>,
-}
+/// A speed, and the states of the low modes there.
+pub type KnownStates = (f64, Vec<State>);
 
 /// Modes up to this multiple of the height help to span those below it.
-const SPAN_MARGIN: Tuned = Tuned::new("spectrum/reflected::SPAN_MARGIN", 1.2);
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/reflected::SPAN_MARGIN", 1.2);
 
 impl<'a> ReflectedModel<'a> {
     pub(super) fn new(
         system: &'a GyroscopicSystem,
         standing: Vec<(f64, Col<f64>)>,
         height_rad_per_s: f64,
+        known: &'a [KnownStates],
         counters: &'a WorkCounters,
     ) -> Self {
         ReflectedModel {
@@ -56,8 +48,15 @@ impl<'a> ReflectedModel<'a> {
             local: None,
             standing,
             height_rad_per_s,
+            known,
             counters,
         }
+    }
+
+    /// Ascending speeds of which the states of the low modes are known, as they come with the
+    /// projection.
+    pub fn known(&self) -> &'a [KnownStates] {
+        self.known
     }
 
     /// Frequency up to which its modes are complete.
@@ -65,46 +64,58 @@ impl<'a> ReflectedModel<'a> {
         self.height_rad_per_s
     }
 
-    /// Its modes at a speed.
+    /// Its modes at a speed. Those above the height are there to tell what comes next, and not to
+    /// be trusted to many digits.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn modes(&self, speed_rad_per_s: f64) -> Result<ReflectedModes, SpectrumError> {
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let pairs = self.pairs(speed_rad_per_s)?;
+        Ok(classify(self.system, speed_rad_per_s, 0, pairs))
+    }
+
+    fn pairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
         self.counters.cancellation.check()?;
-        let pairs = match &self.local {
+        match &self.local {
             Some(local) => {
                 self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
-                local.eigenpairs(speed_rad_per_s)?
+                local.eigenpairs(speed_rad_per_s)
             }
             None => {
                 self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-                companion_eigenpairs(self.system, speed_rad_per_s)?
+                companion_eigenpairs(self.system, speed_rad_per_s)
             }
-        };
-        let low = |pair: &&Eigenpair| pair.0.im <= SPAN_MARGIN.get() * self.height_rad_per_s;
-        let states = pairs
-            .iter()
-            .filter(low)
-            .map(|pair| State::new(self.system, speed_rad_per_s, pair.clone()))
-            .collect();
-        let modes = classify(self.system, speed_rad_per_s, 0, pairs);
-        Ok(ReflectedModes {
-            speed_rad_per_s,
-            modes,
-            states,
-        })
+        }
+    }
+
+    /// Those of its lowest modes, also those that are no modes of their own: the mirror images of
+    /// growing ones.
+    fn low_pairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
+        let mut pairs = self.pairs(speed_rad_per_s)?;
+        pairs.retain(|(lambda, _)| lambda.im <= SPAN_MARGIN.get() * self.height_rad_per_s);
+        Ok(pairs)
+    }
+
+    /// The states of its lowest modes at a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn states(&self, speed_rad_per_s: f64) -> Result<KnownStates, SpectrumError> {
+        let pairs = self.low_pairs(speed_rad_per_s)?.into_iter();
+        let states = pairs.map(|pair| State::new(self.system, speed_rad_per_s, pair));
+        Ok((speed_rad_per_s, states.collect()))
     }
 
     /// The same between two speeds, on the states of the modes at both and on the standing
     /// waves between them: few states, whose error falls with the fourth power of the
     /// distance and vanishes at both ends and where a wave stands.
-    pub fn between(&self, ends: [&ReflectedModes; 2]) -> Self {
+    pub fn between(&self, ends: [&KnownStates; 2]) -> Self {
         // Without the momentum of free rigid motions, which depends on the speed, two ends
         // do not span what is between.
         if !self.system.free_rigid.is_empty() {
             return self.whole();
         }
-        let [from, to] = ends.map(|end| end.speed_rad_per_s);
+        let [from, to] = ends.map(|(speed, _)| *speed);
         let mut states: Vec<State> = Vec::new();
         let inside = |(speed, _): &&(f64, Col<f64>)| (from..=to).contains(speed);
         for (speed, shape) in self.standing.iter().filter(inside) {
@@ -115,8 +126,8 @@ impl<'a> ReflectedModel<'a> {
                 self.height_rad_per_s,
             ));
         }
-        for end in ends {
-            states.extend(end.states.iter().cloned());
+        for (_, known) in ends {
+            states.extend(known.iter().cloned());
         }
         ReflectedModel {
             local: HamiltonianReduction::new(self.system, self.height_rad_per_s, &states),
@@ -141,16 +152,16 @@ impl<'a> ReflectedModel<'a> {
         speed_rad_per_s: f64,
         lambdas: [c64; 2],
     ) -> Result<Option<ModePair>, SpectrumError> {
-        let mut states = self.modes(speed_rad_per_s)?.states;
+        let mut pairs = self.low_pairs(speed_rad_per_s)?;
         let mut chosen = Vec::new();
         for lambda in lambdas {
-            let distance = |state: &State| (state.lambda - lambda).norm();
-            let nearest = (0..states.len())
-                .min_by(|&i, &k| distance(&states[i]).total_cmp(&distance(&states[k])));
+            let distance = |pair: &Eigenpair| (pair.0 - lambda).norm();
+            let nearest = (0..pairs.len())
+                .min_by(|&i, &k| distance(&pairs[i]).total_cmp(&distance(&pairs[k])));
             let Some(nearest) = nearest else {
                 return Ok(None);
             };
-            chosen.push(states.swap_remove(nearest));
+            chosen.push(pairs.swap_remove(nearest));
         }
         let [first, second] = chosen.as_slice() else {
             return Ok(None);

@@ -25,6 +25,25 @@ pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
     q.adjoint() * real_times(matrix, q)
 }
 
+/// Real and imaginary parts of vectors side by side, two columns each.
+pub fn halves<'a>(rows: usize, vectors: impl ExactSizeIterator<Item = &'a Col<c64>>) -> Mat<f64> {
+    let mut halves = Mat::zeros(rows, 2 * vectors.len());
+    for (k, q) in vectors.enumerate() {
+        for i in 0..rows {
+            halves[(i, 2 * k)] = q[i].re;
+            halves[(i, 2 * k + 1)] = q[i].im;
+        }
+    }
+    halves
+}
+
+/// Vector k of such halves.
+pub fn joined(halves: &Mat<f64>, k: usize) -> Col<c64> {
+    Col::from_fn(halves.nrows(), |i| {
+        c64::new(halves[(i, 2 * k)], halves[(i, 2 * k + 1)])
+    })
+}
+
 /// q/‖q‖; zero stays zero.
 pub fn unit(q: ColRef<'_, c64>) -> Col<c64> {
     let norm = q.norm_l2();

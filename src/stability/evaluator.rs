@@ -9,7 +9,7 @@ use faer::c64;
 
 use super::certificate::Certificate;
 use super::signature::Signature;
-use crate::spectrum::{ModePair, ReflectedModel, ReflectedModes, SpectralModel, SpectrumError};
+use crate::spectrum::{KnownStates, ModePair, ReflectedModel, SpectralModel, SpectrumError};
 use crate::tuned::Tuned;
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
@@ -29,6 +29,8 @@ const MOST_FULL_SOLVES: usize = 200;
 /// Speeds at which the search solves the whole projected system; between two of them it goes
 /// by their modes.
 const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
+/// Speeds of which the modes are known may be so many times further apart.
+const LARGEST_GAP: f64 = 1.7;
 
 /// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
@@ -74,14 +76,9 @@ impl<'a> SignatureEvaluator<'a> {
     ) -> Result<Self, SpectrumError> {
         let mut pieces = Vec::new();
         if let Some(low) = &low {
-            let anchors: Vec<_> = anchors(speeds)
-                .into_par_iter()
-                .map(|speed| low.modes(speed))
-                .collect();
-            let anchors: Vec<ReflectedModes> = anchors.into_iter().collect::<Result<_, _>>()?;
-            pieces = anchors
+            pieces = anchor_states(low, speeds)?
                 .par_windows(2)
-                .map(|ends| (ends[1].speed_rad_per_s, low.between([&ends[0], &ends[1]])))
+                .map(|ends| (ends[1].0, low.between([&ends[0], &ends[1]])))
                 .collect();
         }
         Ok(SignatureEvaluator {
@@ -121,7 +118,7 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
         if let Some(low) = self.near(speed_rad_per_s) {
-            let modes = low.modes(speed_rad_per_s)?.modes;
+            let modes = low.modes(speed_rad_per_s)?;
             let signature = Signature::new(speed_rad_per_s, modes.iter());
             if self.matches(&signature) {
                 return Ok(signature);
@@ -137,7 +134,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
         let modes = match self.near(speed_rad_per_s).or(self.low.as_ref()) {
-            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            Some(low) => low.modes(speed_rad_per_s)?,
             None => self.model.all_modes(speed_rad_per_s)?,
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
@@ -157,7 +154,7 @@ impl<'a> SignatureEvaluator<'a> {
             self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
         }
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            Some(low) => low.modes(speed_rad_per_s)?,
             None => self.model.all_modes(speed_rad_per_s)?,
         };
         let signature = Signature::new(speed_rad_per_s, modes.iter());
@@ -178,7 +175,7 @@ impl<'a> SignatureEvaluator<'a> {
         // Eigenvalues next to zero drown in the rounding of a large matrix before they do in
         // that of a small one.
         if let Some(low) = self.near(speed_rad_per_s) {
-            let modes = low.modes(speed_rad_per_s)?.modes;
+            let modes = low.modes(speed_rad_per_s)?;
             let coarse = Signature::new(speed_rad_per_s, modes.iter());
             if self.matches(&coarse) {
                 return Ok(coarse);
@@ -231,7 +228,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?.modes,
+            Some(low) => low.modes(speed_rad_per_s)?,
             None => return Ok(0.0),
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter())
@@ -262,6 +259,42 @@ impl<'a> SignatureEvaluator<'a> {
         let signatures: Vec<_> = speeds.par_iter().map(|&speed| self.at(speed)).collect();
         signatures.into_iter().collect()
     }
+}
+
+/// States at ascending speeds from the first to the last of some: those that come with the
+/// projection, and more where these are far apart.
+fn anchor_states(
+    low: &ReflectedModel<'_>,
+    speeds: &[f64],
+) -> Result<Vec<KnownStates>, SpectrumError> {
+    let known = low.known();
+    let (missing, mut states) = match (known, speeds) {
+        ([(from, _), .., (to, _)], [first, .., last]) if from <= first && last <= to => {
+            let apart = LARGEST_GAP * (last - first) / ANCHORS.count() as f64;
+            let above = known.partition_point(|(speed, _)| speed <= first);
+            let known = &known[above.saturating_sub(1)..];
+            (between(known, apart), known.to_vec())
+        }
+        _ => (anchors(speeds), Vec::new()),
+    };
+    let computed: Vec<_> = missing
+        .into_par_iter()
+        .map(|speed| low.states(speed))
+        .collect();
+    let computed: Vec<KnownStates> = computed.into_iter().collect::<Result<_, _>>()?;
+    states.extend(computed);
+    states.sort_by(|x, y| x.0.total_cmp(&y.0));
+    Ok(states)
+}
+
+/// Evenly spread speeds between those that are known, so that none are further apart than said.
+fn between(known: &[KnownStates], apart: f64) -> Vec<f64> {
+    let within = |ends: &[KnownStates]| {
+        let (from, to) = (ends[0].0, ends[1].0);
+        let parts = ((to - from) / apart).ceil().max(1.0) as usize;
+        (1..parts).map(move |k| from + (to - from) * k as f64 / parts as f64)
+    };
+    known.windows(2).flat_map(within).collect()
 }
 
 /// Of ascending speeds the first, the last, and some about evenly spread between.

@@ -40,7 +40,7 @@ impl RootLoci {
             (band.to_rad_per_s + width).min(range.1),
         );
         let low = if to - from <= NARROW * to {
-            low.between([&low.modes(from)?, &low.modes(to)?])
+            low.between([&low.states(from)?, &low.states(to)?])
         } else {
             low
         };
@@ -79,7 +79,7 @@ const NEIGHBOURS: usize = 32;
 
 /// The lowest modes of a speed, ascending.
 fn lowest_modes(low: &ReflectedModel<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
-    let mut modes = low.modes(speed)?.modes;
+    let mut modes = low.modes(speed)?;
     modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
     modes.truncate(NEIGHBOURS);
     Ok(modes)

@@ -1,9 +1,11 @@
 //! L in the waves of the free blade, of which B_n is diagonal.
 
-use faer::{Mat, c64};
-use nalgebra::{DMatrix, SymmetricEigen};
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::{Accum, Mat, Par, c64};
 
 use super::coupling::Columns;
+use super::jacobi::Eigenvectors;
 use super::{BoundedBlock, Harmonic};
 use crate::spectrum::hermitian::negative_eigenvalues;
 
@@ -15,36 +17,39 @@ const RESONANT: f64 = 1e5;
 pub struct Waves {
     /// Eigenvalues of the blocks.
     stiffness: Vec<f64>,
-    /// Rows of the columns for cosines and for sines, and the squares of both together.
-    cosine: Mat<f64>,
-    sine: Mat<f64>,
+    /// Rows of the columns for cosines, and below them for sines.
+    both: Mat<f64>,
+    /// The squares of both together.
     size: Vec<f64>,
 }
 
 impl Waves {
     /// With the first columns alone.
-    pub fn new(blocks: &[DMatrix<f64>], columns: &Columns, count: usize) -> Self {
+    pub fn new(free: &[Eigenvectors], columns: &Columns, count: usize) -> Self {
         let rows = columns.cosine.nrows();
-        let mut cosine = Mat::zeros(rows, count);
-        let mut sine = Mat::zeros(rows, count);
+        let mut both = Mat::zeros(2 * rows, count);
         let mut stiffness = Vec::with_capacity(rows);
-        for block in blocks {
-            let eigen = SymmetricEigen::new(block.clone());
-            let (row, radial) = (stiffness.len(), block.nrows());
-            let turn = Mat::from_fn(radial, radial, |i, j| eigen.eigenvectors[(j, i)]);
-            for (turned, own) in [(&mut cosine, &columns.cosine), (&mut sine, &columns.sine)] {
-                turned
-                    .subrows_mut(row, radial)
-                    .copy_from(&turn * own.get(row..row + radial, ..count));
+        for block in free {
+            let (row, radial) = (stiffness.len(), block.values.len());
+            let turn = Mat::from_fn(radial, radial, |i, j| block.vectors[(j, i)]);
+            for (first, own) in [(row, &columns.cosine), (rows + row, &columns.sine)] {
+                let own = own.get(row..row + radial, ..count);
+                let turned = both.subrows_mut(first, radial);
+                matmul(turned, Accum::Replace, &turn, own, 1.0, Par::Seq);
             }
-            stiffness.extend(eigen.eigenvalues.iter());
+            stiffness.extend(&block.values);
         }
-        let size = |row: usize| cosine.row(row).squared_norm_l2() + sine.row(row).squared_norm_l2();
+        let mut size = vec![0.0; rows];
+        for k in 0..count {
+            let (cosine, sine) = both.col_as_slice(k).split_at(rows);
+            for (size, (x, y)) in size.iter_mut().zip(cosine.iter().zip(sine)) {
+                *size += x * x + y * y;
+            }
+        }
         Waves {
-            size: (0..rows).map(size).collect(),
+            size,
             stiffness,
-            cosine,
-            sine,
+            both,
         }
     }
 
@@ -75,17 +80,40 @@ impl Waves {
             }
         }
         let core = self.core([&sum, &difference], &resonant);
-        (negative + negative_eigenvalues(&core)?).checked_sub(self.cosine.ncols())
+        (negative + negative_eigenvalues(&core)?).checked_sub(self.both.ncols())
     }
 
     /// [[D, P], [Pᴴ, −1 − PᴴA⁻¹P]], D and P of the resonant waves, each scaled to the length of its row;
     /// its lower triangle.
     fn core(&self, [sum, difference]: [&[f64]; 2], resonant: &[Resonant]) -> Mat<c64> {
-        let (cosine, sine) = (&self.cosine, &self.sine);
-        let count = cosine.ncols();
-        let real =
-            cosine.transpose() * weighted(cosine, sum) + sine.transpose() * weighted(sine, sum);
-        let mixed = sine.transpose() * weighted(cosine, difference);
+        let (rows, count) = (self.stiffness.len(), self.both.ncols());
+        let (cosine, sine) = self.both.split_at_row(rows);
+        // CᵀΣC + SᵀΣS, of which the lower triangle, and SᵀΔC.
+        let mut scaled = self.both.clone();
+        for k in 0..count {
+            let (cosine, sine) = scaled.col_as_slice_mut(k).split_at_mut(rows);
+            cosine.iter_mut().zip(sum).for_each(|(x, w)| *x *= w);
+            sine.iter_mut().zip(sum).for_each(|(x, w)| *x *= w);
+        }
+        let mut real = Mat::zeros(count, count);
+        triangular::matmul(
+            real.as_mut(),
+            BlockStructure::TriangularLower,
+            Accum::Replace,
+            self.both.transpose(),
+            BlockStructure::Rectangular,
+            scaled.as_ref(),
+            BlockStructure::Rectangular,
+            1.0,
+            Par::Seq,
+        );
+        let mut scaled = scaled.subrows_mut(0, rows);
+        for k in 0..count {
+            for (row, difference) in difference.iter().enumerate() {
+                scaled[(row, k)] = cosine[(row, k)] * difference;
+            }
+        }
+        let mixed = sine.transpose() * scaled.as_ref();
         let near = resonant.len();
         let mut core = Mat::zeros(near + count, near + count);
         for (i, wave) in resonant.iter().enumerate() {
@@ -106,16 +134,6 @@ impl Waves {
         }
         core
     }
-}
-
-/// Each row times its weight, column by column as they lie in memory.
-fn weighted(matrix: &Mat<f64>, weight: &[f64]) -> Mat<f64> {
-    let mut weighted = matrix.clone();
-    for k in 0..matrix.ncols() {
-        let column = weighted.col_as_slice_mut(k);
-        column.iter_mut().zip(weight).for_each(|(x, w)| *x *= w);
-    }
-    weighted
 }
 
 /// A wave next to resonance.

@@ -61,5 +61,6 @@ impl SpectralModel {
         let basis = basis(&sound.basis, reflected.height_rad_per_s);
         let to = sound.to_rad_per_s;
         reflected.projection = Projection::new(&component.full, basis, to);
+        reflected.known.clear();
     }
 }

@@ -1,0 +1,234 @@
+//! (A − σ)⁻¹ and (A² − σ²)⁻¹, from one factorization of L(σ) = σ² + σD + K.
+//!
+//! (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu. Without dampers D is skew and K symmetric, so
+//! that L(−σ) = L(σ)ᵀ.
+
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Col, ColRef, Mat, MatRef, Scale, c64};
+
+use crate::spectrum::vectors::Eigenpair;
+use crate::system::GyroscopicSystem;
+use crate::tuned::Tuned;
+
+/// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
+/// all steps before it: most saws need no second one.
+const STEPS_BEYOND: Tuned = Tuned::new("spectrum/arnoldi::STEPS_BEYOND", 44.0);
+/// The same where every step solves twice.
+const SQUARED_STEPS_BEYOND: Tuned = Tuned::new("spectrum/arnoldi::SQUARED_STEPS_BEYOND", 20.0);
+
+/// What Arnoldi's iteration multiplies with, in units of σ, and what its eigenvalues say of A.
+pub(super) trait Operator {
+    /// Number of rows.
+    fn order(&self) -> usize;
+
+    /// How many vectors the iteration can have at most.
+    fn most_vectors(order: usize) -> usize;
+
+    /// Steps beyond the number of eigenvalues wanted before the first look.
+    fn steps_beyond() -> usize;
+
+    fn apply(&self, z: ColRef<'_, f64>) -> Col<f64>;
+
+    /// Removes from the next vector what only rounding has put there.
+    fn clear(&self, span: MatRef<'_, f64>, next: &mut Col<f64>);
+
+    /// λ in units of σ and q of the eigenvalues of A that belong to one of the operator, from the
+    /// real and the imaginary part of its vector; those with Im λ < 0 may be there too.
+    fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair>;
+}
+
+/// (A − σ)⁻¹ on (q, q̇/σ) in units of σ: eigenvalues σ/(λ − σ).
+pub(super) struct ShiftedInverse {
+    /// (L(σ)/σ²)⁻¹: applying it takes half the time of two triangular solves, and the few
+    /// dozen applications repay it.
+    inverse: Mat<f64>,
+    /// D/σ.
+    velocity: Velocity,
+}
+
+/// A matrix, sparse where it can be.
+enum Velocity {
+    /// Where it is not zero: (row, column, value). Without dampers there are no more than
+    /// two a row.
+    Sparse(Vec<(usize, usize, f64)>),
+    /// A damper under the blade couples everything with everything.
+    Dense(Mat<f64>),
+}
+
+impl Velocity {
+    fn new(matrix: Mat<f64>) -> Self {
+        let size = matrix.nrows();
+        let entries = || {
+            let places = (0..size).flat_map(|k| (0..size).map(move |i| (i, k)));
+            let entries = places.map(|(i, k)| (i, k, matrix[(i, k)]));
+            entries.filter(|(_, _, value)| *value != 0.0)
+        };
+        // A triple moves three times the memory of a number, and in no order.
+        if entries().count() <= size * size / 8 {
+            return Velocity::Sparse(entries().collect());
+        }
+        Velocity::Dense(matrix)
+    }
+
+    /// sum += factor · matrix · x.
+    fn add_product(&self, factor: f64, x: ColRef<'_, f64>, sum: &mut Col<f64>) {
+        match self {
+            Velocity::Dense(matrix) => *sum += Scale(factor) * (matrix * x),
+            Velocity::Sparse(entries) => {
+                for &(i, k, value) in entries {
+                    sum[i] += factor * value * x[k];
+                }
+            }
+        }
+    }
+}
+
+impl ShiftedInverse {
+    pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, shift_per_s: f64) -> Self {
+        let size = system.order();
+        let velocity = Scale(1.0 / shift_per_s) * system.velocity_at(speed_rad_per_s);
+        let stiffness = system.stiffness_at(speed_rad_per_s);
+        let mut dynamic = Scale(shift_per_s.powi(-2)) * stiffness + &velocity;
+        (0..size).for_each(|i| dynamic[(i, i)] += 1.0);
+        ShiftedInverse {
+            inverse: dynamic.partial_piv_lu().inverse(),
+            velocity: Velocity::new(velocity),
+        }
+    }
+}
+
+impl Operator for ShiftedInverse {
+    fn order(&self) -> usize {
+        2 * self.inverse.nrows()
+    }
+
+    fn most_vectors(order: usize) -> usize {
+        order
+    }
+
+    fn steps_beyond() -> usize {
+        STEPS_BEYOND.count()
+    }
+
+    fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
+        let size = self.inverse.nrows();
+        let (x, y) = z.split_at_row(size);
+        let mut load = x + y;
+        self.velocity.add_product(1.0, x, &mut load);
+        let u = &self.inverse * load;
+        Col::from_fn(2 * size, |i| match i.checked_sub(size) {
+            Some(i) => x[i] - u[i],
+            None => -u[i],
+        })
+    }
+
+    fn clear(&self, _: MatRef<'_, f64>, _: &mut Col<f64>) {}
+
+    fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair> {
+        let q = Col::from_fn(self.inverse.nrows(), |i| c64::new(re[i], im[i]));
+        vec![(eigenvalue.inv() + 1.0, q)]
+    }
+}
+
+/// (A² − σ²)⁻¹ of an undamped blade on (q, p/σ), p = q̇ + ΩGq, in units of σ: eigenvalues
+/// σ²/(λ² − σ²), each double.
+pub(super) struct SquaredInverse {
+    shifted: ShiftedInverse,
+}
+
+/// A vector of A that is this small beside its parts is rounding.
+const CANCELLED: f64 = 1e-6;
+
+impl SquaredInverse {
+    pub fn new(shifted: ShiftedInverse) -> Self {
+        SquaredInverse { shifted }
+    }
+
+    /// q̇/σ of a state (q, p/σ).
+    fn velocity_of(&self, z: ColRef<'_, f64>) -> Col<f64> {
+        let (q, p) = z.split_at_row(z.nrows() / 2);
+        let mut v = p.to_owned();
+        self.shifted.velocity.add_product(-0.5, q, &mut v);
+        v
+    }
+}
+
+impl Operator for SquaredInverse {
+    fn order(&self) -> usize {
+        self.shifted.order()
+    }
+
+    fn most_vectors(order: usize) -> usize {
+        order / 2
+    }
+
+    fn steps_beyond() -> usize {
+        SQUARED_STEPS_BEYOND.count()
+    }
+
+    fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
+        let ShiftedInverse { inverse, velocity } = &self.shifted;
+        let x = z.subrows(0, inverse.nrows());
+        // (A − σ)⁻¹, then (A + σ)⁻¹.
+        let mut load = self.velocity_of(z) + x;
+        velocity.add_product(1.0, x, &mut load);
+        let u = Scale(-1.0) * (inverse * load);
+        let v = x + &u;
+        let mut load = &v - &u;
+        velocity.add_product(1.0, u.as_ref(), &mut load);
+        let w = Scale(-1.0) * (inverse.transpose() * load);
+        let mut p = u - &w;
+        velocity.add_product(0.5, w.as_ref(), &mut p);
+        stacked(&w, &p)
+    }
+
+    /// The symplectic form vanishes on the Krylov vectors, but for rounding, by which each λ² would
+    /// be found a second time.
+    fn clear(&self, span: MatRef<'_, f64>, next: &mut Col<f64>) {
+        let size = span.nrows() / 2;
+        let (q, p) = span.split_at_row(size);
+        let (x, y) = next.as_ref().split_at_row(size);
+        let shares = p.transpose() * x - q.transpose() * y;
+        let (in_q, in_p) = (p * &shares, q * &shares);
+        for i in 0..size {
+            next[i] -= in_q[i];
+            next[size + i] += in_p[i];
+        }
+    }
+
+    /// (A + λ)z of a vector z of A² belongs to λ, and (A − λ)z to −λ.
+    fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair> {
+        let square = eigenvalue.inv() + 1.0;
+        let root = match square.im == 0.0 {
+            true if square.re <= 0.0 => c64::new(0.0, (-square.re).sqrt()),
+            true => c64::new(square.re.sqrt(), 0.0),
+            false => square.sqrt(),
+        };
+        let (v_re, v_im) = (self.velocity_of(re.as_ref()), self.velocity_of(im.as_ref()));
+        let size = v_re.nrows();
+        let pair = |lambda: c64| {
+            let q = Col::from_fn(size, |i| {
+                c64::new(v_re[i], v_im[i]) + lambda * c64::new(re[i], im[i])
+            });
+            (lambda, q)
+        };
+        let parts = v_re.norm_l2() + v_im.norm_l2() + root.norm() * (re.norm_l2() + im.norm_l2());
+        let is_sound = |pair: &Eigenpair| pair.1.norm_l2() > CANCELLED * parts;
+        let mut pairs: Vec<Eigenpair> = vec![pair(root)];
+        if root.re != 0.0 {
+            // With −λ its conjugate, which has Im ≥ 0 where λ has.
+            let (lambda, q) = pair(-root);
+            pairs.push((lambda.conj(), Col::from_fn(size, |i| q[i].conj())));
+        }
+        pairs.retain(is_sound);
+        pairs
+    }
+}
+
+fn stacked(top: &Col<f64>, bottom: &Col<f64>) -> Col<f64> {
+    let size = top.nrows();
+    Col::from_fn(2 * size, |i| match i.checked_sub(size) {
+        Some(i) => bottom[i],
+        None => top[i],
+    })
+}
