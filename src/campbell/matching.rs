@@ -183,12 +183,10 @@ impl<'a> Carrier<'a> {
 
     /// |xᴴy|², 1 for the same shape.
     fn likeness(&self, other: &Carrier<'_>) -> f64 {
-        let mut product = c64::new(0.0, 0.0);
-        for (x, y) in self.shape.iter().zip(other.shape.iter()) {
-            let left = if self.conjugated { *x } else { x.conj() };
-            let right = if other.conjugated { y.conj() } else { *y };
-            product += left * right;
-        }
+        let product: c64 = match self.conjugated == other.conjugated {
+            true => self.shape.adjoint() * other.shape,
+            false => self.shape.transpose() * other.shape,
+        };
         product.norm_sqr()
     }
 }

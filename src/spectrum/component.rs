@@ -1,5 +1,7 @@
 //! The components of a blade that nothing couples, each with its reduced models.
 
+use std::sync::OnceLock;
+
 use faer::{Col, c64};
 
 use crate::plate::Plate;
@@ -22,15 +24,14 @@ pub struct Component {
     pub full: GyroscopicSystem,
     /// How its modes are found.
     pub(super) solution: Solution,
-    /// Norms of its matrices.
-    pub(super) norms: MatrixNorms,
+    norms: OnceLock<MatrixNorms>,
 }
 
 /// How the modes of a component are found.
 #[derive(Debug)]
 pub(super) enum Solution {
     /// Every eigenvalue of the whole component.
-    Whole(Projection),
+    Whole(OnceLock<Projection>),
     /// Those of one harmonic of an undamped free blade, a symmetric problem.
     FreeWaves(Projection),
     /// Those of projections on the low modes of a few speeds.
@@ -67,10 +68,15 @@ impl Component {
     fn new(full: GyroscopicSystem, first: usize) -> Self {
         Component {
             first,
-            solution: Solution::Whole(Projection::whole(&full)),
-            norms: MatrixNorms::new(&full),
+            solution: Solution::Whole(OnceLock::new()),
+            norms: OnceLock::new(),
             full,
         }
+    }
+
+    /// Norms of its matrices.
+    pub(super) fn norms(&self) -> &MatrixNorms {
+        self.norms.get_or_init(|| MatrixNorms::new(&self.full))
     }
 
     /// Coordinates in this component of a vector in the basis of the plate.
@@ -86,7 +92,8 @@ impl Component {
     /// The projection for a speed; the last one also beyond the range.
     pub(super) fn at(&self, speed_rad_per_s: f64) -> &Projection {
         match &self.solution {
-            Solution::Whole(whole) | Solution::FreeWaves(whole) => whole,
+            Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
+            Solution::FreeWaves(whole) => whole,
             Solution::Projected { chart, .. } => {
                 let place = chart.partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
                 &chart[place.min(chart.len() - 1)]

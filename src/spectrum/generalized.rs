@@ -1,7 +1,9 @@
 //! The symmetric pencil A − m B.
 
 use faer::linalg::solvers::SelfAdjointEigen;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 use faer::{Col, Mat, Par, Scale, Side};
 
 use super::error::SpectrumError;
@@ -35,23 +37,15 @@ pub fn singular_multiples(
     let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower)
         .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
     let noise = 1e-14 * whitened.norm_l2();
-    let mut multiples: Vec<(f64, Col<f64>)> = (0..order)
-        .map(|i| (eigen.S()[i], i))
-        .filter(|(inverse, _)| *inverse > noise)
-        .map(|(inverse, i)| (inverse.recip(), unwhiten(lower, eigen.U().col(i))))
-        .collect();
+    // Ascending: the largest inverse comes last.
+    let places: Vec<usize> = (0..order).rev().filter(|&i| eigen.S()[i] > noise).collect();
+    let mut shapes = Mat::from_fn(order, places.len(), |i, k| eigen.U()[(i, places[k])]);
+    solve_upper_triangular_in_place(lower.transpose(), shapes.as_mut(), Par::Seq);
+    let multiple = |(k, &i): (usize, &usize)| {
+        let x = shapes.col(k);
+        (eigen.S()[i].recip(), Scale(1.0 / x.norm_l2()) * x)
+    };
+    let mut multiples: Vec<(f64, Col<f64>)> = places.iter().enumerate().map(multiple).collect();
     multiples.sort_by(|x, y| x.0.total_cmp(&y.0));
     Ok(multiples)
-}
-
-/// x = L⁻ᵀy, scaled to unit length.
-fn unwhiten(lower: faer::MatRef<'_, f64>, y: faer::ColRef<'_, f64>) -> Col<f64> {
-    let mut x = Mat::from_fn(y.nrows(), 1, |i, _| y[i]);
-    faer::linalg::triangular_solve::solve_upper_triangular_in_place(
-        lower.transpose(),
-        x.as_mut(),
-        Par::Seq,
-    );
-    let x = x.col(0);
-    Scale(1.0 / x.norm_l2()) * x
 }

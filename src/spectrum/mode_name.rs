@@ -38,7 +38,8 @@ impl Direction {
 pub struct HarmonicShare {
     /// n.
     pub diameters: usize,
-    /// Nodal circles of its radial profile.
+    /// Nodal circles of its radial profile; not counted, and 0, where its share is below a
+    /// thousandth.
     pub circles: usize,
     /// Between 0 and 1.
     pub share: f64,
@@ -67,6 +68,8 @@ const DOMINANT: f64 = 2.0 / 3.0;
 /// Harmonics are named until they have this share together, and no more than so many.
 const NAMED_SHARE: f64 = 0.75;
 const MOST_NAMED: usize = 3;
+/// Nodal circles of a harmonic with less of the energy are not counted.
+const COUNTED: f64 = 1e-3;
 /// A sign change of the radial profile counts where it leaves this share of its peak.
 const CIRCLE: f64 = 0.03;
 
@@ -81,11 +84,16 @@ impl ModeName {
             .iter()
             .map(|wave| HarmonicShare {
                 diameters: wave.diameters,
-                circles: wave.circles(plate),
+                circles: 0,
                 share: wave.energy() / total.max(f64::MIN_POSITIVE),
             })
             .collect();
         harmonics.sort_by(|x, y| y.share.total_cmp(&x.share));
+        for (place, harmonic) in harmonics.iter_mut().enumerate() {
+            if place == 0 || harmonic.share >= COUNTED {
+                harmonic.circles = waves[harmonic.diameters].circles(plate);
+            }
+        }
         let wave = &waves[harmonics[0].diameters];
         ModeName {
             diameters: wave.diameters,

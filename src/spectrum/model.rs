@@ -356,7 +356,7 @@ impl SpectralModel {
             for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
                 let backward_error =
                     component
-                        .norms
+                        .norms()
                         .backward_error(speed_rad_per_s, mode.lambda, &lifted);
                 let shape = self.embed(component.first, &lifted.shape);
                 let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);

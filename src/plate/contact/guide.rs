@@ -16,7 +16,7 @@ impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let coupling = coupling(plate, self.angle_rad, circles(plate, self).into_iter());
         if self.stiffness_n_per_m > 0.0 {
-            terms.add_stiffness(&(Scale(self.stiffness_n_per_m) * &coupling));
+            terms.add_symmetric_stiffness(Scale(self.stiffness_n_per_m) * &coupling);
         }
         if self.damping_n_s_per_m > 0.0 {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));

@@ -36,6 +36,11 @@ impl ContactTerms {
         add(&mut self.stiffness, symmetric);
     }
 
+    /// The same of a term that is symmetric to the last bit.
+    pub fn add_symmetric_stiffness(&mut self, term: Mat<f64>) {
+        add(&mut self.stiffness, term);
+    }
+
     /// Damping C, in 1/s, symmetric.
     pub fn add_damping(&mut self, term: &Mat<f64>) {
         add(&mut self.damping, term.clone());
