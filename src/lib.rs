@@ -53,6 +53,7 @@ pub mod spectrum;
 pub mod spline;
 pub mod stability;
 pub mod study;
+mod summary;
 pub mod system;
 pub mod text;
 pub mod transient;

@@ -56,7 +56,7 @@ fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture
 #[pyfunction]
 pub fn summary(report: &str) -> PyResult<String> {
     let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
-    Ok(sawflutter::cli::summary(&report))
+    Ok(report.summary())
 }
 
 /// `campbell.csv` of a report.

@@ -12,7 +12,6 @@ use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
 use super::output::OutputFolder;
 use super::pictures::{drawn, figure_names};
 use super::several;
-use super::summary::summary;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -97,7 +96,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let (files, json) = files(&report)?;
     // The table of several scenes is not this run's.
     let optional = [&figure_names::<Report>()[..], &several::FILES].concat();
-    let words = || summary(&report);
+    let words = || report.summary();
     arguments
         .output
         .print(&folder, &files, &optional, &json, words)

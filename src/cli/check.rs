@@ -12,7 +12,7 @@ use clap::Args;
 use super::common::{Input, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
-use super::summary::wrapped;
+use crate::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
 Examples:

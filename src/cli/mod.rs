@@ -19,8 +19,6 @@ mod scheduler;
 mod schema;
 mod several;
 mod study;
-mod study_summary;
-mod summary;
 mod tradeoff;
 mod washboard;
 
@@ -29,8 +27,6 @@ use std::path::Path;
 
 use crate::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
-
-pub use summary::summary;
 
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::common::{Output, is_standard_input};
 use super::in_words;
 
-use super::summary::shortened;
+use crate::summary::shortened;
 
 /// What is written beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];

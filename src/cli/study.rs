@@ -16,7 +16,6 @@ use super::common::{Finely, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
 use super::scheduler;
-use super::study_summary::summary;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -194,7 +193,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     writing.stage_bytes("study.json", json.as_bytes())?;
     // Of a program that was built with Parquet.
     let optional = ["study.parquet"];
-    output.print_written(folder, writing, &optional, &json, || summary(&report))
+    output.print_written(folder, writing, &optional, &json, || report.summary())
 }
 
 fn print_part(

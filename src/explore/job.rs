@@ -32,11 +32,17 @@ struct Count {
 }
 
 /// Asks a computation to end as soon as whoever waits for it goes away.
-struct CancelOnDrop(Cancellation);
+struct CancelOnDrop {
+    stop: Cancellation,
+    /// A chart that was finished keeps its flag and is computed with further.
+    done: bool,
+}
 
 impl Drop for CancelOnDrop {
     fn drop(&mut self) {
-        self.0.cancel();
+        if !self.done {
+            self.stop.cancel();
+        }
     }
 }
 
@@ -50,8 +56,11 @@ impl Jobs {
         &self,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Option<T> {
-        let guard = CancelOnDrop(Cancellation::default());
-        let stop = guard.0.clone();
+        let mut guard = CancelOnDrop {
+            stop: Cancellation::default(),
+            done: false,
+        };
+        let stop = guard.stop.clone();
         let turn = self.turn.0.clone().acquire_owned().await.ok()?;
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {
@@ -66,7 +75,7 @@ impl Jobs {
             done
         });
         let done = done.await.ok().flatten();
-        drop(guard);
+        guard.done = true;
         done
     }
 

@@ -5,6 +5,7 @@
 //! scene with every request and holds no numbers of its own: what it shows, and every file it
 //! saves, comes from the same calls as on the command line.
 
+mod examples;
 mod guard;
 mod job;
 mod mode;
@@ -12,5 +13,6 @@ mod page;
 mod pages;
 mod reply;
 mod server;
+mod task;
 
 pub use server::{ExploreError, Options, serve};

@@ -32,11 +32,7 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
     let found = found
         .as_deref()
         .and_then(|analysis| Some((analysis, nearest(analysis, &asked)?)));
-    let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal {
-        key: None,
-        message: format!("chart {} is not kept any more", asked.chart),
-        allowed: None,
-    })?;
+    let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal::gone(asked.chart))?;
     Ok(ModeEntry::new(&analysis.model.plate, speed, mode))
 }
 

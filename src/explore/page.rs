@@ -29,6 +29,8 @@ files! {
     "charts.js": SCRIPT, "page/charts.js";
     "marks.js": SCRIPT, "page/marks.js";
     "panel.js": SCRIPT, "page/panel.js";
+    "tasks.js": SCRIPT, "page/tasks.js";
+    "influence.js": SCRIPT, "page/influence.js";
     "verdict.js": SCRIPT, "page/verdict.js";
     "words.js": SCRIPT, "page/words.js";
     "uplot.js": SCRIPT, "../../assets/uplot/uPlot.iife.min.js";

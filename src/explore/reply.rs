@@ -6,17 +6,20 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::examples::examples;
 use crate::figure::{self, FigureError};
-use crate::report::Report;
+use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, QUANTITIES, Quantity, Scene, SceneError, SceneFile, json_schema};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail};
+use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail, sensitivities};
 
 /// What the page begins with.
 #[derive(Serialize)]
 pub struct Start {
     scene: SceneFile,
     schema: serde_json::Value,
+    /// Saws to begin with.
+    examples: Vec<SceneFile>,
     /// Between which values the numbers of saws lie, for the sliders.
     quantities: &'static [Quantity],
     colours: figure::Palette,
@@ -29,6 +32,7 @@ impl Start {
         Start {
             scene: scene.file().clone(),
             schema: json_schema(),
+            examples: examples(),
             quantities: &QUANTITIES,
             colours: figure::PALETTE,
             version: env!("CARGO_PKG_VERSION"),
@@ -100,6 +104,15 @@ impl From<SpectrumError> for Refusal {
 }
 
 impl Refusal {
+    /// Of a chart that has been replaced by later ones.
+    pub fn gone(chart: usize) -> Self {
+        Refusal {
+            key: None,
+            message: format!("chart {chart} is not kept any more"),
+            allowed: None,
+        }
+    }
+
     /// A refusal that no quantity is to blame for.
     pub fn of(error: &dyn std::error::Error) -> Self {
         Refusal {
@@ -163,6 +176,19 @@ impl Charts {
             report: &report,
         })
         .map_err(|error| Refusal::of(&error))
+    }
+
+    /// How the speeds of a chart move with the numbers of its scene.
+    ///
+    /// # Errors
+    /// [`Refusal`] of a chart that is not kept any more, or of a computation that fails.
+    pub fn influence(&self, asked: &str) -> Result<Vec<SensitivityEntry>, Refusal> {
+        let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
+        let analysis = self.named(chart).ok_or_else(|| Refusal::gone(chart))?;
+        let start = analysis.range_rad_per_s.0;
+        let at = analysis.scene.operating_rad_per_s().unwrap_or(start);
+        let found = sensitivities(&analysis, at).map_err(|error| Refusal::of(&error))?;
+        Ok(found.iter().map(SensitivityEntry::from).collect())
     }
 
     fn keep(&self, analysis: Analysis) -> usize {

@@ -1,22 +1,27 @@
 //! The server: what may be asked, and when it ends.
 
+use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 
 use axum::Router;
+use axum::body::Body;
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::{StatusCode, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
+use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
 use super::guard::{Door, guard};
 use super::job::Jobs;
 use super::pages::Pages;
 use super::reply::{Charts, Fidelity, Refusal, SavedFile, Start};
+use super::task::{Meter, Task};
 use super::{mode, page};
 use crate::scene::{MAX_SCENE_BYTES, Scene};
+use crate::spectrum::SpectrumError;
 
 /// How to serve.
 #[derive(Debug, Clone, Copy, Default)]
@@ -46,6 +51,8 @@ pub enum ExploreError {
 pub struct Desk {
     start: Arc<Start>,
     jobs: Jobs,
+    /// Tasks that take longer than a chart, which does not wait for them.
+    tasks: Jobs,
     charts: Arc<Charts>,
     pages: Arc<Pages>,
 }
@@ -74,6 +81,7 @@ pub fn serve(
         let desk = Desk {
             start: Arc::new(Start::new(scene)),
             jobs: Jobs::default(),
+            tasks: Jobs::default(),
             charts: Arc::default(),
             pages: Arc::default(),
         };
@@ -105,6 +113,8 @@ fn router(desk: Desk, door: Door) -> Router {
         .route("/jobs", get(jobs))
         .route("/chart/{fidelity}", post(chart))
         .route("/mode", post(mode_shape))
+        .route("/task/{task}", post(task))
+        .route("/influence", post(influence))
         .route("/save/{name}", post(save))
         .layer(DefaultBodyLimit::max(MAX_SCENE_BYTES as usize))
         .layer(from_fn_with_state(door, guard))
@@ -145,6 +155,46 @@ async fn mode_shape(State(desk): State<Desk>, asked: String) -> Response {
     match mode::answer(&desk.charts, &asked) {
         Ok(found) => json(StatusCode::OK, &found),
         Err(refusal) => refused(&refusal),
+    }
+}
+
+/// Progress, and then the answer, line by line; the task ends when nobody listens any more.
+async fn task(State(desk): State<Desk>, Path(task): Path<Task>, asked: String) -> Response {
+    let (tell, told) = tokio::sync::mpsc::unbounded_channel();
+    let job = async move {
+        let work = move || task.run(&asked, &Meter::new(tell));
+        last_line(desk.tasks.run(work).await)
+    };
+    let lines = unfold((Some(Box::pin(job)), told), |(job, mut told)| async move {
+        let mut job = job?;
+        let (line, rest) = tokio::select! {
+            biased;
+            Some(line) = told.recv() => (line, Some(job)),
+            line = &mut job => (line, None),
+        };
+        Some((Ok::<_, Infallible>(line + "\n"), (rest, told)))
+    });
+    let kind = [(header::CONTENT_TYPE, "application/x-ndjson")];
+    (kind, Body::from_stream(lines)).into_response()
+}
+
+fn last_line(done: Option<Result<String, Refusal>>) -> String {
+    let refusal = match done {
+        Some(Ok(answer)) => return answer,
+        Some(Err(refusal)) => refusal,
+        None => Refusal::of(&SpectrumError::Cancelled),
+    };
+    serde_json::json!({ "refusal": refusal }).to_string()
+}
+
+/// How the numbers of a chart that was sent before move with those of its scene.
+async fn influence(State(desk): State<Desk>, asked: String) -> Response {
+    let charts = desk.charts.clone();
+    let work = move || charts.influence(&asked);
+    match desk.tasks.run(work).await {
+        Some(Ok(found)) => json(StatusCode::OK, &found),
+        Some(Err(refusal)) => refused(&refusal),
+        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
     }
 }
 

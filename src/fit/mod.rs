@@ -23,27 +23,30 @@
 //! ```
 
 mod compared;
+mod effect;
 mod error;
 mod measurement;
 mod model;
 mod solve;
+mod starts;
 mod table;
 
 use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{
-    Freed, Scene, SceneError, SpeedRange, common_turn, rad_per_s, scene_at, spread,
-};
+use crate::scene::{Freed, Scene, SceneError, SpeedRange, rad_per_s, scene_at};
 use crate::spectrum::{LowestModes, SpectrumError};
 use crate::stability::ChosenBasis;
 
 pub use compared::{BeforeAndAfter, Compared};
+use effect::effective;
 pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
-use solve::{Found, at_bound, minimum, statistics};
+use solve::{Found, at_bound, statistics};
+pub use starts::Start;
+use starts::{refined, search};
 
 /// How to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,16 +91,6 @@ pub struct FittedParameter {
     pub at_bound: bool,
 }
 
-/// A start and where it led.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Start {
-    /// Values it began with.
-    pub from: Vec<f64>,
-    /// Values it reached, and the root mean square of what was left; `None` for a start that
-    /// is no saw.
-    pub to: Option<(Vec<f64>, f64)>,
-}
-
 /// A calibrated saw.
 #[derive(Debug, Clone)]
 pub struct Fit {
@@ -134,10 +127,6 @@ pub struct Fit {
 
 /// Starts are told from each other, and parameters from idle ones, as well on this.
 const COARSE_TOLERANCE: f64 = 1e-2;
-/// Frequencies that move by less than this between the bounds do not move, in Hz.
-const IDLE_HZ: f64 = 1e-5;
-/// As many of the best starts, if they led to different places, are refined.
-const REFINED: usize = 3;
 
 impl Fit {
     /// Fits the freed numbers of a scene to what was measured.
@@ -264,117 +253,6 @@ fn basis(
     })?;
     let chosen = ChosenBasis::new(&swept, tolerance)?;
     Ok((chosen.plate.resolution, chosen.estimated_relative_error))
-}
-
-/// Sorts the freed numbers into those that move a measured frequency and those that do not:
-/// the angle of a single pad, say, which turns the saw as a whole. Looked at from several
-/// places, for a number may rest at one.
-fn effective(
-    scene: &Scene,
-    measurement: &Measurement,
-    freed: &[Freed],
-    resolution: Resolution,
-) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
-    let model = Model {
-        scene: scene.file(),
-        freed,
-        measurement,
-        resolution,
-    };
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
-    let held = common_turn(scene, freed);
-    let moves = |k: usize| -> Result<bool, SpectrumError> {
-        if held == Some(k) {
-            return Ok(false);
-        }
-        for base in [own.clone(), spread(freed.len(), 0, 0)] {
-            let mut reference: Option<Vec<f64>> = None;
-            for share in [0.1, 0.37, 0.83] {
-                let mut shares = base.clone();
-                shares[k] = share;
-                let residuals = model.residuals_hz(&shares)?;
-                if residuals.iter().any(|r| r.is_nan()) {
-                    continue;
-                }
-                let first = reference.get_or_insert_with(|| residuals.clone());
-                let moved = first
-                    .iter()
-                    .zip(&residuals)
-                    .any(|(x, y)| (x - y).abs() > IDLE_HZ);
-                if moved {
-                    return Ok(true);
-                }
-            }
-        }
-        Ok(false)
-    };
-    let moving: Vec<bool> = (0..freed.len())
-        .into_par_iter()
-        .map(moves)
-        .collect::<Result<_, _>>()?;
-    let with = |wanted: bool| {
-        let pairs = freed
-            .iter()
-            .zip(&moving)
-            .filter(move |(_, m)| **m == wanted);
-        pairs.map(|(f, _)| f.clone()).collect()
-    };
-    Ok((with(true), with(false)))
-}
-
-/// Follows every start, and gives the best few that led to different places, best first.
-fn search(
-    model: &Model<'_>,
-    options: &Options,
-    progress: Progress<'_>,
-) -> Result<(Vec<Start>, Vec<Found>), SpectrumError> {
-    let freed = model.freed;
-    let count = options.starts.max(1);
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
-    let others = (0..count - 1).map(|index| spread(freed.len(), options.seed, index));
-    let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let found: Vec<Option<Found>> = from
-        .par_iter()
-        .map(|start| {
-            let found = minimum(model, start);
-            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            progress(so_far, count);
-            found
-        })
-        .collect::<Result<_, _>>()?;
-    let values = |shares: &[f64]| -> Vec<f64> {
-        let pairs = freed.iter().zip(shares);
-        pairs.map(|(freed, share)| freed.value(*share)).collect()
-    };
-    let starts = from.iter().zip(&found).map(|(from, found)| Start {
-        from: values(from),
-        to: found.as_ref().map(|f| (values(&f.shares), f.rms_hz)),
-    });
-    let starts = starts.collect();
-    let mut reached: Vec<Found> = found.into_iter().flatten().collect();
-    reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
-    let mut distinct: Vec<Found> = Vec::new();
-    for found in reached {
-        let apart = |other: &Found| {
-            let pairs = found.shares.iter().zip(&other.shares);
-            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-2
-        };
-        if distinct.len() < REFINED && distinct.iter().all(apart) {
-            distinct.push(found);
-        }
-    }
-    Ok((starts, distinct))
-}
-
-/// The best of what candidates lead to on a finer basis.
-fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
-    let refined: Vec<Option<Found>> = candidates
-        .par_iter()
-        .map(|found| minimum(model, &found.shares))
-        .collect::<Result<_, _>>()?;
-    let found = refined.into_iter().flatten();
-    Ok(found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz)))
 }
 
 /// The scene with what was found and a note of where it comes from.

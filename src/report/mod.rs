@@ -8,6 +8,7 @@
 mod branches;
 mod build;
 mod certificate;
+mod chart;
 mod check;
 mod csv;
 mod cut;
@@ -18,6 +19,7 @@ mod membrane;
 mod mode;
 mod place;
 mod remarks;
+mod resting;
 mod runup;
 mod schema;
 mod spline;
@@ -28,6 +30,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
+pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::cut::{
     ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
@@ -41,10 +44,12 @@ pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
     GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
+pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
 pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
 pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};
+pub use self::whirl::{WhirlEntry, WhirlMode};
 use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::{InstabilityKind, StabilityState};
@@ -99,61 +104,6 @@ pub struct Report {
     pub sensitivities: Vec<SensitivityEntry>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
-}
-
-/// A mode of the blade that does not spin.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RestMode {
-    /// Natural frequency.
-    pub frequency_hz: f64,
-    /// Nodal diameters of the dominant harmonic.
-    pub nodal_diameters: usize,
-    /// Nodal circles of the dominant harmonic.
-    pub nodal_circles: usize,
-    /// Name of its branch; the shares of its harmonics where none dominates:
-    /// "0 (54 %) + 1 (45 %)".
-    pub name: String,
-    /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
-    /// rest.
-    pub branch: Option<usize>,
-    /// ζ = −Re λ/|λ| of a damped scene.
-    pub damping_ratio: Option<f64>,
-    /// −2π Re λ/|Im λ| of a damped scene.
-    pub logarithmic_decrement: Option<f64>,
-    /// Estimated relative error of the frequency.
-    #[serde(default)]
-    pub estimated_relative_error: Option<f64>,
-    /// ‖L(λ)q‖ relative to the size of its terms.
-    pub backward_error: f64,
-    /// Share of each harmonic in the kinetic energy, largest first.
-    pub harmonics: Vec<HarmonicEntry>,
-    /// Deflection, scaled to a largest value of one.
-    pub shape: Vec<ShapeEntry>,
-}
-
-/// Share of n nodal diameters in a mode.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HarmonicEntry {
-    /// n.
-    pub nodal_diameters: usize,
-    /// Between 0 and 1.
-    pub share: f64,
-}
-
-/// w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ShapeEntry {
-    /// n.
-    pub nodal_diameters: usize,
-    /// Radii.
-    pub radius_m: Vec<f64>,
-    /// Coefficient of cos nθ at these radii.
-    pub cosine: Vec<f64>,
-    /// Coefficient of sin nθ at these radii.
-    pub sine: Vec<f64>,
 }
 
 /// A speed at which a wave stands still in space.
@@ -235,42 +185,6 @@ pub struct OperatingEntry {
     pub frequency_hz: Option<f64>,
 }
 
-/// The modes of one speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WhirlEntry {
-    /// Rotation speed.
-    pub rpm: f64,
-    /// Whether the saw can run at that speed.
-    pub verdict: StabilityState,
-    /// Modes, ascending in frequency.
-    pub modes: Vec<WhirlMode>,
-}
-
-/// A mode of a saw that turns.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct WhirlMode {
-    /// |Im λ|/2π in the space-fixed frame.
-    pub frequency_hz: f64,
-    /// Nodal diameters of the dominant harmonic.
-    pub nodal_diameters: usize,
-    /// Nodal circles of the dominant harmonic.
-    pub nodal_circles: usize,
-    /// How the dominant harmonic runs, seen from space.
-    pub direction: Direction,
-    /// In words.
-    pub name: String,
-    /// Re λ.
-    pub growth_per_s: f64,
-    /// ζ = −Re λ/|λ| of a damped scene.
-    pub damping_ratio: Option<f64>,
-    /// −2π Re λ/|Im λ| of a damped scene, where the mode oscillates.
-    pub logarithmic_decrement: Option<f64>,
-    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
-    pub krein_sign: i8,
-}
-
 /// How fine the computation was.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -311,81 +225,6 @@ pub struct WorkEntry {
     pub refined_pairs: usize,
     /// Symmetric, of the whole basis under other temperatures: limits of heat.
     pub heat_solves: usize,
-}
-
-/// The Campbell diagram.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CampbellEntry {
-    /// First speed.
-    pub from_rpm: f64,
-    /// Last speed.
-    pub to_rpm: f64,
-    /// Highest frequency to which the branches are complete.
-    pub complete_to_hz: f64,
-    /// Tracked branches, by frequency at their lowest speed.
-    pub branches: Vec<BranchEntry>,
-}
-
-/// One mode followed over speed. All lists have one entry a speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BranchEntry {
-    /// 1, 2, 3 … in the order of the list.
-    pub branch: usize,
-    /// What the branch is called wherever it is met, by its mode at the first of its speeds: of
-    /// a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters",
-    /// or shares of harmonics where none dominates.
-    pub name: String,
-    /// Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45 %)".
-    pub label: String,
-    /// Nodal diameters of the dominant harmonic at the first of its speeds.
-    pub nodal_diameters: usize,
-    /// Nodal circles of that harmonic.
-    pub nodal_circles: usize,
-    /// How the wave runs on the blade at each speed: never `Reflected`.
-    pub direction: Vec<Direction>,
-    /// Rotation speeds, ascending.
-    pub rpm: Vec<f64>,
-    /// |Im λ|/2π in the space-fixed frame.
-    pub frequency_hz: Vec<f64>,
-    /// Frequency of the dominant harmonic in the body frame.
-    pub body_frequency_hz: Vec<f64>,
-    /// Re λ.
-    pub growth_per_s: Vec<f64>,
-    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
-    pub krein_sign: Vec<i8>,
-    /// Nodal diameters of the dominant and of the next harmonic at each speed.
-    pub dominant_harmonics: Vec<[usize; 2]>,
-}
-
-/// Eigenvalues around a flutter onset, in the complex plane.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RootLociEntry {
-    /// Onset of the band.
-    pub onset_rpm: f64,
-    /// End of the band.
-    pub end_rpm: f64,
-    /// Rotation speeds, ascending, from before the onset to after the end.
-    pub rpm: Vec<f64>,
-    /// The eigenvalues of both modes, which are the growing and the decaying one
-    /// inside the band.
-    pub paths: Vec<RootPathEntry>,
-}
-
-/// One eigenvalue over the speeds of a [`RootLociEntry`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RootPathEntry {
-    /// Name of the branch.
-    pub name: String,
-    /// Re λ.
-    pub growth_per_s: Vec<f64>,
-    /// Im λ/2π.
-    pub frequency_hz: Vec<f64>,
-    /// Krein sign: +1, −1, or 0 inside the band.
-    pub krein_sign: Vec<i8>,
 }
 
 /// Relative change of speeds for a change of one number of the scene.

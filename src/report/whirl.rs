@@ -2,10 +2,48 @@
 
 use std::f64::consts::TAU;
 
-use super::{WhirlEntry, WhirlMode};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, SpectrumError, in_words};
-use crate::stability::Analysis;
+use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
+use crate::stability::{Analysis, StabilityState};
+
+/// The modes of one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WhirlEntry {
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Whether the saw can run at that speed.
+    pub verdict: StabilityState,
+    /// Modes, ascending in frequency.
+    pub modes: Vec<WhirlMode>,
+}
+
+/// A mode of a saw that turns.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WhirlMode {
+    /// |Im λ|/2π in the space-fixed frame.
+    pub frequency_hz: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub nodal_diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub nodal_circles: usize,
+    /// How the dominant harmonic runs, seen from space.
+    pub direction: Direction,
+    /// In words.
+    pub name: String,
+    /// Re λ.
+    pub growth_per_s: f64,
+    /// ζ = −Re λ/|λ| of a damped scene.
+    pub damping_ratio: Option<f64>,
+    /// −2π Re λ/|Im λ| of a damped scene, where the mode oscillates.
+    pub logarithmic_decrement: Option<f64>,
+    /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    pub krein_sign: i8,
+}
 
 impl WhirlEntry {
     /// Every mode of the chart at a speed.

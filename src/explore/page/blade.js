@@ -160,19 +160,21 @@ export class Blade {
       target.parentNode.focus();
       target.setPointerCapture(event.pointerId);
       const grip = this.#grip(kind, path, this.#place(event));
-      const move = (moved) => {
+      const own = (then) => (later) => later.pointerId === event.pointerId && then(later);
+      const move = own((moved) => {
         const edit = (scene) => this.#drag(scene, kind, path, action, this.#place(moved), grip);
         this.state.change(edit, { draft: true, stamp: moved.timeStamp });
-      };
-      const end = () => {
-        target.removeEventListener("pointermove", move);
-        target.removeEventListener("pointerup", end);
-        target.removeEventListener("pointercancel", end);
+      });
+      // On the window: a browser may end the capture, and the end of a drag must not be missed.
+      const during = new AbortController();
+      const end = own(() => {
+        during.abort();
         this.state.settle();
-      };
-      target.addEventListener("pointermove", move);
-      target.addEventListener("pointerup", end);
-      target.addEventListener("pointercancel", end);
+      });
+      const { signal } = during;
+      addEventListener("pointermove", move, { signal });
+      addEventListener("pointerup", end, { signal });
+      addEventListener("pointercancel", end, { signal });
     });
   }
 

@@ -50,7 +50,7 @@ export class Charts {
     const width = this.places[0].clientWidth;
     if (width === 0) return;
     const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
-    this.campbell.chart.setSize({ width, height: width < 480 ? 300 : tall });
+    this.campbell.chart.setSize({ width, height: width < 480 ? 270 : tall });
     this.growth.chart.setSize({ width, height: 165 });
   }
 

@@ -43,6 +43,20 @@ export class Form {
     for (const field of this.fields.values()) field.show(get(this.state.scene, field.path));
   }
 
+  // How the speeds move with each number.
+  influence(found) {
+    const by = new Map(found.map((one) => [one.path, one]));
+    for (const { path, element } of this.fields.values()) {
+      const place = element.querySelector(".influence");
+      if (!place) continue;
+      const one = by.get(path);
+      place.hidden = !one?.words;
+      if (!one) continue;
+      place.querySelector(".words").textContent = one.words;
+      place.querySelector(".bar").style.width = `${Math.round(100 * one.share)}%`;
+    }
+  }
+
   // What is wrong, at the field it is about and in the unit of the field.
   refuse(key, message, allowed) {
     let told = false;
@@ -216,7 +230,7 @@ export class Form {
   }
 
   #number(schema, path, key, value, required) {
-    const { unit, scale, name } = unitOf(key);
+    const { unit, scale, name, digits } = unitOf(key);
     const whole = schema.type === "integer";
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
@@ -239,10 +253,12 @@ export class Form {
     slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp, run: path }));
     slider.addEventListener("change", () => this.state.settle());
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
-    const row = node("div", { className: "field number", title: schema.description ?? "" }, label, input, slider);
+    const bar = node("span", { className: "track", ariaHidden: "true" }, node("span", { className: "bar" }));
+    const influence = node("p", { className: "influence", hidden: true }, node("span", { className: "words" }), bar);
+    const row = node("div", { className: "field number", title: schema.description ?? "" }, label, input, slider, influence);
     return this.#register(path, row, (number) => {
       const known = number ?? fallback;
-      const typed = number === undefined || number === null ? "" : typeof number === "number" ? shown(tidy(number * scale), 12) : number;
+      const typed = number === undefined || number === null ? "" : typeof number === "number" ? shown(tidy(number * scale), digits) : number;
       if (document.activeElement !== input || !row.contains(document.activeElement)) input.value = typed;
       else if (Number(input.value) !== Number(typed)) input.value = typed;
       if (typeof known === "number") {

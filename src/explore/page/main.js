@@ -5,11 +5,13 @@ import { Charts } from "./charts.js";
 import { Form } from "./form.js";
 import { Kept, carried, download, link, measured } from "./kept.js";
 import { publish } from "./marks.js";
+import { influences } from "./influence.js";
 import { Motion } from "./motion.js";
 import { SceneState, clone } from "./scene.js";
-import { Refused, Live, mode, read, saved, start, stayConnected } from "./talk.js";
+import { Refused, Live, influence, mode, read, saved, start, stayConnected } from "./talk.js";
+import { Tasks } from "./tasks.js";
 import { facts, tables, verdict } from "./verdict.js";
-import { krein, numbered, shown } from "./words.js";
+import { krein, numbered, shown, useInches } from "./words.js";
 
 const by = (id) => document.getElementById(id);
 const begun = await start();
@@ -30,12 +32,14 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp }) =
   blade.draw(scene, refusedKey);
   buttons();
   if (!draft) kept.keep(scene);
+  if (!draft) tasks.changed();
   live.ask(scene, { draft, stamp });
 });
 const blade = new Blade(by("drawing"), state);
 const motion = new Motion(by("motion"), blade.mark, () => motionColours());
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover, onZoom });
+const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, { onScene: replaceScene });
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
@@ -65,6 +69,8 @@ function onChart(chart, request) {
   document.body.classList.remove("stale");
   charts.show(chart.report, pinnedDiffers() ? pinned : null);
   tell();
+  sideBySide();
+  if (!request.draft) weigh(chart);
   blade.draw(state.scene, null);
   if (charts.pointed || asked) onHover(charts.pointed);
   painted(() => {
@@ -74,6 +80,32 @@ function onChart(chart, request) {
     seen.computed.push([kind, chart.milliseconds]);
     seen.painted = request.draft ? null : request.text;
   });
+}
+
+// How the speeds of a chart move with the numbers of the form.
+let weighing = null;
+async function weigh(chart) {
+  weighing?.abort();
+  weighing = new AbortController();
+  try {
+    const found = await influence(chart.chart, weighing.signal);
+    if (latest === chart) form.influence(influences(found, chart.report));
+  } catch (error) {
+    // No chart depends on it: where it fails, the fields are as they were.
+    if (error.name !== "AbortError") form.influence([]);
+  }
+}
+
+// The pinned saw in a chart of its own, above that of the present one.
+let beside = null;
+function sideBySide() {
+  const on = by("side").checked && pinnedName !== "";
+  by("beside").hidden = !on;
+  if (!on) return;
+  beside ??= new Charts(by("campbell-pinned"), by("growth-pinned"), colours, { onHover: () => {}, onZoom: () => {} });
+  by("beside").querySelector("h2").textContent = pinnedName;
+  beside.resize();
+  beside.show(pinned, null);
 }
 
 // After the frame in which the chart is drawn.
@@ -123,7 +155,7 @@ function tell() {
   facts(by("facts"), report, pinned);
   tables(by("tables"), report);
   const accuracy = report.accuracy;
-  by("accuracy").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
+  by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
   by("warnings").replaceChildren(...report.warnings.map((warning) => Object.assign(document.createElement("li"), { textContent: warning })));
   by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
@@ -136,6 +168,8 @@ const MEANING = {
   standing: "It does not travel.",
 };
 let asked = null;
+// The mode that was pointed at last.
+let filmed = null;
 async function onHover(found) {
   asked?.abort();
   asked = null;
@@ -151,6 +185,8 @@ async function onHover(found) {
     const shape = await mode(latest.chart, branch.rpm[i], branch.frequency_hz[i], asked.signal);
     const slower = motion.show(shape, Blade.reach(state.scene));
     document.body.classList.add("moving");
+    filmed = shape;
+    by("film").disabled = motion.still || !globalThis.MediaRecorder;
     const growth = Math.abs(shape.growth_per_s) > 1e-3 ? `, ${shape.growth_per_s > 0 ? "grows" : "decays"} at ${shown(Math.abs(shape.growth_per_s), 3)} 1/s` : "";
     const name = Object.assign(document.createElement("strong"), { textContent: numbered(branch.branch, branch.name), className: shape.direction });
     by("mode").replaceChildren(name, ` at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
@@ -169,6 +205,7 @@ function buttons() {
   by("source").textContent = (source ?? "").length > 36 ? `${source.slice(0, 35)}…` : source ?? "";
   by("unpin").hidden = pinned === null || !pinnedName;
   by("unpin").textContent = `Unpin ${pinnedName}`;
+  by("sides").hidden = by("unpin").hidden;
 }
 
 // The name of a saw that was pinned by hand; the first one is the saw that the page began with.
@@ -187,9 +224,44 @@ function pin() {
 function unpin() {
   pinned = clone(latest.report);
   pinnedName = "";
+  sideBySide();
   charts.show(latest.report, null);
   tell();
   buttons();
+}
+
+const INCHES = "sawflutter inches";
+// Lengths in inches or millimetres: the scene stays as it is.
+function measure(on) {
+  by("inches").checked = on;
+  useInches(on);
+  form.build();
+  if (latest) weigh(latest);
+  try {
+    localStorage.setItem(INCHES, on ? "1" : "");
+  } catch {
+    // A browser that keeps nothing still shows them.
+  }
+}
+
+async function film() {
+  by("film").disabled = true;
+  motion.show(filmed, Blade.reach(state.scene));
+  download("mode.webm", await motion.film());
+  motion.hide();
+  by("film").disabled = false;
+}
+
+function offerExamples() {
+  const list = by("examples");
+  list.append(...begun.examples.map(({ name }, k) => Object.assign(document.createElement("option"), { value: k, textContent: name })));
+  list.addEventListener("change", () => {
+    const example = begun.examples[Number(list.value)];
+    list.value = "";
+    if (!example) return;
+    onDisk = JSON.stringify(example);
+    replaceScene(clone(example));
+  });
 }
 
 async function save(name) {
@@ -243,7 +315,7 @@ async function copyLink() {
   } catch {
     by("link").textContent = "Link is in the address bar";
   }
-  setTimeout(() => (by("link").textContent = "Copy link"), 3000);
+  setTimeout(() => (by("link").textContent = "Link"), 3000);
 }
 
 // The scene of the address, or that of an earlier visit with unsaved edits.
@@ -275,6 +347,9 @@ function wire() {
   by("link").addEventListener("click", copyLink);
   by("all").addEventListener("click", () => charts.zoom(null));
   by("over").addEventListener("click", startOver);
+  by("side").addEventListener("change", sideBySide);
+  by("film").addEventListener("click", film);
+  by("inches").addEventListener("change", (event) => measure(event.target.checked));
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
@@ -303,6 +378,7 @@ function wire() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     colours = publish(begun.colours);
     charts.setColours(colours);
+    beside?.setColours(colours);
   });
   stayConnected((lost) => {
     by("lost").hidden = !lost;
@@ -311,7 +387,8 @@ function wire() {
 
 await document.fonts.load("12px Inter");
 wire();
-form.build();
+offerExamples();
+measure(localStorage.getItem(INCHES) === "1");
 blade.draw(state.scene, null);
 buttons();
 await restore();

@@ -47,6 +47,18 @@ export class Motion {
     this.mark?.removeAttribute("transform");
   }
 
+  // Two oscillations as a video.
+  async film() {
+    const chunks = [];
+    const recorder = new MediaRecorder(this.canvas.captureStream(30));
+    recorder.ondataavailable = (event) => chunks.push(event.data);
+    const ended = new Promise((resolve) => (recorder.onstop = resolve));
+    recorder.start();
+    setTimeout(() => recorder.stop(), 2000 * PERIOD_S);
+    await ended;
+    return new Blob(chunks, { type: recorder.mimeType });
+  }
+
   #draw(phase) {
     const { re, im, inside } = this.#field;
     const context = this.canvas.getContext("2d");

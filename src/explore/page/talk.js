@@ -38,6 +38,33 @@ export async function read(text) {
   return answer.json();
 }
 
+// Influence of the scene's numbers on the speeds of a chart.
+export async function influence(chart, signal) {
+  const answer = await post("influence", JSON.stringify(chart), signal);
+  return answer.json();
+}
+
+// A task: `onProgress({ what, done, of })` as it goes on, then its answer.
+export async function task(name, asked, signal, onProgress) {
+  const answer = await post(`task/${name}`, JSON.stringify(asked), signal);
+  const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    text += value;
+    const lines = text.split("\n");
+    text = lines.pop();
+    for (const line of lines) {
+      const told = JSON.parse(line);
+      if (told.refusal) throw new Refused(told.refusal);
+      if (told.of === undefined) return told;
+      onProgress(told);
+    }
+  }
+  throw new Error("the answer ended early");
+}
+
 // Says so often that the page is there.
 const BEAT_MS = 2000;
 

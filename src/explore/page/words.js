@@ -27,12 +27,20 @@ const UNITS = [
   ["_m", "mm", 1e3],
 ];
 
+// Lengths in inches instead of millimetres.
+let inches = false;
+export function useInches(on) {
+  inches = on;
+}
+
 export function unitOf(key) {
-  if (key === "rpm") return { unit: "rpm", scale: 1, name: "speed" };
+  if (key === "rpm") return { unit: "rpm", scale: 1, digits: 12, name: "speed" };
   const found = UNITS.find(([ending]) => key.endsWith(ending));
-  if (!found) return { unit: "", scale: 1, name: key.replaceAll("_", " ") };
-  const [ending, unit, scale] = found;
-  return { unit, scale, name: key.slice(0, -ending.length).replaceAll("_", " ") };
+  if (!found) return { unit: "", scale: 1, digits: 12, name: key.replaceAll("_", " ") };
+  const [ending, metric, usual] = found;
+  // A metric number has no end in inches.
+  const [unit, scale, digits] = inches && ending === "_m" ? ["in", 1 / 0.0254, 6] : [metric, usual, 12];
+  return { unit, scale, digits, name: key.slice(0, -ending.length).replaceAll("_", " ") };
 }
 
 // Twelve digits: what is typed comes back as typed, whatever the unit.

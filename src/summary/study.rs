@@ -1,33 +1,39 @@
-//! A study in words, 80 columns wide.
+//! A study in words.
 
 use std::fmt::Write;
 
 use crate::study::{Group, Passing, SpeedEntry, StudyReport};
 
-use super::summary::shortened;
+use super::{WIDTH, shortened};
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 24;
-const WIDTH: usize = 80;
 /// Quantiles that fit side by side.
 const COLUMNS: usize = 7;
 
-/// Quantiles, the probability of passing, and what was not analysed.
-pub fn summary(report: &StudyReport) -> String {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = header(&mut text, report);
-    let _ = quantiles(&mut text, report);
+impl StudyReport {
+    /// The report in words, 80 columns wide: quantiles, the probability of passing, and what was
+    /// not analysed.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    header(text, report)?;
+    quantiles(text, report)?;
     if let Some(passing) = &report.all.passing {
-        let _ = limits(&mut text, passing, report.all.saws);
+        limits(text, passing, report.all.saws)?;
     }
-    let _ = reliability(&mut text, report);
+    reliability(text, report)?;
     if !report.groups.is_empty() {
-        let _ = groups(&mut text, report);
+        groups(text, report)?;
     }
-    let _ = worst(&mut text, report);
-    let _ = remarks(&mut text, report);
-    text
+    worst(text, report)?;
+    remarks(text, report)
 }
 
 fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {

@@ -11,9 +11,11 @@ use thirtyfour::prelude::*;
 
 use program::program;
 
-#[path = "../common/program.rs"]
+#[path = "../../common/program.rs"]
 mod program;
 
+/// The first pad.
+pub const PAD: &str = "[data-path='guides[0]'] .body";
 /// Longer than anything takes, also where others use the machine.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -114,6 +116,18 @@ impl Page {
         self.script(&format!("return {expression}")).await
     }
 
+    /// What a script that waits for something comes to: an expression with `await`.
+    pub async fn awaited(&self, expression: &str) -> Value {
+        let script = format!(
+            "const done = arguments[arguments.length - 1]; (async () => {expression})().then(done)"
+        );
+        let found = self.driver.execute_async(script, Vec::new()).await;
+        found
+            .unwrap_or_else(|error| panic!("{expression}: {error}"))
+            .json()
+            .clone()
+    }
+
     pub async fn text(&self, selector: &str) -> String {
         let found = self
             .value(&format!("document.querySelector({selector:?}).textContent"))
@@ -154,12 +168,17 @@ impl Page {
 
     /// Clicks a button that saves a file, and reads what the browser has put on the disk.
     pub async fn download(&self, name: &str) -> Vec<u8> {
-        let path = self.folder.path().join(name);
         self.find(&format!("[data-save={name:?}]"))
             .await
             .click()
             .await
             .unwrap();
+        self.wait_for_file(name).await
+    }
+
+    /// What the browser puts on the disk under a name.
+    pub async fn wait_for_file(&self, name: &str) -> Vec<u8> {
+        let path = self.folder.path().join(name);
         let begun = Instant::now();
         while !path.exists() {
             assert!(begun.elapsed() < PATIENCE, "{name} was not saved");
@@ -170,17 +189,18 @@ impl Page {
 
     /// What the command line makes of the scene as saved.
     pub async fn command_line(&self) -> PathBuf {
+        self.command(&["analyze"]).await.0
+    }
+
+    /// What a command makes of the scene as saved, and what it prints.
+    pub async fn command(&self, command: &[&str]) -> (PathBuf, String) {
         let scene = self.download("scene.json").await;
         let path = self.folder.path().join("saved-scene.json");
         std::fs::write(&path, scene).unwrap();
         let out = self.folder.path().join("out");
         let done = Command::new(program())
-            .args([
-                "analyze",
-                path.to_str().unwrap(),
-                "--out",
-                out.to_str().unwrap(),
-            ])
+            .args(command)
+            .args([path.as_os_str(), "--out".as_ref(), out.as_os_str()])
             .output()
             .unwrap();
         assert!(
@@ -188,7 +208,7 @@ impl Page {
             "{}",
             String::from_utf8_lossy(&done.stderr)
         );
-        out
+        (out, String::from_utf8(done.stdout).unwrap())
     }
 
     pub async fn close(self) {

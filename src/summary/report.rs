@@ -1,39 +1,39 @@
-//! The report in words, 80 columns wide.
-
-mod answer;
-mod bands;
-mod excitation;
-mod in_cut;
-mod influences;
-mod whirl;
+//! A chart in words.
 
 use std::fmt::Write;
 
-use textwrap::{Options, WordSeparator, WordSplitter};
-
+use super::answer::{answer, trust};
+use super::bands::bands;
+use super::excitation::crossings;
+use super::in_cut::in_cut;
+use super::influences::{heat, sensitivity};
+use super::whirl::whirl;
+use super::{ROWS, WIDTH, more, numbered, shortened};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 
-/// Lines of a table before the rest is only counted.
-const ROWS: usize = 12;
-pub const WIDTH: usize = 80;
+impl Report {
+    /// The report in words, 80 columns wide: the answer first, then what it rests on.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
 
-/// What a designer wants to know: the answer first, then what it rests on.
-pub fn summary(report: &Report) -> String {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = header(&mut text, report);
-    let _ = answer::answer(&mut text, report);
-    let _ = in_cut::in_cut(&mut text, report);
-    let _ = modes(&mut text, report);
-    let _ = critical_speeds(&mut text, report);
-    let _ = bands::bands(&mut text, report);
-    let _ = excitation::crossings(&mut text, report);
-    let _ = influences::heat(&mut text, report);
-    let _ = influences::sensitivity(&mut text, report);
-    let _ = whirl::whirl(&mut text, report);
-    let _ = answer::trust(&mut text, report);
-    text
+fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
+    header(text, report)?;
+    answer(text, report)?;
+    in_cut(text, report)?;
+    modes(text, report)?;
+    critical_speeds(text, report)?;
+    bands(text, report)?;
+    crossings(text, report)?;
+    heat(text, report)?;
+    sensitivity(text, report)?;
+    whirl(text, report)?;
+    trust(text, report)
 }
 
 fn header(text: &mut String, report: &Report) -> std::fmt::Result {
@@ -89,14 +89,6 @@ fn damping(mode: &RestMode) -> String {
     format!("{:>8} {decrement:>8}  ", format!("{:.2e}", 100.0 * ratio))
 }
 
-/// Number and name of a branch, as at the lines of the Campbell diagram.
-fn numbered(branch: Option<usize>, name: &str) -> String {
-    match branch {
-        Some(number) => format!("{number}: {name}"),
-        None => name.to_owned(),
-    }
-}
-
 fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
     let speeds = &report.critical_speeds;
     if speeds.is_empty() {
@@ -112,28 +104,4 @@ fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
         writeln!(text, "  {:>9.1}  {name}", critical.rpm)?;
     }
     more(text, speeds.len())
-}
-
-fn more(text: &mut String, rows: usize) -> std::fmt::Result {
-    match rows.checked_sub(ROWS) {
-        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in report.json"),
-        _ => Ok(()),
-    }
-}
-
-pub fn shortened(line: &str, width: usize) -> String {
-    if line.chars().count() <= width {
-        return line.to_owned();
-    }
-    line.chars().take(width - 1).chain(['…']).collect()
-}
-
-/// Breaks a sentence into lines at spaces.
-pub fn wrapped(sentence: &str) -> String {
-    let at_spaces = Options::new(WIDTH)
-        .subsequent_indent("  ")
-        .word_separator(WordSeparator::AsciiSpace)
-        .word_splitter(WordSplitter::NoHyphenation)
-        .break_words(false);
-    textwrap::fill(sentence, at_spaces)
 }

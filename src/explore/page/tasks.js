@@ -1,0 +1,247 @@
+// What besides the chart can be asked of a saw: the cut, a run-up, a fit, a placement, tolerances.
+// Each is a tab with what the program prints, its figures, and its report to save.
+
+import * as beginnings from "./beginnings.js";
+import { download } from "./kept.js";
+import { get, set } from "./scene.js";
+import { Refused, task } from "./talk.js";
+import { shown, tidy, unitOf } from "./words.js";
+
+function node(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+// The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
+// size, pads set by hand, stiffness guessed from the material.
+const TOLERANCES = [
+  ["blade.thickness_m", () => 5e-5],
+  ["guides[].radius_m", () => 2e-3],
+  ["guides[].angle_deg", () => 1],
+  ["guides[].stiffness_n_per_m", (value) => 0.2 * value],
+];
+const SAWS = 200;
+
+function usualTolerances(scene) {
+  const places = TOLERANCES.flatMap(([pattern, width]) =>
+    pattern.startsWith("guides[]") ? (scene.guides ?? []).map((_, i) => [pattern.replace("[]", `[${i}]`), width]) : [[pattern, width]]);
+  const known = places.map(([path, width]) => [path, get(scene, path), width]);
+  return known.filter(([, value]) => typeof value === "number").map(([path, value, width]) => [path, tidy(Number(width(value).toPrecision(3)))]);
+}
+
+const TASKS = [
+  { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
+  { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
+  { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a motion grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
+  { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
+  { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
+  { name: "study", title: "Tolerances", what: `${SAWS} saws within tolerances: how their critical and flutter speeds spread.` },
+];
+
+export class Tasks {
+  #panels = new Map();
+
+  constructor(tabs, panels, chartPanel, state, { onScene }) {
+    Object.assign(this, { tabs, panels, chartPanel, state, onScene });
+    const all = [{ name: "chart", title: "Chart" }, ...TASKS];
+    for (const { name, title } of all) {
+      const tab = node("button", { type: "button", id: `tab-${name}`, textContent: title });
+      tab.setAttribute("role", "tab");
+      tab.setAttribute("aria-controls", `panel-${name}`);
+      tab.addEventListener("click", () => this.show(name));
+      tabs.append(tab);
+    }
+    tabs.addEventListener("keydown", (event) => this.#walk(event));
+    this.#panels.set("chart", chartPanel);
+    for (const entry of TASKS) this.#panels.set(entry.name, this.#panel(entry));
+    this.show("chart");
+  }
+
+  show(name) {
+    for (const [own, panel] of this.#panels) {
+      const chosen = own === name;
+      panel.hidden = !chosen;
+      const tab = this.tabs.querySelector(`#tab-${own}`);
+      tab.setAttribute("aria-selected", String(chosen));
+      tab.tabIndex = chosen ? 0 : -1;
+    }
+    this.#panels.get(name).task?.refresh();
+  }
+
+  // Answers of an earlier scene are shown as such.
+  changed() {
+    for (const panel of this.#panels.values()) panel.task?.refresh();
+  }
+
+  // Left and right go from tab to tab, as in every list of tabs.
+  #walk(event) {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (!step) return;
+    const all = [...this.tabs.children];
+    const next = all[(all.indexOf(document.activeElement) + step + all.length) % all.length];
+    next.focus();
+    next.click();
+    event.preventDefault();
+  }
+
+  #panel(entry) {
+    const panel = node("div", { id: `panel-${entry.name}`, hidden: true });
+    panel.setAttribute("role", "tabpanel");
+    panel.setAttribute("aria-labelledby", `tab-${entry.name}`);
+    panel.task = new Task(panel, entry, this.state, this.onScene);
+    this.panels.append(panel);
+    return panel;
+  }
+}
+
+// One tab: what goes in, how far it has come, what came out.
+class Task {
+  #abort = null;
+  #scene = null;
+
+  constructor(panel, entry, state, onScene) {
+    Object.assign(this, { panel, entry, state, onScene });
+    this.inputs = node("div", { className: "inputs" });
+    this.missing = node("p", { className: "remark" });
+    this.start = node("button", { type: "button", textContent: "Compute" });
+    this.stop = node("button", { type: "button", textContent: "Stop", hidden: true });
+    this.bar = node("progress", { hidden: true });
+    this.bar.setAttribute("aria-label", `Progress of ${entry.title}`);
+    this.so_far = node("span", { className: "remark" });
+    this.so_far.setAttribute("role", "status");
+    this.fault = node("p", { className: "fault" });
+    this.fault.setAttribute("role", "alert");
+    this.old = node("p", { className: "remark", hidden: true, textContent: "Computed for an earlier scene." });
+    this.answer = node("div", { className: "answer" });
+    this.start.addEventListener("click", () => this.#run());
+    this.stop.addEventListener("click", () => this.#abort?.abort());
+    const row = node("p", { className: "start" }, this.start, " ", this.stop, " ", this.bar, " ", this.so_far);
+    panel.append(node("p", { className: "remark", textContent: entry.what }), this.missing, this.inputs, row, this.fault, this.old, this.answer);
+  }
+
+  // What the scene has and lacks now.
+  refresh() {
+    if (this.panel.hidden) return;
+    const { part } = this.entry;
+    const scene = this.state.scene;
+    const lacks = part !== undefined && !get(scene, part);
+    this.missing.replaceChildren();
+    if (lacks) {
+      const name = part.split(".").at(-1);
+      const add = node("button", { type: "button", textContent: `Put ${name} in` });
+      add.addEventListener("click", () => this.state.change((scene) => putIn(scene, part), { structure: true }));
+      this.missing.append(`The scene has no ${name} yet. `, add);
+    }
+    this.start.disabled = lacks;
+    this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
+    this.answer.classList.toggle("earlier", !this.old.hidden);
+    if (this.entry.name === "study") this.#offerTolerances(scene);
+    if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
+  }
+
+  #offerGoals() {
+    this.goal = node("select", { id: "place-goal" }, node("option", { value: "", textContent: "largest flutter speed" }), node("option", { value: "window", textContent: "widest stable window around the operating speed" }));
+    this.least = node("input", { id: "place-least", type: "text", inputMode: "decimal", placeholder: "none" });
+    this.inputs.append(
+      node("div", { className: "field" }, node("label", { htmlFor: "place-goal", textContent: "Goal" }), this.goal),
+      node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Least lowest critical speed, rpm" }), this.least));
+  }
+
+  // A field for each number that has a usual tolerance; what was typed stays.
+  #offerTolerances(scene) {
+    const usual = usualTolerances(scene);
+    if (this.paths?.join() === usual.map(([path]) => path).join()) return;
+    this.paths = usual.map(([path]) => path);
+    const fields = usual.map(([path, width]) => {
+      const { unit, scale, name } = unitOf(path.split(".").at(-1));
+      const where = path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
+      const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value: shown(tidy(width * scale)) });
+      return node("div", { className: "field" }, node("label", { htmlFor: input.id, textContent: `± ${where}, ${unit}` }), input);
+    });
+    this.inputs.replaceChildren(...fields);
+  }
+
+  #asked() {
+    const scene = this.state.scene;
+    if (this.entry.name === "place") {
+      const least = this.least.value.trim();
+      return { scene, window: this.goal.value === "window", min_critical_rpm: least === "" ? null : number(least) };
+    }
+    if (this.entry.name !== "study") return { scene };
+    const parameters = this.paths.map((path) => {
+      const { scale } = unitOf(path.split(".").at(-1));
+      const plus_minus = tidy(number(document.getElementById(`study:${path}`).value) / scale);
+      return { path, distribution: { kind: "tolerance", plus_minus } };
+    });
+    const limits = scene.operating_rpm ? { operating_rpm: scene.operating_rpm } : null;
+    return { scene, study: { name: "Tolerances", parameters: parameters.filter((p) => p.distribution.plus_minus !== 0), saws: SAWS, limits } };
+  }
+
+  async #run() {
+    this.#abort?.abort();
+    const abort = (this.#abort = new AbortController());
+    this.#busy(true);
+    this.fault.textContent = "";
+    try {
+      const asked = this.#asked();
+      const answer = await task(this.entry.name, asked, abort.signal, (told) => this.#tell(told));
+      this.#scene = JSON.stringify(asked.scene);
+      this.#show(answer);
+    } catch (error) {
+      if (error.name !== "AbortError") this.fault.textContent = error instanceof Refused || error instanceof RangeError ? error.message : "The program does not answer any more.";
+    }
+    if (this.#abort === abort) this.#busy(false);
+    this.refresh();
+  }
+
+  #busy(on) {
+    this.stop.hidden = !on;
+    this.bar.hidden = !on;
+    this.bar.removeAttribute("value");
+    this.so_far.textContent = on ? "computing …" : "";
+  }
+
+  #tell({ what, done, of }) {
+    this.bar.max = of;
+    this.bar.value = done;
+    this.so_far.textContent = `${what}: ${done} of ${of}`;
+  }
+
+  #show({ summary, report, figures, scene }) {
+    const { name, took } = this.entry;
+    const text = node("pre", { textContent: summary, tabIndex: 0 });
+    text.setAttribute("role", "region");
+    text.setAttribute("aria-label", `${this.entry.title} in words`);
+    const save = node("button", { type: "button", textContent: "Save report" });
+    save.addEventListener("click", () => download(`${name}.json`, new Blob([`${JSON.stringify(report, null, 2)}\n`], { type: "application/json" })));
+    const tools = node("div", { className: "tools" }, save);
+    if (scene) {
+      const take = node("button", { type: "button", textContent: took });
+      take.addEventListener("click", () => this.onScene(scene));
+      tools.prepend(take);
+    }
+    const pictures = figures.map(([file, svg]) => {
+      const picture = node("img", { src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })), alt: `${file.replace(".svg", "").replaceAll("-", " ")}; the words above have its numbers` });
+      const link = node("button", { type: "button", textContent: `Save ${file}` });
+      link.addEventListener("click", () => download(file, new Blob([svg], { type: "image/svg+xml" })));
+      return node("figure", {}, picture, link);
+    });
+    for (const picture of this.answer.querySelectorAll("img")) URL.revokeObjectURL(picture.src);
+    this.answer.replaceChildren(text, tools, ...pictures);
+  }
+}
+
+// A part with values that compute, and what it is a part of.
+function putIn(scene, part) {
+  const whole = part.includes(".") ? part.slice(0, part.lastIndexOf(".")) : null;
+  if (whole && !get(scene, whole)) set(scene, whole, beginnings.part(whole, scene));
+  set(scene, part, beginnings.part(part, scene));
+}
+
+// A number as it was typed.
+function number(text) {
+  const value = Number(text.trim().replace(",", ".").replace("−", "-"));
+  if (text.trim() === "" || !Number.isFinite(value)) throw new RangeError(`${text || "Nothing"} is no number`);
+  return value;
+}

@@ -1,0 +1,78 @@
+//! Least squares from several starts.
+
+use rayon::prelude::*;
+
+use super::Options;
+use super::model::Model;
+use super::solve::{Found, minimum};
+use crate::campbell::Progress;
+use crate::scene::spread;
+use crate::spectrum::SpectrumError;
+
+/// A start and where it led.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// Values it began with.
+    pub from: Vec<f64>,
+    /// Values it reached, and the root mean square of what was left; `None` for a start that
+    /// is no saw.
+    pub to: Option<(Vec<f64>, f64)>,
+}
+
+/// As many of the best starts, if they led to different places, are refined.
+const REFINED: usize = 3;
+
+/// Follows every start, and gives the best few that led to different places, best first.
+pub fn search(
+    model: &Model<'_>,
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<(Vec<Start>, Vec<Found>), SpectrumError> {
+    let freed = model.freed;
+    let count = options.starts.max(1);
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
+    let others = (0..count - 1).map(|index| spread(freed.len(), options.seed, index));
+    let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let found: Vec<Option<Found>> = from
+        .par_iter()
+        .map(|start| {
+            let found = minimum(model, start);
+            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
+            progress(so_far, count);
+            found
+        })
+        .collect::<Result<_, _>>()?;
+    let values = |shares: &[f64]| -> Vec<f64> {
+        let pairs = freed.iter().zip(shares);
+        pairs.map(|(freed, share)| freed.value(*share)).collect()
+    };
+    let starts = from.iter().zip(&found).map(|(from, found)| Start {
+        from: values(from),
+        to: found.as_ref().map(|f| (values(&f.shares), f.rms_hz)),
+    });
+    let starts = starts.collect();
+    let mut reached: Vec<Found> = found.into_iter().flatten().collect();
+    reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
+    let mut distinct: Vec<Found> = Vec::new();
+    for found in reached {
+        let apart = |other: &Found| {
+            let pairs = found.shares.iter().zip(&other.shares);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-2
+        };
+        if distinct.len() < REFINED && distinct.iter().all(apart) {
+            distinct.push(found);
+        }
+    }
+    Ok((starts, distinct))
+}
+
+/// The best of what candidates lead to on a finer basis.
+pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
+    let refined: Vec<Option<Found>> = candidates
+        .par_iter()
+        .map(|found| minimum(model, &found.shares))
+        .collect::<Result<_, _>>()?;
+    let found = refined.into_iter().flatten();
+    Ok(found.min_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz)))
+}

@@ -1,0 +1,59 @@
+//! The modes of the blade at rest.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A mode of the blade that does not spin.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RestMode {
+    /// Natural frequency.
+    pub frequency_hz: f64,
+    /// Nodal diameters of the dominant harmonic.
+    pub nodal_diameters: usize,
+    /// Nodal circles of the dominant harmonic.
+    pub nodal_circles: usize,
+    /// Name of its branch; the shares of its harmonics where none dominates:
+    /// "0 (54 %) + 1 (45 %)".
+    pub name: String,
+    /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
+    /// rest.
+    pub branch: Option<usize>,
+    /// ζ = −Re λ/|λ| of a damped scene.
+    pub damping_ratio: Option<f64>,
+    /// −2π Re λ/|Im λ| of a damped scene.
+    pub logarithmic_decrement: Option<f64>,
+    /// Estimated relative error of the frequency.
+    #[serde(default)]
+    pub estimated_relative_error: Option<f64>,
+    /// ‖L(λ)q‖ relative to the size of its terms.
+    pub backward_error: f64,
+    /// Share of each harmonic in the kinetic energy, largest first.
+    pub harmonics: Vec<HarmonicEntry>,
+    /// Deflection, scaled to a largest value of one.
+    pub shape: Vec<ShapeEntry>,
+}
+
+/// Share of n nodal diameters in a mode.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HarmonicEntry {
+    /// n.
+    pub nodal_diameters: usize,
+    /// Between 0 and 1.
+    pub share: f64,
+}
+
+/// w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeEntry {
+    /// n.
+    pub nodal_diameters: usize,
+    /// Radii.
+    pub radius_m: Vec<f64>,
+    /// Coefficient of cos nθ at these radii.
+    pub cosine: Vec<f64>,
+    /// Coefficient of sin nθ at these radii.
+    pub sine: Vec<f64>,
+}

@@ -1,0 +1,117 @@
+//! A cut in words.
+
+use std::fmt::Write;
+
+use super::{WIDTH, shortened, wrapped};
+use crate::report::{CutCriterion, CutReport, CutRunEntry, Verdict};
+
+impl CutReport {
+    /// The report in words, 80 columns wide, the verdict first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    for run in &report.runs {
+        writeln!(text, "{}", wrapped(&in_one_line(run)))?;
+    }
+    for run in &report.runs {
+        of_run(text, run)?;
+    }
+    if !report.warnings.is_empty() {
+        writeln!(text)?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
+    }
+    Ok(())
+}
+
+/// The verdict of a speed.
+fn in_one_line(run: &CutRunEntry) -> String {
+    let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
+    let Some(entry) = decisive.filter(|entry| entry.verdict == Verdict::Unstable) else {
+        return format!("{} rpm: stable", run.rpm);
+    };
+    let frequency = match entry.frequency_hz {
+        Some(hz) if hz > 0.0 => format!(" at {hz:.2} Hz"),
+        Some(_) => " without oscillation".into(),
+        None => String::new(),
+    };
+    format!(
+        "{} rpm: UNSTABLE, growth of {:.3} 1/s{frequency} ({})",
+        run.rpm, entry.growth_per_s, entry.criterion
+    )
+}
+
+fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
+    let forces = format!(
+        "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across",
+        run.rpm,
+        run.tangential_n_per_tooth.round(),
+        run.radial_n_per_tooth.round(),
+        run.lateral_n_per_tooth
+    );
+    writeln!(text, "\n{}", wrapped(&forces))?;
+    writeln!(text, "                              growth  frequency")?;
+    writeln!(text, "                               [1/s]       [Hz]")?;
+    for entry in &run.criteria {
+        let hertz = entry.frequency_hz;
+        writeln!(
+            text,
+            "  {:<25} {:>9.3} {:>10}  {}{}",
+            entry.criterion.to_string(),
+            entry.growth_per_s,
+            hertz.map_or("-".into(), |hz| format!("{hz:.2}")),
+            in_capitals(entry.verdict),
+            remark(run, entry.criterion)
+        )?;
+    }
+    writeln!(text, "  {}", deflections(run))
+}
+
+fn in_capitals(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::Unstable => "UNSTABLE",
+    }
+}
+
+/// What is to be said beside a criterion.
+fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
+    match criterion {
+        CutCriterion::TimeHistory => match run.agree {
+            Some(true) => ", agrees".into(),
+            _ => ", DISAGREES".into(),
+        },
+        CutCriterion::MovingToothLoads => {
+            let per_second = run.tooth_passing.tooth_frequency_hz;
+            format!(", {per_second:.0} teeth/s")
+        }
+        CutCriterion::SplineReaction => run.spline.as_ref().map_or(String::new(), |spline| {
+            format!(", K_e changes by {:.0} %", 1e2 * spline.stiffness_change)
+        }),
+        CutCriterion::Eigenvalues | CutCriterion::OutOfCut => String::new(),
+    }
+}
+
+fn deflections(run: &CutRunEntry) -> String {
+    let millimetres = |metres: f64| format!("{:.2} mm", 1e3 * metres);
+    let (in_cut, after) = (
+        run.largest_deflection_in_cut_m.map(millimetres),
+        run.largest_deflection_after_m.map(millimetres),
+    );
+    let probe = "largest deflection at the probe:";
+    match (in_cut, after) {
+        (Some(in_cut), Some(after)) => format!("{probe} {in_cut} in the cut, {after} after it"),
+        (Some(in_cut), None) => {
+            format!("{probe} {in_cut} in the cut; after it the linear model ends")
+        }
+        (None, _) => "the deflection in the cut leaves the linear model".into(),
+    }
+}

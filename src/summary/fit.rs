@@ -1,0 +1,115 @@
+//! A fit in words.
+
+use std::fmt::Write;
+
+use super::wrapped;
+use crate::report::{FitReport, ParameterEntry};
+
+impl FitReport {
+    /// The report in words, 80 columns wide, the verdict first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = table(&mut text, self);
+        text
+    }
+}
+
+fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
+    writeln!(text, "{}", wrapped(&report.scene.name))?;
+    writeln!(
+        text,
+        "{}",
+        wrapped(&format!(
+            "Fitted to {} frequencies ({}): {:.3} Hz rms, before {:.3} Hz",
+            report.measured_frequencies, report.source, report.rms_hz, report.rms_before_hz
+        ))
+    )?;
+    writeln!(
+        text,
+        "\n  {:<34} {:>10} {:>10}  {:.0} % interval",
+        "",
+        "before",
+        "fitted",
+        100.0 * report.confidence
+    )?;
+    for found in &report.parameters {
+        let ParameterEntry {
+            path, start, value, ..
+        } = found;
+        let interval = match (found.interval_from, found.interval_to) {
+            (Some(from), Some(to)) => format!("{} … {}", short(from), short(to)),
+            _ if found.at_bound => "at its bound".into(),
+            _ => "not determined".into(),
+        };
+        writeln!(
+            text,
+            "  {path:<34} {:>10} {:>10}  {interval}",
+            short(*start),
+            short(*value)
+        )?;
+    }
+    residuals(text, report)?;
+    writeln!(text)?;
+    let reached = |s: &&crate::report::StartEntry| s.rms_hz.is_some();
+    let best = report
+        .starts
+        .iter()
+        .filter_map(|s| s.rms_hz)
+        .fold(f64::INFINITY, f64::min);
+    let same = report
+        .starts
+        .iter()
+        .filter(|s| s.rms_hz.is_some_and(|rms| rms <= 1.001 * best));
+    writeln!(
+        text,
+        "{} of {} starts led to this minimum (n up to {}, {} polynomials over the radius)",
+        same.count(),
+        report.starts.iter().filter(reached).count(),
+        report.max_diameters,
+        report.radial_functions
+    )?;
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+/// Lines and columns of the table before the rest is only counted.
+const ROWS: usize = 20;
+const COLUMNS: usize = 7;
+
+fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
+    writeln!(
+        text,
+        "\nComputed minus measured frequency [Hz]\n     rpm    ascending"
+    )?;
+    let mut speeds: Vec<f64> = report.residuals.iter().map(|r| r.rpm).collect();
+    speeds.dedup();
+    for rpm in speeds.iter().take(ROWS) {
+        let own = report.residuals.iter().filter(|r| r.rpm == *rpm);
+        let mut line = format!("{rpm:>8.0}");
+        let mut fitted = true;
+        for r in own {
+            if r.place <= COLUMNS {
+                let _ = write!(line, " {:>8.2}", r.fitted_hz - r.measured_hz);
+            }
+            fitted &= r.fitted;
+        }
+        writeln!(text, "{line}{}", if fitted { "" } else { "  (not fitted)" })?;
+    }
+    match speeds.len().checked_sub(ROWS) {
+        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in fit.json"),
+        _ => Ok(()),
+    }
+}
+
+/// A number in ten columns.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let decimals = (4.0 - size.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}

@@ -1,0 +1,59 @@
+//! Reports in words: what the program prints, and the live page and Python show.
+//!
+//! In goes a report; out comes its `summary()`: plain text of 80 columns, the verdict first.
+
+mod answer;
+mod bands;
+mod cut;
+mod excitation;
+mod fit;
+mod in_cut;
+mod influences;
+mod place;
+mod report;
+mod runup;
+mod study;
+mod washboard;
+mod whirl;
+
+use std::fmt::Write;
+
+use textwrap::{Options, WordSeparator, WordSplitter};
+
+/// Lines of a table before the rest is only counted.
+const ROWS: usize = 12;
+/// Columns of a line.
+const WIDTH: usize = 80;
+
+/// Number and name of a branch, as at the lines of the Campbell diagram.
+fn numbered(branch: Option<usize>, name: &str) -> String {
+    match branch {
+        Some(number) => format!("{number}: {name}"),
+        None => name.to_owned(),
+    }
+}
+
+fn more(text: &mut String, rows: usize) -> std::fmt::Result {
+    match rows.checked_sub(ROWS) {
+        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in report.json"),
+        _ => Ok(()),
+    }
+}
+
+/// A line, ended by an ellipsis where it is too long.
+pub fn shortened(line: &str, width: usize) -> String {
+    if line.chars().count() <= width {
+        return line.to_owned();
+    }
+    line.chars().take(width - 1).chain(['…']).collect()
+}
+
+/// Breaks a sentence into lines at spaces.
+pub fn wrapped(sentence: &str) -> String {
+    let at_spaces = Options::new(WIDTH)
+        .subsequent_indent("  ")
+        .word_separator(WordSeparator::AsciiSpace)
+        .word_splitter(WordSplitter::NoHyphenation)
+        .break_words(false);
+    textwrap::fill(sentence, at_spaces)
+}

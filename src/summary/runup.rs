@@ -1,0 +1,91 @@
+//! A run-up in words.
+
+use std::fmt::Write;
+
+use super::{WIDTH, shortened, wrapped};
+use crate::report::{InstabilityKind, RunUpReport};
+use crate::transient::LINEAR_THICKNESSES;
+
+impl RunUpReport {
+    /// The report in words, 80 columns wide, the verdict first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    if report.bands.is_empty() {
+        writeln!(text, "No instability: stable at every speed of the run-up")?;
+    } else {
+        bands(text, report)?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+/// How far the run-up stays within the model, and the largest deflection up to there.
+fn verdict(report: &RunUpReport) -> String {
+    let end = match report.linear_until_rpm {
+        None => "within the linear model".to_owned(),
+        Some(rpm) => format!(
+            "valid up to about {:.0} rpm, where the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) and the linear model ends",
+            10.0 * (0.1 * rpm).round(),
+            1e3 * report.linear_limit_m
+        ),
+    };
+    let largest = report.deflection_m.iter().map(|w| w.abs());
+    let largest = largest.zip(&report.rpm).max_by(|x, y| x.0.total_cmp(&y.0));
+    let (w, at) = largest.unwrap_or((0.0, &report.from_rpm));
+    format!(
+        "Run-up from {:.0} to {:.0} rpm at {:.1} rpm/s: {end}; largest deflection {:.2} mm, at {at:.0} rpm",
+        report.from_rpm,
+        report.to_rpm,
+        report.rate_rpm_per_s,
+        1e3 * w
+    )
+}
+
+fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
+    writeln!(
+        text,
+        "\nInstabilities        from         to     time  exponent  amplification"
+    )?;
+    writeln!(
+        text,
+        "                    [rpm]      [rpm]      [s]  ∫Re λ dt  predicted  simulated"
+    )?;
+    for entry in &report.bands {
+        let kind = match entry.band.kind {
+            InstabilityKind::Divergence => "divergence",
+            InstabilityKind::Flutter => "flutter",
+        };
+        writeln!(
+            text,
+            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>10} {:>10}",
+            entry.band.from_rpm,
+            entry.band.to_rpm,
+            entry.time_s,
+            entry.growth_exponent,
+            times(entry.growth_exponent.exp()),
+            entry.seen_amplification.map_or("-".into(), times)
+        )?;
+    }
+    Ok(())
+}
+
+/// What multiplies a motion by more leaves the linear model however small it was.
+const MOST_TIMES: f64 = 1e3;
+
+fn times(factor: f64) -> String {
+    match factor <= MOST_TIMES {
+        true => format!("{factor:.2} x"),
+        false => format!("> {MOST_TIMES:.0} x"),
+    }
+}

@@ -1,0 +1,116 @@
+//! Washboarding in words.
+
+use std::fmt::Write;
+
+use super::{WIDTH, shortened, wrapped};
+use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
+
+impl WashboardReport {
+    /// The report in words, 80 columns wide, the verdict first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    writeln!(text, "{}", wrapped(&boundary(report)))?;
+    let facts = format!(
+        "{:.0} teeth pass in a second; {:.3e} N/m across the blade, overlap {}, arc of {:.1}°; modes up to {:.0} Hz",
+        report.tooth_passing_hz,
+        report.stiffness_n_per_m,
+        report.overlap,
+        report.arc_deg,
+        report.complete_to_hz
+    );
+    writeln!(text, "{}", wrapped(&facts))?;
+    modes(text, report)?;
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+fn verdict(report: &WashboardReport) -> String {
+    let rpm = report.rpm;
+    match (report.verdict, report.growing_mode()) {
+        (Verdict::Stable, _) => format!("{rpm} rpm: stable, no washboarding"),
+        (Verdict::Unstable, None) => format!("{rpm} rpm: UNSTABLE"),
+        (Verdict::Unstable, Some(mode)) => {
+            let pattern = mode
+                .pattern_pitch_m
+                .map(|pitch| format!(", waves of {} along the feed", length(pitch)));
+            format!(
+                "{rpm} rpm: UNSTABLE, washboarding grows by {:.3} 1/s at {:.1} Hz ({}){}",
+                mode.growth_per_s,
+                mode.frequency_hz,
+                mode.name,
+                pattern.unwrap_or_default()
+            )
+        }
+    }
+}
+
+fn boundary(report: &WashboardReport) -> String {
+    match (
+        report.critical_stiffness_n_per_m,
+        report.critical_frequency_hz,
+    ) {
+        (Some(stiffness), Some(hz)) if stiffness > 0.0 => format!(
+            "Least cutting stiffness at which a motion grows: {stiffness:.3e} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
+            report.stiffness_n_per_m / stiffness
+        ),
+        (Some(_), _) => "A motion grows without the delayed force".to_owned(),
+        (None, _) => format!(
+            "No motion grows up to a cutting stiffness of {:.1e} N/m",
+            report.ceiling_n_per_m
+        ),
+    }
+}
+
+fn modes(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
+    writeln!(
+        text,
+        "\nModes             frequency    growth   without  beside teeth    pitch"
+    )?;
+    writeln!(
+        text,
+        "                       [Hz]     [1/s]     [1/s]          [Hz]"
+    )?;
+    for mode in &report.modes {
+        writeln!(text, "{}", row(mode))?;
+    }
+    Ok(())
+}
+
+fn row(mode: &WashboardModeEntry) -> String {
+    let or_dash = |value: Option<f64>, decimals: usize| {
+        value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
+    };
+    let name = shortened(&mode.name, 16);
+    let beside = mode.beside_tooth_passing_hz.map(|hz| {
+        let multiple = mode.tooth_passing_multiple.unwrap_or_default();
+        format!("{multiple}x {hz:+.1}")
+    });
+    format!(
+        "  {name:<16} {:>8.1} {:>9.3} {:>9} {:>13} {:>8}",
+        mode.frequency_hz,
+        mode.growth_per_s,
+        or_dash(mode.growth_without_per_s, 3),
+        beside.unwrap_or("-".into()),
+        mode.pattern_pitch_m.map_or("-".into(), length)
+    )
+    .trim_end()
+    .to_owned()
+}
+
+fn length(metres: f64) -> String {
+    match metres < 1.0 {
+        true => format!("{:.1} mm", 1e3 * metres),
+        false => format!("{metres:.2} m"),
+    }
+}

@@ -1,0 +1,212 @@
+//! What is seen is what the command line finds, and it follows the hand.
+
+use std::time::Instant;
+
+use serde_json::{Value, json};
+use thirtyfour::Key;
+
+use crate::browser::{PAD, PATIENCE, Page, drag, hand, let_go, percentile, run, same};
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_dragged_pad_moves_the_chart_to_what_the_command_line_finds() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        let (before, verdict) = (page.text("#facts").await, page.text("#verdict").await);
+        assert!(before.contains("1531 rpm"), "{before}");
+        assert!(verdict.contains("beyond the 85 % rule"), "{verdict}");
+        page.screenshot("1280-light.png").await;
+
+        drag(&page, PAD, 40, (2, -1)).await;
+        page.wait("sawflutter.latencies.draft.length > 0").await;
+        let dragging = page.text("#facts").await;
+        assert_ne!(before, dragging, "the chart did not follow the pad");
+        page.screenshot("1280-dragging.png").await;
+        let_go(&page).await;
+        page.settle().await;
+        let after = page.text("#facts").await;
+        assert!(after.contains("1531 → "), "{after}");
+
+        let out = page.command_line().await;
+        let report: Value =
+            serde_json::from_slice(&std::fs::read(out.join("report.json")).unwrap()).unwrap();
+        let shown = page.value("sawflutter.report()").await;
+        assert!(
+            same(&shown, &report),
+            "the page shows another chart than the command line"
+        );
+        let critical = report["critical_speeds"][0]["rpm"].as_f64().unwrap();
+        assert!(
+            after.contains(&format!("→ {critical:.0} rpm")),
+            "{critical}: {after}"
+        );
+        for name in ["report.json", "campbell.png", "campbell.svg"] {
+            let saved = page.download(name).await;
+            assert!(
+                saved == std::fs::read(out.join(name)).unwrap(),
+                "{name} differs"
+            );
+        }
+        page.screenshot("1280-after.png").await;
+
+        page.find("#undo").await.click().await.unwrap();
+        page.settle().await;
+        assert_eq!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_branch_that_is_pointed_at_moves_on_the_blade() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let chart = page.find("#campbell").await;
+        // By pointer, downwards from the middle until it comes by a branch.
+        let plot = page.find("#campbell .u-over").await;
+        let middle = hand(&page).move_to_element_center(&plot);
+        middle.perform().await.unwrap();
+        let told = "document.querySelector('#mode').textContent.includes('Krein')";
+        for _ in 0..60 {
+            if page.value(told).await == json!(true) {
+                break;
+            }
+            let lower = hand(&page).move_by_offset(0, 3);
+            lower.perform().await.unwrap();
+        }
+        page.wait(told).await;
+        hand(&page).move_to(2, 2).perform().await.unwrap();
+        page.wait("!document.querySelector('#mode').textContent.includes('Krein')")
+            .await;
+        chart.focus().await.unwrap();
+        // By keyboard alone: along a branch, and to the next ones.
+        let mut told = Vec::new();
+        for key in [Key::Right, Key::Up, Key::Up, Key::Up] {
+            chart.send_keys(key + "").await.unwrap();
+            let last = told.last().cloned().unwrap_or_default();
+            page.wait(&format!(
+                "document.querySelector('#mode').textContent !== {last:?}"
+            ))
+            .await;
+            page.wait("document.querySelector('#mode').textContent.includes('Krein')")
+                .await;
+            told.push(page.text("#mode").await);
+        }
+        for told in &told {
+            assert!(told.contains("Hz in space") && told.contains("Hz on the blade"));
+            // A reflected wave is what has a negative Krein sign.
+            assert_eq!(
+                told.contains("falls behind the dot"),
+                told.contains("Krein sign −1"),
+                "{told}"
+            );
+        }
+        assert_eq!(
+            page.value("document.querySelector('#motion').hidden").await,
+            json!(false)
+        );
+        let pixels = "[...document.querySelector('#motion').getContext('2d').getImageData(0, 0, 180, 180).data].join()";
+        let before = page.value(pixels).await;
+        page.wait(&format!("{pixels} !== {before}")).await;
+        page.screenshot("1280-mode.png").await;
+        // What was pointed at last can be kept as a video.
+        page.script("document.querySelector('#film').click()").await;
+        page.wait_for_file("mode.webm").await;
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_stretch_of_speeds_is_magnified_and_let_go_again() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let all = page.value("sawflutter.speeds()").await;
+        assert_eq!(all, json!([0, 3000]));
+        drag(&page, "#campbell .u-over", 20, (8, 0)).await;
+        let_go(&page).await;
+        let some = page.value("sawflutter.speeds()").await;
+        let [from, to] = [0, 1].map(|end| some[end].as_f64().unwrap());
+        assert!(0.0 < from && from < to && to < 3000.0, "{some}");
+        page.screenshot("1280-magnified.png").await;
+        let told = page.text("#zoomed").await;
+        assert!(told.contains("rpm of the sweep"), "{told}");
+        // By keyboard: closer, and all again.
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        chart.send_keys("+").await.unwrap();
+        let closer = page.value("sawflutter.speeds()").await;
+        let width = |speeds: &Value| speeds[1].as_f64().unwrap() - speeds[0].as_f64().unwrap();
+        assert!(width(&closer) < 0.6 * (to - from), "{closer}");
+        let over = page.find("#campbell .u-over").await;
+        let twice = hand(&page).double_click_element(&over);
+        twice.perform().await.unwrap();
+        assert_eq!(page.value("sawflutter.speeds()").await, all);
+        assert_eq!(
+            page.value("document.querySelector('#zoomed').hidden").await,
+            json!(true)
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        // To and fro until enough charts have come, however busy the machine is.
+        for (charts, step) in [(5, 1), (10, -1), (15, 1)] {
+            drag(&page, PAD, 1, (step, 0)).await;
+            let begun = Instant::now();
+            for moves in 0.. {
+                let painted =
+                    page.value("sawflutter.computed.filter(([kind]) => kind === 'draft').length");
+                if painted.await.as_u64() >= Some(charts) {
+                    break;
+                }
+                assert!(begun.elapsed() < PATIENCE, "no charts while the hand moves");
+                let back = if moves / 40 % 2 == 0 { step } else { -step };
+                let moved = hand(&page).move_by_offset(back, 1 - 2 * (moves % 2));
+                moved.perform().await.unwrap();
+            }
+            let_go(&page).await;
+            page.settle().await;
+        }
+        let times = page.value("sawflutter.latencies.draft").await;
+        let computed = page
+            .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
+            .await;
+        let last = page.value("sawflutter.latencies.scene").await;
+        println!(
+            "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
+             ({} moves, {} charts of {:.0} ms median); moves still waiting at the release, to the \
+             final chart: {}; load {}",
+            percentile(&times, 0.5),
+            percentile(&times, 0.95),
+            times.as_array().unwrap().len(),
+            computed.as_array().unwrap().len(),
+            percentile(&computed, 0.5),
+            last.as_array().unwrap().len(),
+            std::fs::read_to_string("/proc/loadavg")
+                .unwrap_or_default()
+                .trim(),
+        );
+
+        // A design chart that a further change has made stale is stopped, not computed.
+        let jobs = "fetch('jobs').then((answer) => answer.json())";
+        let before = page.value(jobs).await;
+        for _ in 0..4 {
+            page.script("sawflutter.state.set('blade.thickness_m', sawflutter.state.scene.blade.thickness_m + 1e-6)").await;
+        }
+        page.settle().await;
+        let after = page.value(jobs).await;
+        let more = |key: &str| after[key].as_u64().unwrap() - before[key].as_u64().unwrap();
+        assert_eq!(more("finished"), 1, "{before} {after}");
+        page.close().await;
+    });
+}

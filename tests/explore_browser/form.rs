@@ -1,0 +1,173 @@
+//! Every quantity can be set, by hand, by keyboard and by its field.
+
+use serde_json::{Value, json};
+use thirtyfour::Key;
+
+use crate::browser::{Page, drag, hand, let_go, run, same};
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_bad_value_is_refused_at_its_field_and_the_chart_stays() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let before = page.text("#facts").await;
+        page.enter("blade.thickness_m", "-2.8").await;
+        page.wait("document.body.classList.contains('stale')").await;
+
+        // In the unit of the field, at the field and nowhere else.
+        let told = page.text("[id='blade.thickness_m:fault']").await;
+        assert!(told.starts_with("Thickness must be "), "{told}");
+        assert!(told.ends_with(" mm"), "{told}");
+        assert_eq!(page.text("#fault").await, "");
+        assert_eq!(
+            page.text("#facts").await,
+            before,
+            "the last good chart has gone"
+        );
+        page.screenshot("1280-refused.png").await;
+
+        page.enter("blade.thickness_m", "3.0").await;
+        page.settle().await;
+        assert_eq!(page.text("[id='blade.thickness_m:fault']").await, "");
+        assert_eq!(
+            page.value("document.body.classList.contains('stale')")
+                .await,
+            json!(false)
+        );
+        assert_ne!(page.text("#facts").await, before);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_is_resized_by_its_corner() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let pad = "sawflutter.state.scene.guides[0]";
+        let before = page.value(pad).await;
+        drag(&page, "[data-path='guides[0]'] .handle", 20, (1, -1)).await;
+        let_go(&page).await;
+        page.settle().await;
+        let after = page.value(pad).await;
+        let [radial, tangential] = ["radial_length_m", "tangential_length_m"];
+        assert!(before[radial] != after[radial] || before[tangential] != after[tangential]);
+        for same in ["radius_m", "angle_deg", "stiffness_n_per_m"] {
+            assert_eq!(before[same], after[same], "{same}");
+        }
+        assert!(page.text("#facts").await.contains(" → "));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_is_moved_and_put_back_by_keyboard_alone() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let radius = "sawflutter.state.scene.guides[0].radius_m";
+        page.script("document.querySelector(\"[data-path='guides[0]']\").focus()")
+            .await;
+        for key in [Key::Up, Key::Up, Key::Up] {
+            hand(&page).send_keys(key + "").perform().await.unwrap();
+        }
+        page.settle().await;
+        assert_eq!(page.value(radius).await, json!(0.203));
+        assert!(page.text("#facts").await.contains(" → "));
+        let moved = page.text("[data-path='guides[0]'] title").await;
+        assert!(moved.contains("radius 203 mm"), "{moved}");
+        // Presses that follow each other are one step.
+        hand(&page)
+            .key_down(Key::Control)
+            .send_keys("z")
+            .key_up(Key::Control)
+            .perform()
+            .await
+            .unwrap();
+        page.settle().await;
+        assert_eq!(page.value(radius).await, json!(0.2));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn heat_is_set_by_its_field() {
+    run(async {
+        let scene = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/scenes/collar-400mm-tensioned.json"
+        );
+        let page = Page::open(&[scene]).await;
+        page.settle().await;
+        let before = page.text("#facts").await;
+        let opened =
+            "document.querySelectorAll('[data-path^=membrane]').forEach((d) => (d.open = true))";
+        page.script(opened).await;
+        page.enter("membrane.temperature.rim_rise_k", "30").await;
+        page.settle().await;
+        let after = page.text("#facts").await;
+        assert!(
+            before.contains("33.6 K") && after.contains(" → "),
+            "{before} {after}"
+        );
+        page.screenshot("1280-heat.png").await;
+        let out = page.command_line().await;
+        let report = std::fs::read(out.join("report.json")).unwrap();
+        let report: Value = serde_json::from_slice(&report).unwrap();
+        assert!(same(&page.value("sawflutter.report()").await, &report));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn parts_that_are_put_in_begin_with_values_that_compute() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let press = |words: &'static str| {
+            let find = format!(
+                "[...document.querySelectorAll('#fields button')].find((b) => b.textContent === {words:?}).click()"
+            );
+            let page = &page;
+            async move {
+                page.script(&find).await;
+                page.settle().await;
+                assert_eq!(page.text("#fault").await, "", "{words}");
+                assert_eq!(
+                    page.value("document.body.classList.contains('stale')")
+                        .await,
+                    json!(false),
+                    "{words}"
+                );
+            }
+        };
+        press("Add a guide").await;
+        press("Add a guide").await;
+        let angles = page
+            .value("sawflutter.state.scene.guides.map((pad) => pad.angle_deg)")
+            .await;
+        assert_eq!(angles, json!([-55, 125, -145]));
+        press("Put membrane in").await;
+        press("Put temperature in").await;
+        press("Add a roll tension").await;
+        press("Add a residual stress").await;
+        press("Take cut out").await;
+        press("Put cut in").await;
+        press("Put damping in").await;
+        page.screenshot("1280-parts.png").await;
+        // What a reader of the screen hears is never the same twice.
+        let names = "[...document.querySelectorAll('#fields input, #fields select, #fields textarea')].map((field) => field.getAttribute('aria-label') ?? field.id)";
+        let twice = page
+            .value(&format!(
+                "((all) => all.filter((name, i) => all.indexOf(name) !== i))({names})"
+            ))
+            .await;
+        assert_eq!(twice, json!([]));
+        page.close().await;
+    });
+}
