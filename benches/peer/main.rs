@@ -1,16 +1,22 @@
-//! The Rust side of `benches/peer/run.sh`: times of charts and sweeps, as JSON.
+//! The Rust side of `benches/peer/run.sh`: times of charts, sketches, sweeps and saws, as JSON.
 //!
-//! Minima over repeats: other work on the machine only ever adds.
+//! Minima over repeats: other work on the machine only ever adds. `PLACE=1` adds a whole placement
+//! of the built-in saw, which takes a minute.
 
 use std::time::Instant;
 
 use sawflutter::campbell::even_speeds;
+use sawflutter::place::{Demands, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, rad_per_s};
+use sawflutter::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, AnalysisError, chart};
+use sawflutter::stability::{Analysis, AnalysisOptions, Detail, Onsets, chart, search_bands};
 use serde_json::json;
 
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// Tolerance of a study of the paper's saw.
+const STUDY_TOLERANCE: f64 = 6e-3;
 const SWEEP: usize = 201;
 const LOW_MODES: usize = 6;
 /// (n_max, J) of 85, 264, 490 and 1001 functions.
@@ -27,9 +33,9 @@ fn main() {
     }
 }
 
-fn measured(repeats: usize) -> Result<serde_json::Value, AnalysisError> {
-    let scene = Scene::paper();
-    let full_chart = || Analysis::new(&scene).map(|_| ());
+fn measured(repeats: usize) -> Result<serde_json::Value, Failure> {
+    let few = repeats.min(3);
+    let full = analysed(|_| (), Detail::Full)?;
     let (swept, frequencies) = (|| sweep().map(|_| ()), sweep()?);
     let mut by_size = Vec::new();
     for (max_diameters, radial_functions) in SIZES {
@@ -37,36 +43,113 @@ fn measured(repeats: usize) -> Result<serde_json::Value, AnalysisError> {
             max_diameters,
             radial_functions,
         };
-        let seconds = on_threads(1, || fastest(repeats.min(3), || charted(resolution)))?;
+        let seconds = on_threads(1, || fastest(few, || charted(resolution)))?;
         by_size.push(json!({ "functions": resolution.degrees_of_freedom(), "seconds": seconds }));
     }
+    let alone = |repeats: usize, work: &(dyn Fn() -> Result<(), Failure> + Sync)| {
+        on_threads(1, || fastest(repeats, work))
+    };
+    let sketch = analysed(|saw| saw.accuracy = Accuracy::Draft, Detail::Sketch)?;
+    let reference = analysed(|saw| saw.accuracy = Accuracy::Reference, Detail::Full)?;
+    let finest = analysed(|saw| saw.tolerance = Some(1e-6), Detail::Full)?;
+    let to_6000 = analysed(
+        |saw| {
+            saw.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: 6000.0,
+            });
+        },
+        Detail::Full,
+    )?;
+    let saw = Scene::paper().edited(|saw| saw.tolerance = Some(STUDY_TOLERANCE))?;
+    let study = || Ok(Onsets::new(&saw).map(|_| ())?);
+    let one_place = bands_of_a_place;
+    let whole_place = match std::env::var_os("PLACE") {
+        Some(_) => Some(on_threads(1, || fastest(1, placed))?),
+        None => None,
+    };
     Ok(json!({
         "repeats": repeats,
         "chart_s": {
-            "one_thread": on_threads(1, || fastest(repeats, full_chart))?,
-            "two_threads": on_threads(2, || fastest(repeats, full_chart))?,
+            "one_thread": alone(repeats, &full)?,
+            "two_threads": on_threads(2, || fastest(repeats, &full))?,
         },
+        "sketch_s": alone(repeats, &sketch)?,
+        "reference_s": alone(few, &reference)?,
+        "finest_s": alone(1, &finest)?,
+        "to_6000_rpm_s": alone(1, &to_6000)?,
+        "study_saw_s": alone(repeats, &study)?,
+        "place_saw_s": alone(repeats, &one_place)?,
+        "place_s": whole_place,
         "sweep_201_at_264_s": {
-            "one_thread": on_threads(1, || fastest(repeats, swept))?,
+            "one_thread": alone(repeats, &swept)?,
             "two_threads": on_threads(2, || fastest(repeats, swept))?,
         },
         "chart_by_functions": by_size,
+        "peak_memory_mb": peak_memory_mb(),
         "low_frequencies_rad_per_s": frequencies,
     }))
+}
+
+/// An analysis of the built-in saw with something changed.
+fn analysed(
+    change: impl FnOnce(&mut SceneFile),
+    detail: Detail,
+) -> Result<impl Fn() -> Result<(), Failure> + Sync, Failure> {
+    let scene = Scene::paper().edited(change)?;
+    Ok(move || {
+        let options = AnalysisOptions {
+            detail,
+            ..AnalysisOptions::default()
+        };
+        Ok(Analysis::with_options(&scene, options).map(|_| ())?)
+    })
+}
+
+/// What `place` asks of a saw that it tries, on the basis of its first search.
+fn bands_of_a_place() -> Result<(), Failure> {
+    let resolution = Resolution {
+        max_diameters: 8,
+        radial_functions: 5,
+    };
+    let plate = Plate::new(&Scene::paper(), resolution);
+    let critical = SpectralModel::critical_speeds(&plate)?;
+    search_bands(plate, critical, range())?;
+    Ok(())
+}
+
+/// `sawflutter place` with its defaults.
+fn placed() -> Result<(), Failure> {
+    let scene = Scene::paper();
+    let paths = ["radius_m", "angle_deg", "stiffness_n_per_m"];
+    let freed = paths.map(|key| Freed::with_usual_bounds(&scene, &format!("guides[0].{key}")));
+    let freed: Vec<Freed> = freed.into_iter().collect::<Result<_, _>>()?;
+    let (demands, options) = (Demands::default(), Options::default());
+    Placement::new(&scene, &freed, &demands, &options, &|_, _, _| ())?;
+    Ok(())
+}
+
+/// The most memory that this process has held, where the system says so.
+fn peak_memory_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes / 1024.0)
 }
 
 fn range() -> (f64, f64) {
     (0.0, rad_per_s(3000.0))
 }
 
-fn charted(resolution: Resolution) -> Result<(), AnalysisError> {
+fn charted(resolution: Resolution) -> Result<(), Failure> {
     let plate = Plate::new(&Scene::paper(), resolution);
     let model = SpectralModel::new(plate, range(), Strategy::Reduced)?;
-    chart(&model, range(), 51, &|_, _| ()).map(|_| ())
+    chart(&model, range(), 51, &|_, _| ())?;
+    Ok(())
 }
 
 /// The lowest |Im λ| at 201 speeds, from scene to numbers.
-fn sweep() -> Result<Vec<Vec<f64>>, AnalysisError> {
+fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
     use rayon::prelude::*;
     let resolution = Resolution {
         max_diameters: 16,
@@ -82,10 +165,7 @@ fn sweep() -> Result<Vec<Vec<f64>>, AnalysisError> {
     even_speeds(range(), SWEEP).par_iter().map(lowest).collect()
 }
 
-fn fastest(
-    repeats: usize,
-    work: impl Fn() -> Result<(), AnalysisError>,
-) -> Result<f64, AnalysisError> {
+fn fastest(repeats: usize, work: impl Fn() -> Result<(), Failure>) -> Result<f64, Failure> {
     let mut least = f64::INFINITY;
     for _ in 0..repeats {
         let start = Instant::now();

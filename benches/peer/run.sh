@@ -12,5 +12,5 @@ for basis in 6,6 16,8 24,10; do
     "$program" export --matrices --basis "$basis" --out "$work/$basis" > /dev/null
 done
 cargo bench --locked --bench peer > "$work/rust.json"
-OPENBLAS_NUM_THREADS=1 "$work/python/bin/python" benches/peer/peer.py \
+SAWFLUTTER=$program OPENBLAS_NUM_THREADS=1 "$work/python/bin/python" benches/peer/peer.py \
     "$work/rust.json" "$work/6,6" "$work/16,8" "$work/24,10"

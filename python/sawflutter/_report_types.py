@@ -365,6 +365,10 @@ class Work(Entry):
     full_solves: int
     """Of the whole basis: Krylov iterations with a factorization each, or dense ones."""
 
+    structured_solves: int
+    """Those among them that went by the blocks of the blade and the columns of its guides, in a
+    time linear in the number of functions; edge loads and dampers leave no such structure."""
+
     reduced_solves: int
     """Dense, of the projected matrices."""
 

@@ -333,6 +333,7 @@ fn work(counters: &WorkCounters) -> WorkEntry {
     let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
     WorkEntry {
         full_solves: count(&counters.full_solves),
+        structured_solves: count(&counters.structured_solves),
         reduced_solves: count(&counters.reduced_solves),
         local_solves: count(&counters.local_solves),
         refined_pairs: count(&counters.refined_pairs),

@@ -217,6 +217,9 @@ pub struct AccuracyEntry {
 pub struct WorkEntry {
     /// Of the whole basis: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
+    /// Those among them that went by the blocks of the blade and the columns of its guides, in a time linear
+    /// in the number of functions; edge loads and dampers leave no such structure.
+    pub structured_solves: usize,
     /// Dense, of the projected matrices.
     pub reduced_solves: usize,
     /// Dense, of the few states between two speeds.

@@ -12,6 +12,7 @@
 //! half as many vectors find the same modes, and the eigenproblem among them takes an eighth (V. Mehrmann, D. Watkins,
 //! SIAM J. Sci. Comput. 22, 2001).
 
+mod inverse;
 mod operator;
 
 use faer::linalg::solvers::{Eigen, EvdError};
@@ -22,6 +23,7 @@ use crate::system::GyroscopicSystem;
 
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
+use super::inertia::WholeBasis;
 use super::mode::rigid_noise;
 use super::vectors::{Eigenpair, by_magnitude, split, unit};
 use crate::tuned::Tuned;
@@ -47,20 +49,52 @@ pub fn lowest_eigenpairs(
     count: usize,
     shift_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
-    // Free rigid motions are double zeros, of which the squares are defective.
-    let is_hamiltonian = system.is_conservative() && system.free_rigid.is_empty();
     let inverse = ShiftedInverse::new(system, speed_rad_per_s, shift_per_s);
-    let found = match is_hamiltonian {
+    let found = match is_hamiltonian(system) {
         true => nearest(&SquaredInverse::new(inverse), count, shift_per_s),
         false => nearest(&inverse, 2 * count, shift_per_s),
     };
-    let mut pairs = found.map_err(|_| SpectrumError::NoConvergence {
-        order: 2 * system.order(),
-        rpm: rpm(speed_rad_per_s),
-    })?;
+    let mut pairs = found.map_err(|_| no_convergence(system, speed_rad_per_s))?;
     // Free rigid motions are known exactly; these are their rounded doubles.
     pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
     Ok(pairs)
+}
+
+/// The same by the structure of an undamped blade's matrices, in a time linear in its functions: exact but for
+/// what the columns of its guides leave out, so vectors to span modes with. `None` where there is no such structure.
+///
+/// # Errors
+/// [`SpectrumError::NoConvergence`].
+pub(super) fn nearly_lowest_eigenpairs(
+    basis: &WholeBasis,
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    count: usize,
+    shift_per_s: f64,
+) -> Result<Option<Vec<Eigenpair>>, SpectrumError> {
+    if !is_hamiltonian(system) {
+        return Ok(None);
+    }
+    let inverse = ShiftedInverse::by_structure(basis, system, speed_rad_per_s, shift_per_s);
+    let Some(inverse) = inverse else {
+        return Ok(None);
+    };
+    let found = nearest(&SquaredInverse::new(inverse), count, shift_per_s);
+    found
+        .map(Some)
+        .map_err(|_| no_convergence(system, speed_rad_per_s))
+}
+
+/// Free rigid motions are double zeros, of which the squares are defective.
+fn is_hamiltonian(system: &GyroscopicSystem) -> bool {
+    system.is_conservative() && system.free_rigid.is_empty()
+}
+
+fn no_convergence(system: &GyroscopicSystem, speed_rad_per_s: f64) -> SpectrumError {
+    SpectrumError::NoConvergence {
+        order: 2 * system.order(),
+        rpm: rpm(speed_rad_per_s),
+    }
 }
 
 /// The pairs of the eigenvalues of largest magnitude of an operator, as many as wanted.

@@ -8,11 +8,12 @@ use std::sync::atomic::Ordering;
 use faer::{Col, Mat, Scale};
 use rayon::prelude::*;
 
-use super::arnoldi::lowest_eigenpairs;
+use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
 use super::companion::companion_eigenpairs;
 use super::component::ReflectedProjection;
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
+use super::inertia::WholeBasis;
 use super::mode::{ModeKind, classify};
 use super::projection::Projection;
 use super::reflected::{KnownStates, SPAN_MARGIN};
@@ -65,12 +66,14 @@ pub struct GuidedReductions {
 /// [`SpectrumError::Cancelled`].
 pub fn of_guided(
     system: &GyroscopicSystem,
+    structure: Option<&WholeBasis>,
     range: (f64, f64),
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
 ) -> Result<GuidedReductions, SpectrumError> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
+    builder.structure = structure;
     let (reflected, drawn) = rayon::join(
         || builder.reflected_height(range.1),
         || builder.chart_height(range.0),
@@ -104,12 +107,14 @@ pub struct BandReduction {
 /// where no wave is reflected, it costs a sixth.
 pub fn for_bands(
     system: &GyroscopicSystem,
+    structure: Option<&WholeBasis>,
     range: (f64, f64),
     scale: f64,
     critical: &[NamedCriticalSpeed],
     counters: &WorkCounters,
 ) -> Result<Option<BandReduction>, SpectrumError> {
     let mut builder = Builder::new(system, range, scale, critical, counters);
+    builder.structure = structure;
     let (height, last) = builder.reflected_height(range.1)?;
     if height == 0.0 {
         return Ok(None);
@@ -140,6 +145,8 @@ struct Tried {
 
 struct Builder<'a> {
     system: &'a GyroscopicSystem,
+    /// Blocks and columns of its matrices, where it has such.
+    structure: Option<&'a WholeBasis>,
     range: (f64, f64),
     scale: f64,
     critical: &'a [NamedCriticalSpeed],
@@ -159,6 +166,7 @@ impl<'a> Builder<'a> {
     ) -> Self {
         Builder {
             system,
+            structure: None,
             range,
             scale,
             critical,
@@ -192,7 +200,15 @@ impl<'a> Builder<'a> {
         count: usize,
     ) -> Result<Vec<Eigenpair>, SpectrumError> {
         self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
-        lowest_eigenpairs(system, speed, count, 0.5 * self.scale)
+        let shift = 0.5 * self.scale;
+        if let Some(basis) = self.structure
+            && let Some(found) = nearly_lowest_eigenpairs(basis, system, speed, count, shift)?
+        {
+            let structured = &self.counters.structured_solves;
+            structured.fetch_add(1, Ordering::Relaxed);
+            return Ok(found);
+        }
+        lowest_eigenpairs(system, speed, count, shift)
     }
 
     fn chart_height(&self, speed: f64) -> Result<(f64, Snapshot), SpectrumError> {

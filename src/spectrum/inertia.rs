@@ -25,8 +25,8 @@ mod waves;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use faer::{Mat, c64};
-use nalgebra::DMatrix;
+use faer::{Mat, Scale, c64};
+use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 pub use self::damped::DampedBasis;
 
@@ -61,8 +61,10 @@ pub struct Harmonic {
     pub scale: DMatrix<f64>,
     /// σ.
     shift: f64,
-    /// Eigenvectors of K_b + K_m: near those of every speed.
-    resting: DMatrix<f64>,
+    /// The waves at rest, near those of every speed: of K_b + K_m.
+    pub resting: SymmetricEigen<f64, Dyn>,
+    /// K_σ in these.
+    resting_tension: DMatrix<f64>,
 }
 
 /// Share of T = B(0) + σ that rounding may change L by.
@@ -105,6 +107,29 @@ impl WholeBasis {
         let harmonic =
             |block: &HarmonicBlock| Harmonic::new(block, plate.offset(block.diameters), scale);
         plate.harmonics.iter().map(harmonic).collect()
+    }
+
+    /// L(σ) = K(Ω) + σ² + σ 2ΩG at a real σ, in units of σ², with what is left out of PPᵀ left out.
+    /// `None` where edge loads couple every wave with every other.
+    pub fn shifted(&self, speed_rad_per_s: f64, shift_per_s: f64) -> Option<ShiftedBlocks> {
+        let Coupling::Columns(columns) = &self.coupling else {
+            return None;
+        };
+        let square = shift_per_s.powi(2);
+        let blocks = self.harmonics.iter().map(|h| {
+            let carried = h.diameters as f64 * speed_rad_per_s;
+            let mut block = (&h.rest + &h.tension * speed_rad_per_s.powi(2)) / square;
+            (0..h.radial()).for_each(|i| block[(i, i)] += 1.0 - carried.powi(2) / square);
+            ShiftedBlock {
+                firsts: h.firsts().collect(),
+                block,
+                turning: 2.0 * carried / shift_per_s,
+            }
+        });
+        Some(ShiftedBlocks {
+            blocks: blocks.collect(),
+            columns: Scale(1.0 / shift_per_s) * columns.in_unknowns(&self.harmonics),
+        })
     }
 
     /// Whether a count needs a factorization of the order of the basis.
@@ -182,7 +207,7 @@ impl WholeBasis {
         match &self.coupling {
             Coupling::Columns(columns) => {
                 let waves = at.waves[look].get_or_init(|| {
-                    let free = at.free.get_or_init(|| self.free_waves(&at.blocks));
+                    let free = at.free.get_or_init(|| self.free_waves(at.speed_rad_per_s));
                     Waves::new(free, columns, columns.rests[look].0)
                 });
                 waves.count(&self.harmonics, &blocks)
@@ -195,10 +220,17 @@ impl WholeBasis {
         }
     }
 
-    fn free_waves(&self, blocks: &[DMatrix<f64>]) -> Vec<Eigenvectors> {
-        let each = self.harmonics.iter().zip(blocks);
-        each.map(|(harmonic, block)| Eigenvectors::near(&harmonic.resting, block))
-            .collect()
+    /// The waves of every block at a speed, in those at rest.
+    fn free_waves(&self, speed_rad_per_s: f64) -> Vec<Eigenvectors> {
+        let square = speed_rad_per_s.powi(2);
+        let turned = self.harmonics.iter().map(|h| {
+            let mut turned = &h.resting_tension * square;
+            for (i, own) in h.resting.eigenvalues.iter().enumerate() {
+                turned[(i, i)] += own;
+            }
+            turned
+        });
+        turned.map(Eigenvectors::of).collect()
     }
 
     fn add_blocks(
@@ -224,12 +256,28 @@ impl WholeBasis {
     }
 }
 
+/// Blocks and columns of L(σ) = blocks + PPᵀ.
+pub struct ShiftedBlocks {
+    pub blocks: Vec<ShiftedBlock>,
+    /// P, N × columns.
+    pub columns: Mat<f64>,
+}
+
+/// Of one harmonic: the same block for cosines and sines, and ±`turning` between them.
+pub struct ShiftedBlock {
+    /// Index of the first cosine, and of the first sine.
+    pub firsts: Vec<usize>,
+    pub block: DMatrix<f64>,
+    /// 2Ωn, which sines add to the force on cosines.
+    pub turning: f64,
+}
+
 /// B_n at a speed, and its waves once they are asked for.
 #[derive(Debug)]
 pub struct AtSpeed {
     speed_rad_per_s: f64,
     blocks: Vec<DMatrix<f64>>,
-    /// The waves of every block.
+    /// The waves of every block, in those at rest.
     free: OnceLock<Vec<Eigenvectors>>,
     /// With the first columns alone, and with all.
     waves: [OnceLock<Waves>; 2],
@@ -255,6 +303,7 @@ impl Harmonic {
         let least = |matrix: &DMatrix<f64>| matrix.symmetric_eigenvalues().min();
         let resting = rest.clone().symmetric_eigen();
         let shift = frequency_scale.powi(2) + 2.0 * (-resting.eigenvalues.min()).max(0.0);
+        let resting_tension = resting.eigenvectors.tr_mul(&tension) * &resting.eigenvectors;
         Harmonic {
             diameters: block.diameters,
             first,
@@ -263,7 +312,8 @@ impl Harmonic {
             rest,
             tension,
             shift,
-            resting: resting.eigenvectors,
+            resting,
+            resting_tension,
         }
     }
 

@@ -4,6 +4,7 @@
 //! lowest modes of a few speeds, chosen until the residuals on the whole basis say
 //! that every mode up to `complete_to` is right at every speed.
 
+use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 
 use faer::{Col, Mat, c64};
@@ -17,6 +18,7 @@ use super::critical::{NamedCriticalSpeed, named_critical_speeds};
 use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
+use super::inertia::WholeBasis;
 use super::mode::{Mode, ModeKind, classify, pairs_of};
 use super::mode_name::ModeName;
 use super::projection::Projection;
@@ -68,7 +70,11 @@ pub struct SpectralModel {
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
+    structure: OnceLock<WholeBasis>,
 }
+
+/// Below this order a factorization of the whole matrix costs less than one by blocks and columns.
+const STRUCTURED: usize = 200;
 
 /// At rest the two waves of equal n are degenerate. This share of the blade's
 /// frequency scale, as a rotation, splits them into forward and backward as at any
@@ -106,6 +112,7 @@ impl SpectralModel {
             complete_to_rad_per_s: f64::INFINITY,
             unsettled_rad_per_s: 0.0,
             counters,
+            structure: OnceLock::new(),
         };
         match (strategy, model.plate.is_axisymmetric()) {
             (Strategy::Dense, _) => (),
@@ -130,10 +137,15 @@ impl SpectralModel {
     fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
+        let is_large = self.plate.degrees_of_freedom() >= STRUCTURED;
+        let structure =
+            is_large.then(|| self.structure.get_or_init(|| WholeBasis::new(&self.plate)));
         for component in &mut self.components {
             let system = &component.full;
             let bands_alone = match strategy == Strategy::Bands {
-                true => guided_reduction::for_bands(system, range, scale, critical, counters)?,
+                true => guided_reduction::for_bands(
+                    system, structure, range, scale, critical, counters,
+                )?,
                 false => None,
             };
             if let Some(found) = bands_alone {
@@ -144,7 +156,9 @@ impl SpectralModel {
                 };
                 self.unsettled_rad_per_s = found.unsettled_rad_per_s;
             } else {
-                let found = guided_reduction::of_guided(system, range, scale, critical, counters)?;
+                let found = guided_reduction::of_guided(
+                    system, structure, range, scale, critical, counters,
+                )?;
                 component.solution = Solution::Projected {
                     chart: found.chart,
                     reflected: found.low,
@@ -229,6 +243,11 @@ impl SpectralModel {
             modes.extend(classify(&component.full, speed_rad_per_s, index, pairs));
         }
         Ok(modes)
+    }
+
+    /// The blade and what couples its harmonics, without damping.
+    pub(crate) fn whole_basis(&self) -> &WholeBasis {
+        self.structure.get_or_init(|| WholeBasis::new(&self.plate))
     }
 
     /// Whether the scene is undamped: then modes have Krein signs.

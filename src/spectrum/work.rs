@@ -17,6 +17,8 @@ pub struct WorkCounters {
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
+    /// Those among them that went by blocks and columns.
+    pub structured_solves: AtomicUsize,
     /// Symmetric eigenproblems of the whole basis under other temperatures.
     pub heat_solves: AtomicUsize,
     /// Looked at where work is counted.

@@ -18,7 +18,7 @@ use crate::spectrum::{AtSpeed, SpectralModel, SpectrumError, WholeBasis};
 /// Counts of one saw.
 pub struct FullBasis<'a> {
     model: &'a SpectralModel,
-    basis: WholeBasis,
+    basis: &'a WholeBasis,
     counted: AtomicUsize,
 }
 
@@ -137,7 +137,7 @@ impl<'a> FullBasis<'a> {
     pub fn new(model: &'a SpectralModel) -> Option<Self> {
         (!model.plate.is_axisymmetric()).then(|| FullBasis {
             model,
-            basis: WholeBasis::new(&model.plate),
+            basis: model.whole_basis(),
             counted: AtomicUsize::new(0),
         })
     }

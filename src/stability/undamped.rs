@@ -26,7 +26,13 @@ pub(super) fn charted(
     detail: Detail,
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
-    let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
+    let even = campbell::even_speeds(range, count);
+    let speeds = match detail {
+        Detail::Full => with_critical_speeds(model, range, even),
+        // A curve that is followed through zero needs no speeds beside it.
+        Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
+        Detail::Sketch => with_critical_speeds(model, range, even),
+    };
     let mut samples = campbell::sample(model, &speeds, progress)?;
     // A free blade has no bands to search for, and is only held against the Krein index.
     let search = match model.plate.is_axisymmetric() {
@@ -104,6 +110,9 @@ fn critical_gap(critical: &[f64], index: usize) -> f64 {
     }
 }
 
+/// Relative distance from a critical speed at which an eigenvalue is told from zero by far.
+const CLEAR: f64 = 1e-5;
+
 /// The speeds, and both sides of each group of critical speeds in the range, and the
 /// middle between groups.
 pub(super) fn with_critical_speeds(
@@ -157,6 +166,16 @@ pub(super) fn with_critical_speeds(
     speeds.extend(sides);
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
+    speeds
+}
+
+/// The speeds at which no eigenvalue is next to zero.
+fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
+    let is_clear = |speed: &f64| {
+        let mut critical = model.critical.iter();
+        critical.all(|c| (speed / c.speed_rad_per_s - 1.0).abs() > CLEAR)
+    };
+    speeds.retain(is_clear);
     speeds
 }
 

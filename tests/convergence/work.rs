@@ -34,6 +34,26 @@ fn a_chart_takes_no_more_work_than_it_took() {
     assert!(work.full_solves > 0 && work.local_solves > 0, "{work:?}");
 }
 
+/// Guides leave blocks and few columns, edge loads couple every wave with every other, and dampers leave
+/// eigenvalues without mirror images: the report says which way was taken.
+#[test]
+fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
+    let guided = report(Accuracy::Design).work;
+    println!("{guided:?}");
+    assert_eq!(guided.structured_solves, guided.full_solves);
+    let changed = |change: fn(&mut sawflutter::scene::SceneFile)| {
+        let scene = Scene::paper().edited(change).unwrap();
+        Analysis::new(&scene).unwrap().report().work
+    };
+    let in_cut = changed(|saw| saw.cut.as_mut().unwrap().chart_rpm = Some(2800.0));
+    assert!(
+        in_cut.full_solves > 0 && in_cut.structured_solves == 0,
+        "{in_cut:?}"
+    );
+    let damped = changed(|saw| saw.guides[0].damping_n_s_per_m = 5.0);
+    assert!(damped.structured_solves < damped.full_solves, "{damped:?}");
+}
+
 /// More functions, the same eigenproblems: only the few of the whole basis grow.
 #[test]
 fn work_hardly_depends_on_the_accuracy() {

@@ -3,9 +3,10 @@
 //! (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu. Without dampers D is skew and K symmetric, so
 //! that L(−σ) = L(σ)ᵀ.
 
-use faer::linalg::solvers::DenseSolveCore;
 use faer::{Col, ColRef, Mat, MatRef, Scale, c64};
 
+use super::inverse::Inverse;
+use crate::spectrum::inertia::WholeBasis;
 use crate::spectrum::vectors::Eigenpair;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
@@ -39,9 +40,8 @@ pub(super) trait Operator {
 
 /// (A − σ)⁻¹ on (q, q̇/σ) in units of σ: eigenvalues σ/(λ − σ).
 pub(super) struct ShiftedInverse {
-    /// (L(σ)/σ²)⁻¹: applying it takes half the time of two triangular solves, and the few
-    /// dozen applications repay it.
-    inverse: Mat<f64>,
+    /// (L(σ)/σ²)⁻¹.
+    inverse: Inverse,
     /// D/σ.
     velocity: Velocity,
 }
@@ -91,15 +91,31 @@ impl ShiftedInverse {
         let mut dynamic = Scale(shift_per_s.powi(-2)) * stiffness + &velocity;
         (0..size).for_each(|i| dynamic[(i, i)] += 1.0);
         ShiftedInverse {
-            inverse: dynamic.partial_piv_lu().inverse(),
+            inverse: Inverse::dense(&dynamic),
             velocity: Velocity::new(velocity),
         }
+    }
+
+    /// The same of an undamped blade by the structure of its matrices, but for what its guides'
+    /// columns leave out. `None` where they have none.
+    pub fn by_structure(
+        basis: &WholeBasis,
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        shift_per_s: f64,
+    ) -> Option<Self> {
+        let structure = basis.shifted(speed_rad_per_s, shift_per_s)?;
+        let velocity = Scale(1.0 / shift_per_s) * system.velocity_at(speed_rad_per_s);
+        Some(ShiftedInverse {
+            inverse: Inverse::by_blocks(&structure)?,
+            velocity: Velocity::new(velocity),
+        })
     }
 }
 
 impl Operator for ShiftedInverse {
     fn order(&self) -> usize {
-        2 * self.inverse.nrows()
+        2 * self.inverse.order()
     }
 
     fn most_vectors(order: usize) -> usize {
@@ -111,11 +127,11 @@ impl Operator for ShiftedInverse {
     }
 
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
-        let size = self.inverse.nrows();
+        let size = self.inverse.order();
         let (x, y) = z.split_at_row(size);
         let mut load = x + y;
         self.velocity.add_product(1.0, x, &mut load);
-        let u = &self.inverse * load;
+        let u = self.inverse.times(load.as_ref());
         Col::from_fn(2 * size, |i| match i.checked_sub(size) {
             Some(i) => x[i] - u[i],
             None => -u[i],
@@ -125,7 +141,7 @@ impl Operator for ShiftedInverse {
     fn clear(&self, _: MatRef<'_, f64>, _: &mut Col<f64>) {}
 
     fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair> {
-        let q = Col::from_fn(self.inverse.nrows(), |i| c64::new(re[i], im[i]));
+        let q = Col::from_fn(self.inverse.order(), |i| c64::new(re[i], im[i]));
         vec![(eigenvalue.inv() + 1.0, q)]
     }
 }
@@ -168,15 +184,15 @@ impl Operator for SquaredInverse {
 
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
         let ShiftedInverse { inverse, velocity } = &self.shifted;
-        let x = z.subrows(0, inverse.nrows());
+        let x = z.subrows(0, inverse.order());
         // (A − σ)⁻¹, then (A + σ)⁻¹.
         let mut load = self.velocity_of(z) + x;
         velocity.add_product(1.0, x, &mut load);
-        let u = Scale(-1.0) * (inverse * load);
+        let u = Scale(-1.0) * inverse.times(load.as_ref());
         let v = x + &u;
         let mut load = &v - &u;
         velocity.add_product(1.0, u.as_ref(), &mut load);
-        let w = Scale(-1.0) * (inverse.transpose() * load);
+        let w = Scale(-1.0) * inverse.transposed_times(load.as_ref());
         let mut p = u - &w;
         velocity.add_product(0.5, w.as_ref(), &mut p);
         stacked(&w, &p)

@@ -1,6 +1,7 @@
 //! What couples the harmonics, as few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε (B(0) + σ).
 
-use faer::{Mat, c64};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par, c64};
 use nalgebra::DMatrix;
 
 use super::Harmonic;
@@ -21,6 +22,8 @@ pub struct Columns {
     pub cosine: Mat<f64>,
     /// Rows of sin nθ, the same way; zero for n = 0.
     pub sine: Mat<f64>,
+    /// Both in the waves of the blade at rest, those of cosines above those of sines.
+    pub resting: Mat<f64>,
     /// Numbers of columns to begin with, each with the ε of those left out.
     pub rests: [(usize, f64); 2],
 }
@@ -81,6 +84,29 @@ impl Columns {
         }
     }
 
+    /// P in the unknowns of the plate, N × columns.
+    pub fn in_unknowns(&self, harmonics: &[Harmonic]) -> Mat<f64> {
+        let count = self.cosine.ncols();
+        let order = harmonics.iter().map(|h| h.radial() * h.firsts().count());
+        let mut unknowns = Mat::zeros(order.sum(), count);
+        let mut row = 0;
+        for harmonic in harmonics {
+            let norm = match harmonic.diameters {
+                0 => 1.0,
+                _ => std::f64::consts::SQRT_2,
+            };
+            for (first, rows) in harmonic.firsts().zip([&self.cosine, &self.sine]) {
+                for k in 0..count {
+                    for j in 0..harmonic.radial() {
+                        unknowns[(first + j, k)] = norm * rows[(row + j, k)];
+                    }
+                }
+            }
+            row += harmonic.radial();
+        }
+        unknowns
+    }
+
     /// T¹ᐟ² times the columns, sorted by waves.
     fn unscaled(
         columns: &[Vec<f64>],
@@ -111,9 +137,22 @@ impl Columns {
             }
             row += radial;
         }
+        let mut resting = Mat::zeros(2 * rows, columns.len());
+        let mut row = 0;
+        for harmonic in harmonics {
+            let (radial, vectors) = (harmonic.radial(), &harmonic.resting.eigenvectors);
+            let turn = Mat::from_fn(radial, radial, |i, j| vectors[(j, i)]);
+            for (first, own) in [(row, &cosine), (rows + row, &sine)] {
+                let turned = resting.subrows_mut(first, radial);
+                let own = own.subrows(row, radial);
+                matmul(turned, Accum::Replace, &turn, own, 1.0, Par::Seq);
+            }
+            row += radial;
+        }
         Columns {
             cosine,
             sine,
+            resting,
             rests,
         }
     }

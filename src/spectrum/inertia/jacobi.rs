@@ -13,27 +13,26 @@ pub struct Eigenvectors {
     pub vectors: DMatrix<f64>,
 }
 
-/// Share of √(aᵢᵢaⱼⱼ) below which aᵢⱼ is rounding.
-const ROUNDING: f64 = 1e-15;
+/// Share of √(aᵢᵢaⱼⱼ) below which aᵢⱼ is left: a hundredth of what counts allow for rounding.
+const LEFT: f64 = 1e-13;
 /// Sweeps after which what is left is rounding of numbers that cancel.
 const MOST_SWEEPS: usize = 12;
 
 impl Eigenvectors {
-    /// From an orthogonal matrix of which the columns are near the eigenvectors; any other will do, at more
-    /// rotations.
-    pub fn near(guess: &DMatrix<f64>, matrix: &DMatrix<f64>) -> Self {
+    /// Of a matrix that is nearly diagonal; of any other it takes more rotations.
+    pub fn of(mut matrix: DMatrix<f64>) -> Self {
         let order = matrix.nrows();
-        let mut vectors = guess.clone();
-        let mut turned = guess.tr_mul(matrix) * guess;
+        let mut vectors = DMatrix::identity(order, order);
+        let columns = matrix.as_mut_slice();
         for _ in 0..MOST_SWEEPS {
             let mut is_diagonal = true;
             for k in 1..order {
                 for i in 0..k {
-                    let coupling = turned[(i, k)];
-                    let size = (turned[(i, i)] * turned[(k, k)]).abs().sqrt();
-                    if coupling.abs() > ROUNDING * size {
+                    let coupling = columns[k * order + i];
+                    let size = columns[i * order + i] * columns[k * order + k];
+                    if coupling * coupling > LEFT * LEFT * size.abs() {
                         is_diagonal = false;
-                        rotate(&mut turned, &mut vectors, i, k);
+                        rotate(columns, vectors.as_mut_slice(), order, [i, k]);
                     }
                 }
             }
@@ -42,39 +41,38 @@ impl Eigenvectors {
             }
         }
         Eigenvectors {
-            values: (0..order).map(|i| turned[(i, i)]).collect(),
+            values: (0..order).map(|i| matrix[(i, i)]).collect(),
             vectors,
         }
     }
 }
 
-/// Makes element (i, k) zero, i < k.
-fn rotate(matrix: &mut DMatrix<f64>, vectors: &mut DMatrix<f64>, i: usize, k: usize) {
-    let coupling = matrix[(i, k)];
-    let half = (matrix[(k, k)] - matrix[(i, i)]) / (2.0 * coupling);
+/// Makes element (i, k) zero, i < k, of a symmetric matrix of which all elements are kept.
+fn rotate(matrix: &mut [f64], vectors: &mut [f64], order: usize, [i, k]: [usize; 2]) {
+    let coupling = matrix[k * order + i];
+    let (own_i, own_k) = (matrix[i * order + i], matrix[k * order + k]);
+    let half = (own_k - own_i) / (2.0 * coupling);
     // The smaller root of t² + 2 half t − 1.
-    let tangent = half.signum() / (half.abs() + half.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
+    let tangent = half.signum() / (half.abs() + (half * half + 1.0).sqrt());
+    let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
     let sine = tangent * cosine;
-    let (own_i, own_k) = (matrix[(i, i)], matrix[(k, k)]);
-    turn(matrix, i, k, cosine, sine);
-    turn(vectors, i, k, cosine, sine);
-    for j in 0..matrix.nrows() {
-        matrix[(i, j)] = matrix[(j, i)];
-        matrix[(k, j)] = matrix[(j, k)];
+    turn(matrix, order, [i, k], [cosine, sine]);
+    turn(vectors, order, [i, k], [cosine, sine]);
+    for j in 0..order {
+        matrix[j * order + i] = matrix[i * order + j];
+        matrix[j * order + k] = matrix[k * order + j];
     }
-    matrix[(i, i)] = own_i - tangent * coupling;
-    matrix[(k, k)] = own_k + tangent * coupling;
-    matrix[(i, k)] = 0.0;
-    matrix[(k, i)] = 0.0;
+    matrix[i * order + i] = own_i - tangent * coupling;
+    matrix[k * order + k] = own_k + tangent * coupling;
+    matrix[k * order + i] = 0.0;
+    matrix[i * order + k] = 0.0;
 }
 
 /// Turns columns i < k in their plane.
-fn turn(matrix: &mut DMatrix<f64>, i: usize, k: usize, cosine: f64, sine: f64) {
-    let rows = matrix.nrows();
-    let (before, after) = matrix.as_mut_slice().split_at_mut(k * rows);
-    let left = &mut before[i * rows..(i + 1) * rows];
-    for (x, y) in left.iter_mut().zip(&mut after[..rows]) {
+fn turn(matrix: &mut [f64], order: usize, [i, k]: [usize; 2], [cosine, sine]: [f64; 2]) {
+    let (before, after) = matrix.split_at_mut(k * order);
+    let left = &mut before[i * order..(i + 1) * order];
+    for (x, y) in left.iter_mut().zip(&mut after[..order]) {
         (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }
 }
@@ -83,7 +81,7 @@ fn turn(matrix: &mut DMatrix<f64>, i: usize, k: usize, cosine: f64, sine: f64) {
 mod tests {
     use super::*;
 
-    /// A V = V diag and VᵀV = 1, from a guess that is near, far, or of a matrix with equal eigenvalues.
+    /// A V = V diag and VᵀV = 1, of matrices that are nearly diagonal, far from it, and graded.
     #[test]
     fn the_vectors_diagonalise_the_matrix() {
         let mut state = 1.0_f64;
@@ -93,24 +91,22 @@ mod tests {
         };
         for order in 1..14 {
             let drawn = DMatrix::from_fn(order, order, |_, _| draw());
+            let symmetric = &drawn + drawn.transpose();
             let graded = DMatrix::from_fn(order, order, |i, k| {
-                10_f64.powi((i + k) as i32 / 2) * (drawn[(i, k)] + drawn[(k, i)])
+                let own = if i == k { 2.0 * order as f64 } else { 0.0 };
+                10_f64.powi((i + k) as i32) * (symmetric[(i, k)] + own)
             });
-            let near = (&graded
-                + DMatrix::from_fn(order, order, |i, k| 1e-3 * graded[(i, k)].abs()))
-            .symmetric_eigen()
-            .eigenvectors;
             let identity = DMatrix::identity(order, order);
-            for (matrix, guess) in [(&graded, &near), (&graded, &identity), (&identity, &near)] {
-                let found = Eigenvectors::near(guess, matrix);
+            let near = DMatrix::from_fn(order, order, |i, k| {
+                let own = if i == k { i as f64 + 1.0 } else { 0.0 };
+                own + 1e-3 * symmetric[(i, k)]
+            });
+            for matrix in [symmetric, graded, near, identity.clone()] {
+                let found = Eigenvectors::of(matrix.clone());
                 let v = &found.vectors;
                 let values = nalgebra::DVector::from_vec(found.values.clone());
-                let left = matrix * v - v * DMatrix::from_diagonal(&values);
-                assert!(
-                    left.amax() <= 1e-13 * matrix.amax(),
-                    "order {order}: {}",
-                    left.amax()
-                );
+                let left = &matrix * v - v * DMatrix::from_diagonal(&values);
+                assert!(left.amax() <= 1e-12 * matrix.amax(), "order {order}");
                 let unit = v.transpose() * v - &identity;
                 assert!(unit.amax() <= 1e-13, "order {order}: {}", unit.amax());
                 let mut values = found.values;
@@ -118,10 +114,8 @@ mod tests {
                 let mut exact: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
                 exact.sort_by(f64::total_cmp);
                 for (x, y) in values.iter().zip(&exact) {
-                    assert!(
-                        (x - y).abs() <= 1e-13 * matrix.amax(),
-                        "order {order}: {x} {y}"
-                    );
+                    let error = (x - y).abs();
+                    assert!(error <= 1e-12 * matrix.amax(), "order {order}: {x} {y}");
                 }
             }
         }

@@ -26,14 +26,14 @@ pub struct Waves {
 impl Waves {
     /// With the first columns alone.
     pub fn new(free: &[Eigenvectors], columns: &Columns, count: usize) -> Self {
-        let rows = columns.cosine.nrows();
+        let rows = columns.resting.nrows() / 2;
         let mut both = Mat::zeros(2 * rows, count);
         let mut stiffness = Vec::with_capacity(rows);
         for block in free {
             let (row, radial) = (stiffness.len(), block.values.len());
             let turn = Mat::from_fn(radial, radial, |i, j| block.vectors[(j, i)]);
-            for (first, own) in [(row, &columns.cosine), (rows + row, &columns.sine)] {
-                let own = own.get(row..row + radial, ..count);
+            for first in [row, rows + row] {
+                let own = columns.resting.get(first..first + radial, ..count);
                 let turned = both.subrows_mut(first, radial);
                 matmul(turned, Accum::Replace, &turn, own, 1.0, Par::Seq);
             }
@@ -83,18 +83,31 @@ impl Waves {
         (negative + negative_eigenvalues(&core)?).checked_sub(self.both.ncols())
     }
 
+    /// Each row of the columns times its weight, of cosines and of sines.
+    fn scaled(&self, weights: [&[f64]; 2]) -> Mat<f64> {
+        let (rows, count) = (self.stiffness.len(), self.both.ncols());
+        let mut scaled = Mat::zeros(2 * rows, count);
+        for k in 0..count {
+            let own = self.both.col_as_slice(k);
+            let scaled = scaled.col_as_slice_mut(k);
+            for (half, weight) in weights.into_iter().enumerate() {
+                let range = half * rows..(half + 1) * rows;
+                let pairs = scaled[range.clone()].iter_mut().zip(&own[range]);
+                for ((scaled, x), w) in pairs.zip(weight) {
+                    *scaled = x * w;
+                }
+            }
+        }
+        scaled
+    }
+
     /// [[D, P], [Pᴴ, −1 − PᴴA⁻¹P]], D and P of the resonant waves, each scaled to the length of its row;
     /// its lower triangle.
     fn core(&self, [sum, difference]: [&[f64]; 2], resonant: &[Resonant]) -> Mat<c64> {
         let (rows, count) = (self.stiffness.len(), self.both.ncols());
         let (cosine, sine) = self.both.split_at_row(rows);
         // CᵀΣC + SᵀΣS, of which the lower triangle, and SᵀΔC.
-        let mut scaled = self.both.clone();
-        for k in 0..count {
-            let (cosine, sine) = scaled.col_as_slice_mut(k).split_at_mut(rows);
-            cosine.iter_mut().zip(sum).for_each(|(x, w)| *x *= w);
-            sine.iter_mut().zip(sum).for_each(|(x, w)| *x *= w);
-        }
+        let mut scaled = self.scaled([sum, sum]);
         let mut real = Mat::zeros(count, count);
         triangular::matmul(
             real.as_mut(),
@@ -107,13 +120,15 @@ impl Waves {
             1.0,
             Par::Seq,
         );
-        let mut scaled = scaled.subrows_mut(0, rows);
         for k in 0..count {
-            for (row, difference) in difference.iter().enumerate() {
-                scaled[(row, k)] = cosine[(row, k)] * difference;
+            let own = &self.both.col_as_slice(k)[..rows];
+            let scaled = scaled.col_as_slice_mut(k)[..rows].iter_mut();
+            for ((scaled, x), w) in scaled.zip(own).zip(difference) {
+                *scaled = x * w;
             }
         }
-        let mixed = sine.transpose() * scaled.as_ref();
+        let scaled = scaled.subrows(0, rows);
+        let mixed = sine.transpose() * scaled;
         let near = resonant.len();
         let mut core = Mat::zeros(near + count, near + count);
         for (i, wave) in resonant.iter().enumerate() {
