@@ -97,12 +97,22 @@ pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim>
 /// Between two waves of opposite sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gap {
-    /// ω of its middle, in rad/s.
-    pub middle_rad_per_s: f64,
-    /// Width of the gap.
-    pub width_rad_per_s: f64,
+    /// ω and dω/dΩ of the wave below, and of the one above or the height of what is known.
+    pub sides: [(f64, f64); 2],
     /// p − m of the waves below.
     pub net: isize,
+}
+
+impl Gap {
+    /// ω of its middle, in rad/s.
+    pub fn middle_rad_per_s(&self) -> f64 {
+        0.5 * (self.sides[0].0 + self.sides[1].0)
+    }
+
+    /// Width of the gap.
+    pub fn width_rad_per_s(&self) -> f64 {
+        self.sides[1].0 - self.sides[0].0
+    }
 }
 
 /// The gaps between waves of opposite sign, of which those up to a height are known.
@@ -112,11 +122,11 @@ pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
     for pair in signature.waves.windows(2) {
         net += of_sign(pair[0].sign);
         if pair[0].sign != pair[1].sign {
-            let low = pair[0].lambda.im;
-            let high = pair[1].lambda.im.min(height_rad_per_s).max(low);
+            let [low, high] = [&pair[0], &pair[1]].map(|wave| (wave.lambda.im, wave.slope.im));
+            let top = (height_rad_per_s.max(low.0), 0.0);
+            let high = if high.0 < top.0 { high } else { top };
             gaps.push(Gap {
-                middle_rad_per_s: 0.5 * (low + high),
-                width_rad_per_s: high - low,
+                sides: [low, high],
                 net,
             });
         }

@@ -118,7 +118,10 @@ impl Proof<'_> {
         if is_open || b.speed - a.speed <= least || self.evaluator.is_exhausted() {
             return Ok(vec![(a.speed, b.speed)]);
         }
-        let middle = self.end(&self.evaluator.guess_at(middle)?);
+        let middle = match a.halfway(b) {
+            Some(middle) => middle,
+            None => self.end(&self.evaluator.guess_at(middle)?),
+        };
         halves(&[a.clone(), middle.clone()], &[middle, b.clone()])
     }
 
@@ -150,12 +153,12 @@ impl Proof<'_> {
 
     /// The line through the middles of a gap, if its count is the same all along.
     fn line(&self, ends: [&End; 2], gap: [&Gap; 2], negative: usize) -> Option<Line> {
-        let [x, y] = gap.map(|gap| gap.width_rad_per_s);
+        let [x, y] = gap.map(Gap::width_rad_per_s);
         let [from, to] = ends.map(|end| end.speed);
         let is_closing = x.min(y) < CLOSING * x.max(y);
         let is_long = to - from > LONGEST.get() * x.min(y);
         let count = negative.checked_add_signed(gap[0].net)?;
-        let frequencies = gap.map(|gap| gap.middle_rad_per_s);
+        let frequencies = gap.map(Gap::middle_rad_per_s);
         if is_closing || is_long {
             return None;
         }
@@ -194,7 +197,7 @@ impl Line {
         let ([from, to], [low, high]) = (self.speeds, self.frequencies);
         gap.iter().all(|(end, gap)| {
             let at = low + (high - low) * (end.speed - from) / (to - from);
-            2.0 * (at - gap.middle_rad_per_s).abs() < gap.width_rad_per_s
+            2.0 * (at - gap.middle_rad_per_s()).abs() < gap.width_rad_per_s()
         })
     }
 }
@@ -212,6 +215,34 @@ impl End {
     /// Whether modes of the same signs lie between the same gaps.
     fn is_like(&self, other: &End) -> bool {
         self.alike(other).count() == self.gaps.len().max(other.gaps.len())
+    }
+
+    /// What cubics through both ends say of the speed halfway, where the modes keep their order. It
+    /// proposes lines and proves nothing.
+    fn halfway(&self, other: &End) -> Option<End> {
+        if self.gaps.is_empty() || !self.is_like(other) {
+            return None;
+        }
+        let step = other.speed - self.speed;
+        let between = |(x, y): (&Gap, &Gap)| {
+            let sides = [0, 1].map(|k| {
+                let [(f0, d0), (f1, d1)] = [x.sides[k], y.sides[k]];
+                let slope = 1.5 * (f1 - f0) / step - 0.25 * (d0 + d1);
+                (0.5 * (f0 + f1) + 0.125 * step * (d0 - d1), slope)
+            });
+            let gap = Gap { sides, net: x.net };
+            let [narrow, wide] = [x, y].map(Gap::width_rad_per_s);
+            let [narrow, wide] = [narrow.min(wide), narrow.max(wide)];
+            // Next to a coalescence slopes have no bound, and a cubic says nothing.
+            let is_sound = (0.5 * narrow..2.0 * wide).contains(&gap.width_rad_per_s());
+            is_sound.then_some(gap)
+        };
+        let gaps: Option<Vec<Gap>> = self.gaps.iter().zip(&other.gaps).map(between).collect();
+        Some(End {
+            speed: self.speed + 0.5 * step,
+            gaps: gaps?,
+            at: Arc::default(),
+        })
     }
 
     /// The gaps from below, and those from above, that both ends have alike.
