@@ -83,6 +83,7 @@ def full_scene() -> dict[str, Any]:
     data["damping"] = {"air_n_s_per_m3": 1.0}
     data["blade"]["profile"] = [{"radius_m": 0.3, "thickness_m": 2e-3}]
     data["blade"]["rim"] = {"mass_per_tooth_kg": 1e-3}
+    data["cut"]["washboarding"] = {"stiffness_n_per_m": 1e4, "pitches_deg": [360 / 42]}
     return data
 
 

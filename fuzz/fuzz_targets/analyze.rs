@@ -10,5 +10,6 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         draw::survives_two_speeds(&scene);
         draw::survives_chart(&scene);
         draw::survives_analysis(&scene);
+        draw::survives_washboard(&scene);
     }
 });

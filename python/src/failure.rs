@@ -177,6 +177,9 @@ impl From<WashboardError> for Failure {
             WashboardError::Undamped { .. } => {
                 Refusal::saying("SceneError", message, Some("damping".into()))
             }
+            WashboardError::Incomplete { .. } => {
+                Refusal::saying("SceneError", message, Some("blade.teeth".into()))
+            }
             WashboardError::Loose => Refusal::saying("SceneError", message, Some("guides".into())),
             _ => Failure::Failed(message),
         }

@@ -34,6 +34,12 @@ def report(draft: sf.Scene) -> sf.CampbellResults:
 
 
 @pytest.fixture(scope="session")
+def resaw(scenes: Path) -> sf.Scene:
+    """A saw that washboards."""
+    return sf.Scene.load(scenes / "gallery/washboarding.json").with_accuracy("draft")
+
+
+@pytest.fixture(scope="session")
 def programs() -> Iterator[list[str]]:
     """The program that pip installed, and the one that cargo built where SAWFLUTTER_PROGRAM names
     it."""

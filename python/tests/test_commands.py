@@ -79,6 +79,31 @@ def test_run_up_crosses_bands(draft: sf.Scene) -> None:
         draft.replace({"runup": None}).run_up()
 
 
+def test_washboarding_grows_with_the_cutting_stiffness(resaw: sf.Scene) -> None:
+    found = resaw.run_washboard()
+    assert found.verdict == "unstable" and found.growing_eigenvalues == 2
+    assert found.modes[0].growth_per_s > 0.0 > found.modes[-1].growth_per_s
+    least = found.critical_stiffness_n_per_m
+    assert least is not None and least < found.stiffness_n_per_m
+    lobes = found.lobes
+    shape = lobes.rpm.shape
+    assert lobes.critical_stiffness_n_per_m.shape == lobes.frequency_hz.shape == shape
+    assert len(found.to_dataframe()) == len(found.modes)
+    below = resaw.replace({"cut.washboarding.stiffness_n_per_m": 0.9 * least})
+    assert below.run_washboard().verdict == "stable"
+    assert "unstable at 2400 rpm" in repr(found)
+
+
+def test_washboarding_without_damping_or_a_stiffness_is_refused(resaw: sf.Scene) -> None:
+    with pytest.raises(sf.SceneError, match="damping") as refused:
+        resaw.replace({"damping": None}).run_washboard()
+    assert refused.value.key == "damping"
+    with pytest.raises(sf.ArgumentError, match="cut.washboarding"):
+        resaw.replace({"cut.washboarding": None}).run_washboard()
+    with pytest.raises(sf.ArgumentError, match="rpm"):
+        resaw.replace({"operating_rpm": None}).run_washboard()
+
+
 def test_fit_finds_the_guide_of_the_paper(tmp_path: Path) -> None:
     # docs/tutorials/measured-to-guide.md: 0.194 m and 2.08e7 N/m at 0.983 Hz rms.
     saw = sf.Scene.paper()
@@ -182,8 +207,11 @@ def test_a_critical_speed_makes_the_stiffness_singular() -> None:
         assert np.min(np.abs(eigenvalues)) < 1e-9 * np.max(np.abs(eigenvalues))
 
 
-def test_every_result_is_saved_loaded_and_pickled(draft: sf.Scene, tmp_path: Path) -> None:
-    for result in (draft.check(), draft.run_cut(1800.0), draft.run_up(), draft.fit(starts=1)):
+def test_every_result_is_saved_loaded_and_pickled(
+    draft: sf.Scene, resaw: sf.Scene, tmp_path: Path
+) -> None:
+    results = (draft.check(), draft.run_cut(1800.0), draft.run_up(), draft.fit(starts=1))
+    for result in (*results, resaw.run_washboard()):
         result.save(tmp_path / "result.json")
         loaded = sf.load(tmp_path / "result.json")
         assert loaded == result and type(loaded) is type(result)

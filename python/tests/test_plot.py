@@ -114,7 +114,9 @@ def test_matplotlib_draws_a_figure_or_into_axes(report: sf.CampbellResults) -> N
     assert colours()["backward"] in drawn
 
 
-def test_every_result_is_drawn_by_both(draft: sf.Scene, report: sf.CampbellResults) -> None:
+def test_every_result_is_drawn_by_both(
+    draft: sf.Scene, resaw: sf.Scene, report: sf.CampbellResults
+) -> None:
     cut, up = draft.run_cut([1800.0, 2800.0]), draft.run_up()
     charts = [
         report.chart(),
@@ -124,6 +126,8 @@ def test_every_result_is_drawn_by_both(draft: sf.Scene, report: sf.CampbellResul
         cut.map_chart(1),
         up.chart(),
         up.response_chart(),
+        resaw.run_washboard().chart(),
+        resaw.replace({"cut.washboarding.overlap": 0.0}).run_washboard().chart(),
         draft.fit(to_rpm=1250, starts=1).chart(),
         draft.replace({"guides": []}).run_campbell().chart(),
         draft.replace({"guides": []}).run_campbell().root_loci_chart(),
@@ -140,6 +144,23 @@ def test_every_result_is_drawn_by_both(draft: sf.Scene, report: sf.CampbellResul
     heat = next(item for item in up.response_chart().panels[0].items if isinstance(item, Heat))
     assert heat.z.shape == (len(heat.y), len(heat.x))
     assert cut.plot_map(1).data and up.plot_response().data and report.plot_root_loci().data
+
+
+def test_excitation_lines_are_those_of_the_report(draft: sf.Scene) -> None:
+    saw = draft.replace({"excitation": {"orders": 2, "tooth_passing": 1}})
+    r = saw.run_campbell()
+    assert r.excitation is not None
+    upper = r.chart().panels[0]
+    assert upper.y_range is not None
+    for line in r.excitation.lines:
+        (drawn,) = (i for i in upper.items if isinstance(i, Line) and i.name == line.name)
+        assert drawn.dashed and drawn.y == pytest.approx(line.order * drawn.x / 60.0)
+        assert max(drawn.y) <= upper.y_range[1] * (1.0 + 1e-12) and line.name in r.chart().facts
+    (rings,) = (i for i in upper.items if isinstance(i, Points) and i.name == "crossing")
+    found = {(c.rpm, c.frequency_hz) for c in r.excitation.crossings}
+    assert set(zip(rings.x.tolist(), rings.y.tolist())) == found and found
+    without = draft.run_campbell().chart().panels[0].items
+    assert not any(getattr(item, "name", "") == "crossing" for item in without)
 
 
 def test_place_and_tradeoff_are_drawn(draft: sf.Scene) -> None:

@@ -59,6 +59,21 @@ def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_pa
                 assert content is None or (tmp_path / picture).read_bytes() == content, picture
 
 
+def test_the_report_of_washboarding(
+    programs: list[str], scenes: Path, resaw: sf.Scene, tmp_path: Path
+) -> None:
+    found = resaw.run_washboard(2300.0)
+    path = scenes / "gallery/washboarding.json"
+    for program in programs:
+        done = ran(
+            program, "washboard", path, "--rpm", 2300, "--accuracy", "draft", "--out", tmp_path
+        )
+        assert done.returncode == 0, done.stderr
+        same(tmp_path, "washboard.json", found.to_json().encode())
+        for picture in found.figure_names:
+            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+
+
 def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     saw = sf.Scene.load(scenes / "paper.json")
     check = saw.check(operating_rpm=1400, min_flutter_rpm=2000, accuracy="draft")

@@ -228,7 +228,7 @@ fn beyond(found: &Washboard) -> Option<String> {
     let complete_hz = found.complete_to_rad_per_s / TAU;
     if found.complete_to_rad_per_s < found.needed_to_rad_per_s {
         return Some(format!(
-            "the largest basis holds the modes up to {complete_hz:.0} Hz only, but teeth drive those up to {:.0} Hz: what they do is not known",
+            "only modes up to {complete_hz:.0} Hz are looked at, as many as can be, but teeth drive those up to {:.0} Hz: what they do is not known",
             found.needed_to_rad_per_s / TAU
         ));
     }

@@ -20,7 +20,7 @@ fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     writeln!(text, "{}", wrapped(&boundary(report)))?;
     let facts = format!(
-        "{:.0} teeth pass in a second; {:.3e} N/m across the blade, overlap {}, arc of {:.1}°; modes up to {:.0} Hz",
+        "{:.0} teeth pass in a second; {:.3e} N/m across the blade, overlap {:.2}, arc of {:.1}°; modes up to {:.0} Hz",
         report.tooth_passing_hz,
         report.stiffness_n_per_m,
         report.overlap,

@@ -43,6 +43,8 @@ const WITHSTOOD: f64 = 3.0;
 const MOST_BEYOND: f64 = 2.0;
 /// Shapes reach beyond the modes that they are to span by this factor.
 const BEYOND_MODES: f64 = 1.2;
+/// More shapes than these would take minutes: eigenvalues of twice as many at each speed.
+const MOST_SHAPES: usize = 110;
 /// Radial functions that the highest shape without nodal diameters needs beside those of its kind.
 const RADIAL_MARGIN: usize = 3;
 /// Share of |λ| that a mode has to lose to be damped at all.
@@ -69,10 +71,18 @@ impl Motions {
         if !full.free_rigid.is_empty() {
             return Err(WashboardError::Loose);
         }
-        let complete_to = complete_to(&plate, fastest).min(needed);
         let all = Shapes::new(&full, run.speed_rad_per_s)?;
         let arc = columns(&arc(&plate, washboarding))?;
-        let kept = all.up_to(BEYOND_MODES * on_blade(&plate, run.speed_rad_per_s, complete_to));
+        let complete_to = complete_to(&plate, fastest).min(needed);
+        let (kept, complete_to) = all.kept(&plate, run.speed_rad_per_s, complete_to);
+        let passing = washboarding.tooth_passing_rad_per_s(run.speed_rad_per_s);
+        if complete_to < 0.5 * passing {
+            return Err(WashboardError::Incomplete {
+                rpm: run.rpm,
+                passing_hz: passing / TAU,
+                complete_hz: complete_to / TAU,
+            });
+        }
         let shapes = all.vectors.subcols(0, kept).to_owned();
         let moved = all.vectors.transpose() * &arc;
         Ok(Motions {
@@ -178,6 +188,18 @@ impl Shapes {
             .partition_point(|square| *square <= omega * omega)
     }
 
+    /// How many span the modes up to a frequency in space, and up to which they do so if these are too
+    /// many.
+    fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> (usize, f64) {
+        let turned = most_turned(plate, speed, complete_to);
+        let kept = self.up_to(BEYOND_MODES * (complete_to + turned));
+        if kept <= MOST_SHAPES {
+            return (kept, complete_to);
+        }
+        let highest = self.squares[MOST_SHAPES].max(0.0).sqrt();
+        (MOST_SHAPES, (highest / BEYOND_MODES - turned).max(0.0))
+    }
+
     /// What the shapes beyond some give way to forces on the arc: positive, for they are stiff.
     fn flexibility_beyond(&self, kept: usize, moved: &Mat<f64>) -> DMatrix<f64> {
         let size = moved.ncols();
@@ -243,14 +265,13 @@ fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
     square.unwrap_or(0.0).max(0.0).sqrt()
 }
 
-/// The highest frequency on the blade of the modes up to a frequency in space: of a wave of n
-/// diameters the blade sees n times the speed more.
-fn on_blade(plate: &Plate, speed: f64, complete_to: f64) -> f64 {
+/// By how much the blade sees another frequency than space, at most, of the modes up to a frequency in
+/// space: n times the speed of a wave of n diameters.
+fn most_turned(plate: &Plate, speed: f64, complete_to: f64) -> f64 {
     let waves = 0..=plate.max_diameters();
     let within = waves.filter(|&n| {
         let turned = n as f64 * speed;
         body_frequency(plate, n, 0, speed) - turned <= complete_to
     });
-    let most = within.max().unwrap_or(0);
-    complete_to + most as f64 * speed
+    within.max().unwrap_or(0) as f64 * speed
 }

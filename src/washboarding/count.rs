@@ -47,7 +47,7 @@ impl<'a> LoopGains<'a> {
     /// Up to where stiffnesses up to a ceiling have nothing that grows beyond. `None` where a mode of
     /// the saw lies on the axis.
     pub fn new(saw: &'a DelayedSaw, ceiling: f64) -> Option<Self> {
-        let omegas = places(saw, saw.reach(ceiling));
+        let omegas = places(saw, ceiling);
         let mut followed = LoopGains {
             saw,
             ceiling,
@@ -103,16 +103,9 @@ impl<'a> LoopGains<'a> {
     }
 
     /// The least stiffness up to the ceiling at which an eigenvalue lies on the axis, −1/x_i for a
-    /// loop gain x_i that is real and negative; `None` where there is none.
+    /// loop gain x_i that is real and negative; `None` where there is none. Of a saw of which nothing
+    /// grows without the force.
     pub fn boundary(&self) -> Option<Boundary> {
-        if self.saw.unstable_poles() > 0 {
-            let fastest = self.saw.transfer.poles.iter();
-            let fastest = fastest.max_by(|x, y| x.re.total_cmp(&y.re));
-            return Some(Boundary {
-                stiffness_n_per_m: 0.0,
-                frequency_rad_per_s: fastest.map_or(0.0, |pole| pole.im.abs()),
-            });
-        }
         let mut best: Option<Boundary> = self.standing();
         let mut crossings: Vec<Crossing> = self.crossings().collect();
         crossings.sort_by(|x, y| x.most_negative().total_cmp(&y.most_negative()));
@@ -135,7 +128,6 @@ impl<'a> LoopGains<'a> {
     /// none.
     pub fn confirms(&self, boundary: Option<Boundary>) -> bool {
         match boundary.map(|boundary| boundary.stiffness_n_per_m) {
-            Some(0.0) => true,
             Some(stiffness) => self.growing(stiffness * (1.0 - BELOW)) == Some(0),
             None => self.growing(self.ceiling) == Some(0),
         }
@@ -231,7 +223,8 @@ fn matched(first: &Place, second: &Place) -> Vec<[c64; 2]> {
 }
 
 /// Frequencies to begin with: about each mode, and evenly over the turns of the delay.
-fn places(saw: &DelayedSaw, to: f64) -> Vec<f64> {
+fn places(saw: &DelayedSaw, ceiling: f64) -> Vec<f64> {
+    let to = saw.reach(ceiling);
     let step = (std::f64::consts::TAU / saw.delay.longest_s() / A_TURN).max(to / MOST_EVEN);
     let even = (0..(to / step).ceil() as usize).map(|k| k as f64 * step);
     let mut places: Vec<f64> = even.chain([to]).collect();
@@ -243,5 +236,13 @@ fn places(saw: &DelayedSaw, to: f64) -> Vec<f64> {
     places.retain(|omega| (0.0..=to).contains(omega));
     places.sort_by(f64::total_cmp);
     places.dedup();
-    places
+    // Of stretches where every factor of the determinant is near one, the ends are enough.
+    let last = places.len() - 1;
+    let matter: Vec<bool> = places
+        .iter()
+        .map(|omega| saw.matters(*omega, ceiling))
+        .collect();
+    let near = |k: usize| matter[k.saturating_sub(1)..=(k + 1).min(last)].contains(&true);
+    let kept = (0..=last).filter(|&k| k == 0 || k == last || near(k));
+    kept.map(|k| places[k]).collect()
 }

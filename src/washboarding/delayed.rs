@@ -10,6 +10,7 @@ use crate::scene::Washboarding;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
+use super::count::Boundary;
 use super::delay::Delay;
 use super::transfer::Transfer;
 
@@ -80,6 +81,23 @@ impl DelayedSaw {
     /// Eigenvalues of the saw without the delayed force that lie in the right half plane.
     pub fn unstable_poles(&self) -> usize {
         self.transfer.poles.iter().filter(|p| p.re > 0.0).count()
+    }
+
+    /// The boundary of a saw of which something grows without the delayed force, at no stiffness.
+    pub fn grows_without(&self) -> Option<Boundary> {
+        let growing = self.transfer.poles.iter().filter(|pole| pole.re > 0.0);
+        let fastest = growing.max_by(|x, y| x.re.total_cmp(&y.re))?;
+        Some(Boundary {
+            stiffness_n_per_m: 0.0,
+            frequency_rad_per_s: fastest.im.abs(),
+        })
+    }
+
+    /// Whether k(X − hF) may be larger than ½ at iω for stiffnesses up to one; where it is not, every factor
+    /// 1 + k x_i has a positive real part, as F is positive and so is the real part of h.
+    pub fn matters(&self, omega: f64, stiffness: f64) -> bool {
+        let size = self.transfer.modal_bound(c64::new(0.0, omega));
+        !(stiffness * self.delay.bound() * size <= 0.5)
     }
 
     /// |λ| from which on nothing lies in the right half plane, however the phase of the delay falls:

@@ -66,6 +66,19 @@ pub enum WashboardError {
         /// Frequency of the mode.
         frequency_hz: f64,
     },
+    /// So many modes that those which teeth drive are not among the ones looked at.
+    #[error(
+        "blade.teeth at {rpm:.0} rpm drive modes between {:.0} and {:.0} Hz, but the blade has so many that only those up to {complete_hz:.0} Hz can be looked at; give a thicker blade, a lower speed or fewer teeth",
+        0.5 * passing_hz, passing_hz
+    )]
+    Incomplete {
+        /// Rotation speed.
+        rpm: f64,
+        /// Tooth passing frequency.
+        passing_hz: f64,
+        /// Frequency up to which modes are complete.
+        complete_hz: f64,
+    },
     /// A rigid motion without stiffness.
     #[error(
         "guides is empty or too soft, but must hold the blade against every rigid motion; give a guide with a stiffness, cut.wood, or mount the blade on a collar"
@@ -122,7 +135,7 @@ pub struct LobePoint {
 /// The diagram reaches from and to these shares of the speed of the cut.
 const DIAGRAM: [f64; 2] = [0.6, 1.25];
 /// Speeds of the diagram.
-const SPEEDS: usize = 131;
+const SPEEDS: usize = 121;
 /// Where one mode follows on another, the speeds between are halved so many times.
 const HALVINGS: usize = 3;
 /// Relative change of the frequency from speed to speed that is another mode.
@@ -164,7 +177,7 @@ impl Washboard {
             growing,
             growing_without: saw.unstable_poles(),
             modes,
-            boundary: gains.and_then(|gains| gains.boundary()),
+            boundary: saw.grows_without().or_else(|| gains?.boundary()),
             lobes,
             ceiling_n_per_m: ceiling,
             safe_beyond_n_per_m,
@@ -189,9 +202,17 @@ fn lobes(
     let look = |speed: f64| {
         cancellation.check()?;
         let saw = at(speed)?;
-        let gains = LoopGains::new(&saw, ceiling);
-        let boundary = gains.as_ref().and_then(LoopGains::boundary);
-        let confirmed = gains.is_some_and(|gains| gains.confirms(boundary));
+        let (boundary, confirmed) = match saw.grows_without() {
+            Some(boundary) => (Some(boundary), true),
+            None => {
+                let gains = LoopGains::new(&saw, ceiling);
+                let boundary = gains.as_ref().and_then(LoopGains::boundary);
+                (
+                    boundary,
+                    gains.is_some_and(|gains| gains.confirms(boundary)),
+                )
+            }
+        };
         let count = 1 + done.fetch_add(1, Ordering::Relaxed);
         progress(count.min(SPEEDS), SPEEDS);
         Ok::<_, WashboardError>(LobePoint {
@@ -231,7 +252,7 @@ impl LobePoint {
 
 /// B of BBᵀ = P, without the columns that are rounding beside the largest.
 fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
-    const LEAST: f64 = 1e-9;
+    const LEAST: f64 = 1e-8;
     let order = arc.nrows();
     let eigen = arc
         .self_adjoint_eigen(faer::Side::Lower)

@@ -16,6 +16,8 @@ pub struct Transfer {
     pub poles: Vec<c64>,
     /// b_k c_k, r × r by columns, one after the other.
     residues: Vec<c64>,
+    /// ‖b_k‖ ‖c_k‖.
+    sizes: Vec<f64>,
     flexibility: DMatrix<c64>,
 }
 
@@ -75,7 +77,10 @@ impl Transfer {
                 residues.extend((0..size).map(|row| seen[(row, k)] * excited[(k, column)]));
             }
         }
+        let blocks = residues.chunks_exact((size * size).max(1));
+        let sizes = blocks.map(|block| block.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt());
         Ok(Transfer {
+            sizes: sizes.collect(),
             poles,
             residues,
             flexibility: flexibility.map(|f| c64::new(f, 0.0)),
@@ -98,6 +103,14 @@ impl Transfer {
         let size = self.flexibility.nrows();
         let block = &self.residues[pole * size * size..];
         (0..size).map(|i| block[i * (size + 1)]).sum()
+    }
+
+    /// No less than ‖G(λ) − F‖.
+    pub fn modal_bound(&self, lambda: c64) -> f64 {
+        let terms = self.poles.iter().zip(&self.sizes);
+        terms
+            .map(|(pole, size)| size / (lambda - pole).norm())
+            .sum()
     }
 
     fn sum(&self, factor: impl Fn(c64) -> c64) -> DMatrix<c64> {

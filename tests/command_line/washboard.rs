@@ -105,7 +105,11 @@ fn a_pitch_that_is_not_known_is_not_told() {
 #[test]
 fn what_washboarding_lacks_is_refused_by_name() {
     type Change = fn(&mut SceneFile);
-    let cases: [(Change, &str); 7] = [
+    let cases: [(Change, &str); 8] = [
+        (
+            |saw| saw.blade.teeth = Some(400),
+            "blade.teeth at 2400 rpm drive modes between 8000",
+        ),
         (|saw| saw.cut = None, "cut is missing"),
         (
             |saw| saw.cut.as_mut().unwrap().washboarding = None,

@@ -2,12 +2,14 @@
 //! bytes, `fuzz/` those that libFuzzer thinks up.
 
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::Report;
+use sawflutter::report::{Report, WashboardReport};
 use sawflutter::scene::{
-    Accuracy, DampingFile, GuideFile, InPlane, Mount, Scene, SceneFile, SweepFile, rad_per_s,
+    Accuracy, CutFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, RimFile, Scene,
+    SceneFile, SweepFile, ThicknessRow, WashboardingFile, WoodFile, rad_per_s,
 };
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
+use sawflutter::washboarding::Washboard;
 
 /// Reads numbers off bytes; behind the last byte come zeros.
 pub struct Bytes<'a>(pub &'a [u8]);
@@ -124,7 +126,86 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     });
     file.operating_rpm = bytes.one_in(2).then(|| bytes.near(1000.0));
     file.flutter_threshold_per_s = bytes.near(0.25);
+    blade_details(bytes, &mut file);
+    if bytes.one_in(4) {
+        file.cut = Some(cut(bytes, 0.5 * outer));
+    }
+    if bytes.one_in(4) {
+        file.excitation = Some(ExcitationFile {
+            orders: u32::from(bytes.next() % 5),
+            tooth_passing: u32::from(bytes.next() % 3),
+        });
+    }
     file
+}
+
+/// Steps, tapers, heavy teeth, gaps, and air that turns.
+fn blade_details(bytes: &mut Bytes<'_>, file: &mut SceneFile) {
+    let blade = &mut file.blade;
+    let (inner, outer) = (0.5 * blade.inner_diameter_m, 0.5 * blade.outer_diameter_m);
+    if bytes.one_in(3) {
+        let mut radius_m = inner;
+        for _ in 0..1 + bytes.next() % 3 {
+            if !bytes.one_in(3) {
+                radius_m += bytes.between(0.0, 0.5) * (outer - inner);
+            }
+            blade.profile.push(ThicknessRow {
+                radius_m,
+                thickness_m: blade.thickness_m * bytes.between(0.1, 2.0),
+            });
+        }
+    }
+    if bytes.one_in(4) {
+        let radius_m = inner + bytes.between(0.0, 1.0) * (outer - inner);
+        blade.rim = Some(RimFile {
+            mass_per_tooth_kg: bytes.near(1e-3),
+            radius_m: (!bytes.one_in(2)).then_some(radius_m),
+        });
+    }
+    for guide in &mut file.guides {
+        guide.gap_m = bytes.one_in(3).then(|| bytes.near(1e-4));
+    }
+    if let Some(damping) = &mut file.damping {
+        damping.air_rotation_share = bytes.between(0.0, 1.0);
+    }
+}
+
+/// Forces, wood and washboarding, on the chart or not.
+fn cut(bytes: &mut Bytes<'_>, outer_m: f64) -> CutFile {
+    CutFile {
+        angle_deg: bytes.between(-400.0, 400.0),
+        teeth_in_cut: Some(1 + u32::from(bytes.next() % 6)),
+        tangential_n_per_tooth: Some(bytes.near(10.0)),
+        radial_n_per_tooth: Some(bytes.near(1.0)),
+        feed_m_per_s: bytes.one_in(2).then(|| bytes.near(0.5)),
+        chart_rpm: bytes.one_in(2).then(|| bytes.near(1000.0)),
+        wood: bytes.one_in(2).then(|| WoodFile {
+            stiffness_n_per_m: bytes.near(1e4),
+            damping_n_s_per_m: if bytes.one_in(2) {
+                bytes.near(1.0)
+            } else {
+                0.0
+            },
+            depth_m: bytes.between(0.0, 0.3) * outer_m,
+            arc_deg: bytes.one_in(2).then(|| bytes.between(0.0, 370.0)),
+        }),
+        washboarding: bytes.one_in(2).then(|| washboarding(bytes)),
+        ..CutFile::default()
+    }
+}
+
+/// Of even teeth, or of pitches that are mostly not those of the teeth.
+pub fn washboarding(bytes: &mut Bytes<'_>) -> WashboardingFile {
+    WashboardingFile {
+        stiffness_n_per_m: bytes.near(1e4),
+        overlap: bytes.between(0.0, 1.05),
+        arc_deg: bytes.one_in(2).then(|| bytes.between(0.0, 370.0)),
+        pitches_deg: if bytes.one_in(6) {
+            vec![bytes.near(8.0), bytes.near(8.0)]
+        } else {
+            Vec::new()
+        },
+    }
 }
 
 /// A basis so small that thousands of scenes can be drawn.
@@ -199,5 +280,25 @@ pub fn survives_analysis(scene: &Scene) -> bool {
     assert!(read == report);
     let csv = String::from_utf8(report.campbell_csv().expect("CSV")).expect("UTF-8");
     assert!(!csv.contains("NaN") && !csv.contains("inf"), "{csv}");
+    true
+}
+
+/// Everything that `sawflutter washboard` computes; whether it is not refused.
+pub fn survives_washboard(scene: &Scene) -> bool {
+    let named = scene
+        .cut()
+        .and_then(|cut| Some((cut, cut.washboarding.as_ref()?)));
+    let run = named.and_then(|(cut, _)| cut.at_rpm(scene.file().operating_rpm?).ok());
+    let Some((named, run)) = named.zip(run) else {
+        return false;
+    };
+    let Ok(found) = Washboard::new(scene, named, &run, &|_, _| ()) else {
+        return false;
+    };
+    let report = WashboardReport::new(&found);
+    let json = serde_json::to_string(&report).expect("a report is JSON");
+    let read: WashboardReport =
+        serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {json}"));
+    assert!(read == report);
     true
 }

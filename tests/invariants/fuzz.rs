@@ -9,7 +9,7 @@ use crate::draw::{self, Bytes};
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use rayon::prelude::*;
-use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::scene::{CutFile, Scene, SceneFile};
 
 fn drawn(rng: &mut TestRng, length: usize) -> Vec<u8> {
     let mut bytes = vec![0; length];
@@ -22,11 +22,12 @@ fn rng() -> TestRng {
 }
 
 /// Enough bytes for every number of a scene with three pads.
-const SCENE_BYTES: usize = 160;
+const SCENE_BYTES: usize = 260;
 
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
 const ANALYZED: usize = 8;
+const WASHBOARDED: usize = 16;
 
 /// Valid scenes among the first `count` drawn ones.
 fn scenes(count: usize) -> Vec<Scene> {
@@ -86,6 +87,55 @@ fn drawn_scenes_analyzed_in_full() {
         done.len()
     );
     assert!(2 * charted > done.len());
+}
+
+/// A look at washboarding is as long as a chart: saws that are damped and held, and are cut with.
+#[test]
+fn drawn_saws_that_washboard_or_not() {
+    let mut rng = rng();
+    let draw = |rng: &mut TestRng| {
+        let bytes = drawn(rng, SCENE_BYTES);
+        let mut bytes = Bytes(&bytes);
+        let mut file = draw::scene_file(&mut bytes);
+        file.blade.teeth = Some(24);
+        file.operating_rpm = Some(1200.0);
+        // Thinner ones have thousands of modes below tooth passing.
+        let width = file.blade.outer_diameter_m - file.blade.inner_diameter_m;
+        file.blade.thickness_m = file.blade.thickness_m.max(5e-3 * width);
+        file.sweep = None;
+        let damping = file.damping.get_or_insert_default();
+        damping.material_retardation_time_s = damping.material_retardation_time_s.max(1e-6);
+        file.cut.get_or_insert_with(|| CutFile {
+            teeth_in_cut: Some(3),
+            tangential_n_per_tooth: Some(1.0),
+            ..CutFile::default()
+        });
+        let cut = file.cut.as_mut().expect("a cut");
+        cut.washboarding = Some(draw::washboarding(&mut bytes));
+        Scene::try_from(file).ok()
+    };
+    let all = (0..20 * ANALYZED).map(|_| draw(&mut rng));
+    let scenes: Vec<Scene> = all.collect::<Vec<_>>().into_iter().flatten().collect();
+    let done: Vec<bool> = scenes
+        .par_iter()
+        .take(WASHBOARDED)
+        .map(|scene| {
+            let done = std::sync::atomic::AtomicBool::new(false);
+            assert_survives(scene, |scene| {
+                done.store(
+                    draw::survives_washboard(scene),
+                    std::sync::atomic::Ordering::Relaxed,
+                );
+            });
+            done.into_inner()
+        })
+        .collect();
+    let looked_at = done.iter().filter(|done| **done).count();
+    println!(
+        "{looked_at} of {} are looked at, the others refused",
+        done.len()
+    );
+    assert!(looked_at > 4, "{looked_at}");
 }
 
 /// The text of a scene, damaged: bytes exchanged, cut out, doubled; numbers exchanged for

@@ -28,7 +28,7 @@ def campbell(r: CampbellResults) -> Chart:
     upper = Panel(
         x_name="rotation speed Ω [rpm]",
         y_name="Im λ / 2π [Hz]",
-        items=[*marks, *_branches(r), *_measured(r), _critical(r)],
+        items=[*marks, *_branches(r), *_excitation(r), *_measured(r), _critical(r)],
         x_range=speeds,
         y_range=(0.0, highest_shown_hz(r)),
         share=2.0,
@@ -42,7 +42,10 @@ def campbell(r: CampbellResults) -> Chart:
         y_range=range_per_s,
         y_root=True,
     )
-    return Chart(r.scene["name"], r._facts(), (upper, lower))
+    # Where a line leaves the panel above, there is no room for its name.
+    lines = [line.name for line in r.excitation.lines] if r.excitation else []
+    facts = "; ".join([r._facts(), *([f"lines {', '.join(lines)}"] if lines else [])])
+    return Chart(r.scene["name"], facts, (upper, lower))
 
 
 def colour_of(direction: Direction) -> str:
@@ -154,6 +157,33 @@ def _picked(
     places: IntArray,
 ) -> FloatArray:
     return np.where(places >= 0, values[np.maximum(places, 0)], np.nan)
+
+
+def _excitation(r: CampbellResults) -> list[Item]:
+    """Lines at multiples of the rotation speed, and where they cross the branches."""
+    if r.excitation is None:
+        return []
+    quiet, items = colours()["quiet"], list[Item]()
+    speeds = np.array([r.campbell.from_rpm, r.campbell.to_rpm])
+    top = highest_shown_hz(r)
+    for line in r.excitation.lines:
+        # A line ends where it leaves the panel.
+        rpm = np.minimum(speeds, 60.0 * top / line.order)
+        if rpm[0] < rpm[1]:
+            hover = [f"{line.name}<br>{at:.1f} rpm" for at in rpm]
+            end = line.name if rpm[1] == speeds[1] else ""
+            items.append(
+                Line(rpm, line.order * rpm / 60.0, quiet, line.name, 1.0, True, hover, end)
+            )
+    found = r.excitation.crossings
+    hover = [
+        f"{c.order}× crosses {c.mode}<br>{c.rpm:.1f} rpm<br>{c.frequency_hz:.3f} Hz" for c in found
+    ]
+    x, y = (
+        np.array(values, float)
+        for values in ([c.rpm for c in found], [c.frequency_hz for c in found])
+    )
+    return [*items, Points(x, y, quiet, "crossing", hollow=True, size=5.0, hover=hover)]
 
 
 def _measured(r: CampbellResults) -> list[Item]:

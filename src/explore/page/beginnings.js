@@ -38,6 +38,7 @@ const PARTS = {
     angle_deg: 0, depth_m: round(0.25 * rim(scene), 2), tangential_n_per_tooth: 100, radial_n_per_tooth: 10, lateral_n_per_tooth: 1,
     speeds: [{ rpm: operating(scene) }],
   }),
+  "cut.washboarding": () => ({ stiffness_n_per_m: 20000 }),
   "cut.speeds[]": (scene) => ({ rpm: operating(scene) }),
   runup: (scene) => ({ from_rpm: 0, to_rpm: round(1.5 * operating(scene), 2), duration_s: 60, force_n: 5, angle_deg: 0 }),
   probe: () => ({ angle_deg: 90 }),

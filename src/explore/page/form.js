@@ -10,7 +10,7 @@ import { shown, tidy, unitOf } from "./words.js";
 // is mounted on and what it cuts.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Parts that this chart does not depend on, and the command that looks at them.
-const ELSEWHERE = { cut: "cut", runup: "runup", spline: "cut" };
+const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", spline: "cut" };
 
 function node(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -137,6 +137,7 @@ export class Form {
   #list(schema, path, key, value) {
     const items = this.#resolve(schema.items);
     if (items.type === "string") return this.#lines(path, key);
+    if (items.type === "number") return this.#numbers(schema, path, key);
     const title = key.replaceAll("_", " ");
     const one = title.replace(/(?<!s)s$/, "");
     const parts = (value ?? []).map((item, i) => {
@@ -227,6 +228,22 @@ export class Form {
     const row = node("div", { className: "field wide" }, node("label", { htmlFor: path, textContent: key }), area);
     const shows = (value) => document.activeElement !== area && (area.value = (value ?? []).join("\n"));
     return this.#details(`${path}:lines`, key, "", this.#register(path, row, shows));
+  }
+
+  // A list of numbers, with commas between them.
+  #numbers(schema, path, key) {
+    const { unit, scale, name } = unitOf(key);
+    const input = node("input", { id: path, type: "text", placeholder: "none" });
+    input.addEventListener("change", () => {
+      const texts = input.value.split(/[,;\s]+/).filter((text) => text !== "");
+      // What is no number the library shall refuse in its own words.
+      const numbers = texts.map((text) => (Number.isFinite(Number(text)) ? tidy(Number(text) / scale) : text));
+      this.state.set(path, numbers.length > 0 ? numbers : undefined);
+    });
+    const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
+    const row = node("div", { className: "field wide", title: schema.description ?? "" }, label, input);
+    const shows = (value) => document.activeElement !== input && (input.value = (value ?? []).map((number) => shown(number * scale)).join(", "));
+    return this.#register(path, row, shows);
   }
 
   #number(schema, path, key, value, required) {
