@@ -5,7 +5,9 @@
 mod draw;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    let file = draw::scene_file(&mut draw::Bytes(bytes));
+    let mut bytes = draw::Bytes(bytes);
+    let file = draw::scene_file(&mut bytes);
+    let file = draw::with_details(&mut bytes, file);
     if let Ok(scene) = sawflutter::scene::Scene::try_from(file) {
         draw::survives_two_speeds(&scene);
         draw::survives_chart(&scene);

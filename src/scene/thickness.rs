@@ -33,6 +33,8 @@ pub struct RimFile {
 const MAX_ROWS: usize = 8;
 /// A step to a tenth leaves a thousandth of the bending stiffness.
 const RATIOS: (f64, f64) = (0.1, 10.0);
+/// Teeth of more blades' mass leave nothing of the blade to compute with.
+const MOST_BLADES: f64 = 10.0;
 /// Heavier than any saw.
 const MAX_TOOTH_KG: f64 = 1e3;
 
@@ -183,6 +185,14 @@ impl RimMass {
             return Err(refuse("blade.rim.radius_m", radius_m, allowed, remedy));
         }
         let mass_kg = each * f64::from(teeth);
+        let blade_kg = blade.mass_per_area_kg_per_m2() * PI * (outer - inner) * (outer + inner);
+        if mass_kg > MOST_BLADES * blade_kg {
+            let most_kg = MOST_BLADES * blade_kg / f64::from(teeth);
+            let allowed =
+                format!("at most {most_kg:.2e}, all teeth {MOST_BLADES} times the blade's mass");
+            let remedy = "give the mass of one tooth in kg; is it in grams?";
+            return Err(refuse(key, each, allowed, remedy));
+        }
         Ok((mass_kg > 0.0).then_some(RimMass { mass_kg, radius_m }))
     }
 }

@@ -126,9 +126,15 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     });
     file.operating_rpm = bytes.one_in(2).then(|| bytes.near(1000.0));
     file.flutter_threshold_per_s = bytes.near(0.25);
+    file
+}
+
+/// The same scene with steps, teeth, gaps, turning air, a cut and lines of excitation.
+pub fn with_details(bytes: &mut Bytes<'_>, mut file: SceneFile) -> SceneFile {
     blade_details(bytes, &mut file);
-    if bytes.one_in(4) {
-        file.cut = Some(cut(bytes, 0.5 * outer));
+    if bytes.one_in(2) {
+        let outer_m = 0.5 * file.blade.outer_diameter_m;
+        file.cut = Some(cut(bytes, outer_m));
     }
     if bytes.one_in(4) {
         file.excitation = Some(ExcitationFile {

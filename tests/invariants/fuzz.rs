@@ -22,11 +22,14 @@ fn rng() -> TestRng {
 }
 
 /// Enough bytes for every number of a scene with three pads.
-const SCENE_BYTES: usize = 260;
+const SCENE_BYTES: usize = 160;
+/// The same with steps, teeth, gaps, a cut and lines.
+const DETAILED_BYTES: usize = 260;
 
 /// Scenes charted on the small basis, and drawn for a full analysis: as many as a minute allows.
 const CHARTED: usize = 150;
 const ANALYZED: usize = 8;
+const DETAILED: usize = 1000;
 const WASHBOARDED: usize = 16;
 
 /// Valid scenes among the first `count` drawn ones.
@@ -89,14 +92,33 @@ fn drawn_scenes_analyzed_in_full() {
     assert!(2 * charted > done.len());
 }
 
+/// Steps, teeth, gaps, turning air, cuts with wood and lines of excitation.
+#[test]
+fn drawn_details_on_a_small_basis() {
+    let mut rng = rng();
+    let draw = |rng: &mut TestRng| {
+        let bytes = drawn(rng, DETAILED_BYTES);
+        let mut bytes = Bytes(&bytes);
+        let file = draw::scene_file(&mut bytes);
+        Scene::try_from(draw::with_details(&mut bytes, file)).ok()
+    };
+    let scenes: Vec<Scene> = (0..DETAILED).filter_map(|_| draw(&mut rng)).collect();
+    println!("{} of {DETAILED} are valid", scenes.len());
+    assert!(4 * scenes.len() > DETAILED, "{}", scenes.len());
+    scenes
+        .par_iter()
+        .for_each(|scene| assert_survives(scene, draw::survives_two_speeds));
+}
+
 /// A look at washboarding is as long as a chart: saws that are damped and held, and are cut with.
 #[test]
 fn drawn_saws_that_washboard_or_not() {
     let mut rng = rng();
     let draw = |rng: &mut TestRng| {
-        let bytes = drawn(rng, SCENE_BYTES);
+        let bytes = drawn(rng, DETAILED_BYTES);
         let mut bytes = Bytes(&bytes);
-        let mut file = draw::scene_file(&mut bytes);
+        let file = draw::scene_file(&mut bytes);
+        let mut file = draw::with_details(&mut bytes, file);
         file.blade.teeth = Some(24);
         file.operating_rpm = Some(1200.0);
         // Thinner ones have thousands of modes below tooth passing.

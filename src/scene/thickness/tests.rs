@@ -107,6 +107,8 @@ fn the_mass_of_teeth_needs_their_number_and_a_place_on_the_blade() {
         (with(0.002, None, None), "blade.teeth"),
         (with(0.002, Some(0.4), Some(40)), "blade.rim.radius_m"),
         (with(-0.002, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
+        // 4 kg for 4 g.
+        (with(4.0, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
     ] {
         match result {
             Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
