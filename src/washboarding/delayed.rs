@@ -97,7 +97,8 @@ impl DelayedSaw {
     /// 1 + k x_i has a positive real part, as F is positive and so is the real part of h.
     pub fn matters(&self, omega: f64, stiffness: f64) -> bool {
         let size = self.transfer.modal_bound(c64::new(0.0, omega));
-        !(stiffness * self.delay.bound() * size <= 0.5)
+        let part = stiffness * self.delay.bound() * size;
+        part > 0.5 || part.is_nan()
     }
 
     /// |λ| from which on nothing lies in the right half plane, however the phase of the delay falls:
