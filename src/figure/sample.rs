@@ -79,6 +79,7 @@ pub fn empty_report(name: &str) -> Report {
             searched_again: false,
             proven_share: None,
             unproven_rpm: Vec::new(),
+            unproven_growth_per_s: None,
             mismatches: Vec::new(),
             max_backward_error: 0.0,
         },

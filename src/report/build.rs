@@ -32,7 +32,7 @@ impl Analysis {
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
         let certificate = CertificateEntry::new(
-            &analysis.chart.certificate,
+            &analysis.chart,
             model.is_conservative(),
             analysis.range_rad_per_s,
             errors.fold(0.0, f64::max),

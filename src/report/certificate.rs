@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::rpm;
-use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch};
+use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, StabilityChart};
 
 /// The Krein index and the list of bands held against the spectrum, see [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,6 +38,10 @@ pub struct CertificateEntry {
     pub proven_share: Option<f64>,
     /// The rest, which was searched and not proven: from and to.
     pub unproven_rpm: Vec<[f64; 2]>,
+    /// Estimate, not proof, of the largest growth that a band hidden in the rest could have; absent
+    /// where no proof was tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unproven_growth_per_s: Option<f64>,
     /// Largest backward error of any mode shown.
     pub max_backward_error: f64,
 }
@@ -78,11 +82,12 @@ pub struct MismatchEntry {
 impl CertificateEntry {
     /// `range` is the sweep, in rad/s.
     pub(super) fn new(
-        certificate: &Certificate,
+        chart: &StabilityChart,
         is_undamped: bool,
         range: (f64, f64),
         max_backward_error: f64,
     ) -> Self {
+        let certificate = &chart.certificate;
         let violations = certificate.violations_rad_per_s.iter();
         let unproven = certificate.unproven_rad_per_s.iter().flatten();
         let proven_share = proven_share(certificate, range);
@@ -98,6 +103,7 @@ impl CertificateEntry {
             gave_up: certificate.gave_up,
             proven_share,
             unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
+            unproven_growth_per_s: chart.unproven_growth_per_s(),
             max_backward_error,
         }
     }

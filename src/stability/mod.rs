@@ -21,6 +21,7 @@ mod excitation;
 mod flutter;
 mod full_basis;
 mod heat;
+mod hidden_growth;
 mod interpolation;
 mod loci;
 mod matching;

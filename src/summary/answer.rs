@@ -135,6 +135,14 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
     let certificate = &report.certificate;
     let statement = format!("Certificate: {}", certificate.statement);
     writeln!(text, "{}", wrapped(&statement))?;
+    if let Some(growth) = certificate
+        .unproven_growth_per_s
+        .filter(|growth| *growth > 0.0)
+    {
+        let line =
+            format!("What is not proven could hide a growth of {growth:.1e} 1/s (estimated)");
+        writeln!(text, "{}", wrapped(&line))?;
+    }
     let error = certificate.max_backward_error;
     writeln!(text, "Largest backward error of a mode: {error:.0e}")?;
     if let Some(error) = report.accuracy.estimated_relative_error {
