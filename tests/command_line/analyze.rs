@@ -280,7 +280,10 @@ fn the_chart_in_the_cut_stands_beside_that_of_the_idling_saw() {
     let idling = in_cut.idling.expect("a full chart");
     assert_eq!((in_cut.rpm, in_cut.teeth), (2800.0, 4));
     let own = &default_run().report;
-    assert_eq!(idling.flutter_speed_rpm, own.flutter_speed_rpm);
+    // A search for bands alone closes in on the onset from other speeds than that of a chart.
+    let (idle, charted) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
+    let (idle, charted) = (idle.unwrap(), charted.unwrap());
+    assert!((idle / charted - 1.0).abs() < 1e-9, "{idle} {charted}");
     let told = text(&output.stdout);
     for expected in [
         "1240 N against".to_owned(),
