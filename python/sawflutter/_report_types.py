@@ -469,6 +469,10 @@ class Certificate(Entry):
     """Share of the sweep that is proven to have no instability which is not listed, rounded
     down to four digits; absent where no proof was tried."""
 
+    unproven_growth_per_s: float | None = field(default=None)
+    """Estimate, not proof, of the largest growth that a band hidden in the rest could have;
+    absent where no proof was tried."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(BranchMethods):

@@ -68,13 +68,21 @@ fn band(
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximise(samples, at)?;
+    // The few states between two speeds say where the largest growth is, the projection how large.
+    let peak_growth_per_s = match found {
+        Some(found) if found.value > 0.0 => match evaluator.divergence(found.at)? {
+            exact if exact > 0.0 => exact,
+            _ => found.value.sqrt(),
+        },
+        _ => 0.0,
+    };
     Ok(Instability {
         kind: InstabilityKind::Divergence,
         from_rad_per_s: from,
         to_rad_per_s: to,
         closed: begins != Edge::Range && ends != Edge::Range,
         peak_rad_per_s: found.map_or(from, |sample| sample.at),
-        peak_growth_per_s: found.map_or(0.0, |sample| sample.value.sqrt()),
+        peak_growth_per_s,
         frequency_rad_per_s: 0.0,
         curve: Vec::new(),
     })
