@@ -57,8 +57,8 @@ const AT_EDGE: f64 = 0.5;
 const INSIDE: f64 = 20.0;
 /// Share of the height that counts as its top, besides the way a mode goes in one step.
 const TOP: f64 = 0.02;
-/// Frequencies below this share of the height are those of real λ.
-const STOPPED: f64 = 1e-9;
+/// Frequencies below this share of the height are those of real λ, or of a free blade that drifts in turning air.
+const STOPPED: f64 = 1e-6;
 /// Weight of growth that has turned into decay, of damped modes: of two that have met the shapes
 /// are conjugate and the frequencies equal, and growth alone tells them apart.
 const REGROWN: f64 = 0.2;
