@@ -19,12 +19,13 @@ use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
 use super::inertia::WholeBasis;
-use super::mode::{Mode, ModeKind, classify, pairs_of};
+use super::mode::{Mode, ModeKind, classify};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::reflected::ReflectedModel;
 use super::work::{Cancellation, WorkCounters};
 
+mod described;
 #[cfg(test)]
 mod planted;
 
@@ -356,49 +357,6 @@ impl SpectralModel {
         let within = self.critical.iter();
         let within = within.filter(move |c| c.speed_rad_per_s <= last);
         within.map(|c| (c.speed_rad_per_s, &c.shape))
-    }
-
-    /// Names and residuals of modes of one speed.
-    pub fn describe(&self, speed_rad_per_s: f64, modes: Vec<Mode>) -> Vec<DescribedMode> {
-        let mut described: Vec<Option<DescribedMode>> = modes.iter().map(|_| None).collect();
-        for (index, component) in self.components.iter().enumerate() {
-            let places: Vec<usize> = (0..modes.len())
-                .filter(|&k| modes[k].component == index)
-                .collect();
-            if places.is_empty() {
-                continue;
-            }
-            let own: Vec<Mode> = places.iter().map(|&k| modes[k].clone()).collect();
-            let lifted = component
-                .at(speed_rad_per_s)
-                .lifted(speed_rad_per_s, &pairs_of(&own));
-            for ((place, mode), lifted) in places.into_iter().zip(own).zip(lifted) {
-                let backward_error =
-                    component
-                        .norms()
-                        .backward_error(speed_rad_per_s, mode.lambda, &lifted);
-                let shape = self.embed(component.first, &lifted.shape);
-                let name = ModeName::new(&self.plate, &mode, &shape, speed_rad_per_s);
-                described[place] = Some(DescribedMode {
-                    mode,
-                    shape,
-                    name,
-                    backward_error,
-                });
-            }
-        }
-        described.into_iter().flatten().collect()
-    }
-
-    fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
-        let range = first..first + q.nrows();
-        Col::from_fn(self.plate.degrees_of_freedom(), |i| {
-            if range.contains(&i) {
-                q[i - first]
-            } else {
-                c64::new(0.0, 0.0)
-            }
-        })
     }
 
     /// Negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite
