@@ -23,6 +23,7 @@ files! {
     "kept.js": SCRIPT, "page/kept.js";
     "beginnings.js": SCRIPT, "page/beginnings.js";
     "range.js": SCRIPT, "page/range.js";
+    "dom.js": SCRIPT, "page/dom.js";
     "form.js": SCRIPT, "page/form.js";
     "blade.js": SCRIPT, "page/blade.js";
     "motion.js": SCRIPT, "page/motion.js";

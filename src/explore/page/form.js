@@ -2,21 +2,16 @@
 // page can set.
 
 import * as beginnings from "./beginnings.js";
+import { node } from "./dom.js";
 import { Range } from "./range.js";
 import { get } from "./scene.js";
-import { shown, tidy, unitOf } from "./words.js";
+import { numberOf, shown, tidy, unitOf } from "./words.js";
 
 // The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
 // is mounted on and what it cuts.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Parts that this chart does not depend on, and the command that looks at them.
 const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", spline: "cut" };
-
-function node(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
 
 export class Form {
   constructor(place, schema, quantities, state) {
@@ -260,11 +255,11 @@ export class Form {
     const range = new Range(key, value ?? fallback ?? beginnings.number(key, this.state.scene) ?? 0, quantity, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
     input.addEventListener("change", () => {
-      const text = input.value.trim().replace(",", ".").replace("−", "-");
-      if (text === "" && !required) send(undefined);
-      else if (text !== "" && Number.isFinite(Number(text))) send(tidy(Number(text) / scale));
+      const number = numberOf(input.value);
+      if (input.value.trim() === "" && !required) send(undefined);
+      else if (number !== null) send(tidy(number / scale));
       // What is no number the library shall refuse in its own words.
-      else send(text);
+      else send(input.value.trim());
     });
     const slid = () => tidy(whole ? Math.round(range.value(slider.value)) : Number(range.value(slider.value).toPrecision(4)));
     slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp, run: path }));

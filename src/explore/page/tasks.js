@@ -2,16 +2,11 @@
 // Each is a tab with what the program prints, its figures, and its report to save.
 
 import * as beginnings from "./beginnings.js";
+import { node } from "./dom.js";
 import { download } from "./kept.js";
 import { get, set } from "./scene.js";
 import { Refused, task } from "./talk.js";
-import { shown, tidy, unitOf } from "./words.js";
-
-function node(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
+import { numberOf, shown, tidy, unitOf } from "./words.js";
 
 // The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
 // size, pads set by hand, stiffness guessed from the material.
@@ -241,7 +236,7 @@ function putIn(scene, part) {
 
 // A number as it was typed.
 function number(text) {
-  const value = Number(text.trim().replace(",", ".").replace("−", "-"));
-  if (text.trim() === "" || !Number.isFinite(value)) throw new RangeError(`${text || "Nothing"} is no number`);
+  const value = numberOf(text);
+  if (value === null) throw new RangeError(`${text || "Nothing"} is no number`);
   return value;
 }

@@ -1,12 +1,7 @@
 // What the chart says, in words and tables.
 
+import { node } from "./dom.js";
 import { numbered, rpm, shown } from "./words.js";
-
-function node(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-}
 
 const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
 

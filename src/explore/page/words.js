@@ -46,6 +46,12 @@ export function unitOf(key) {
 // Twelve digits: what is typed comes back as typed, whatever the unit.
 export const tidy = (value) => Number(value.toPrecision(12));
 
+// A number as people type it, with a comma or a true minus; null where it is none.
+export function numberOf(text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return plain !== "" && Number.isFinite(Number(plain)) ? Number(plain) : null;
+}
+
 export function shown(value, digits = 6) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
