@@ -2,21 +2,21 @@
 //! as JSON.
 
 use pyo3::prelude::*;
-use sawflutter::check::Check;
+use sawflutter::check::{Check, LimitsFile};
 use sawflutter::fit::{Compared, Fit, Measurement, Options as FitOptions};
-use sawflutter::place::Placement;
+use sawflutter::place::{Options as PlaceOptions, Placement};
 use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
     WashboardReport,
 };
-use sawflutter::scene::{CutRun, Freed, Scene, rad_per_s, rpm};
+use sawflutter::scene::{Freed, NamedBounds, Scene, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, sensitivities};
 use sawflutter::transient::{Cutting, RunningUp};
 use sawflutter::washboarding::Washboard;
 use serde::Serialize;
 
-use crate::arguments::{self, Bounds};
+use crate::arguments;
 use crate::failure::Failure;
 use crate::watch::compute;
 
@@ -97,14 +97,15 @@ pub fn check(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
-    let limits = arguments::limits(
-        &scene,
+    let asked = LimitsFile {
         operating_rpm,
         margin,
         min_flutter_rpm,
         min_critical_rpm,
-        max_rim_m_per_s,
-    )?;
+    };
+    let limits = asked.limits(&scene);
+    let limits = limits.and_then(|limits| limits.with_rim_speed(max_rim_m_per_s));
+    let limits = limits.map_err(Failure::from)?;
     compute(py, progress, move |_| {
         let check = Check::new(&scene, &limits)?;
         json(&CheckReport::new(&scene, &limits, &check))
@@ -122,23 +123,11 @@ pub fn cut(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let cut = scene.cut().ok_or_else(|| {
-            let allowed = "the forces on the teeth".to_owned();
-            missing("cut", allowed)
-        })?;
-        let asked = rpm.iter().map(|rpm| cut.at_rpm(*rpm));
-        let asked = asked.collect::<Result<Vec<CutRun>, _>>()?;
-        let runs = if asked.is_empty() { &cut.runs } else { &asked };
-        if runs.is_empty() {
-            return Err(missing("rpm", "a speed to cut at".to_owned()));
-        }
-        let cutting = Cutting::new(&scene, cut, runs, &|done, of| meter.show(done, of))?;
+        let cut = scene.needed_cut()?;
+        let runs = cut.runs_at(&rpm)?;
+        let cutting = Cutting::new(&scene, cut, &runs, &|done, of| meter.show(done, of))?;
         json(&CutReport::new(&cutting))
     })
-}
-
-fn missing(key: &str, allowed: String) -> Failure {
-    Failure::argument(key, "missing", allowed, "add it to the scene")
 }
 
 /// `runup.json` of a scene.
@@ -147,10 +136,7 @@ fn missing(key: &str, allowed: String) -> Failure {
 pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let runup = scene.runup().ok_or_else(|| {
-            let allowed = "speeds, duration and force of the run-up".to_owned();
-            missing("runup", allowed)
-        })?;
+        let runup = scene.needed_runup()?;
         let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
         json(&RunUpReport::new(&found))
     })
@@ -167,15 +153,8 @@ pub fn washboard(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let cut = scene.cut();
-        let delayed = cut.and_then(|cut| Some((cut, cut.washboarding.as_ref()?)));
-        let (cut, washboarding) = delayed.ok_or_else(|| {
-            let allowed = "the lateral cutting stiffness".to_owned();
-            missing("cut.washboarding", allowed)
-        })?;
-        let rpm = rpm.or(scene.file().operating_rpm);
-        let rpm = rpm.ok_or_else(|| missing("rpm", "a speed to cut at".to_owned()))?;
-        let run = cut.at_rpm(rpm)?;
+        let (cut, washboarding) = scene.needed_washboarding()?;
+        let run = cut.at_rpm(scene.needed_operating_rpm(rpm)?)?;
         let progress = |done, of| meter.show(done, of);
         let found = Washboard::new(&scene, (cut, washboarding), &run, &progress)?;
         json(&WashboardReport::new(&found))
@@ -192,7 +171,7 @@ pub fn fit(
     py: Python<'_>,
     scene: &str,
     measured: Option<(String, String)>,
-    free: Vec<Bounds>,
+    free: Vec<NamedBounds>,
     to_rpm: Option<f64>,
     confidence: f64,
     starts: usize,
@@ -200,19 +179,16 @@ pub fn fit(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
-    let options = arguments::fit_options(confidence, starts, seed)?;
-    let to_rpm = match to_rpm {
-        Some(to_rpm) => rpm(arguments::speed("to_rpm", to_rpm)?),
-        None => f64::INFINITY,
-    };
     let measurement = measurement(&scene, measured)?;
-    let options = FitOptions { to_rpm, ..options };
-    if measurement.up_to(to_rpm).count() == 0 {
-        let allowed = "a table with frequencies up to to_rpm".to_owned();
-        let remedy = "give another table, or another to_rpm";
-        return Err(Failure::argument("measured", "empty", allowed, remedy).into());
-    }
-    let freed = arguments::freed(&scene, free, Freed::usual_to_fit(scene.file()))?;
+    let options = FitOptions {
+        confidence,
+        starts,
+        seed,
+        to_rpm: to_rpm.unwrap_or(f64::INFINITY),
+        ..FitOptions::default()
+    };
+    let options = options.checked(&measurement).map_err(Failure::from)?;
+    let freed = Freed::to_fit(&scene, &free).map_err(Failure::from)?;
     compute(py, progress, move |meter| {
         let progress = |done, of| meter.show(done, of);
         let fit = Fit::new(&scene, &measurement, &freed, &options, &progress)?;
@@ -221,10 +197,9 @@ pub fn fit(
 }
 
 fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Measurement, Failure> {
-    match (measured, &scene.file().measured) {
-        (Some((name, table)), _) => Ok(Measurement::from_csv(&name, &table)?),
-        (None, Some(own)) => Ok(Measurement::of_scene(own)),
-        (None, None) => Err(missing("measured", "a table of frequencies".to_owned())),
+    match measured {
+        Some((name, table)) => Ok(Measurement::from_csv(&name, &table)?),
+        None => Ok(Measurement::of_scene(scene.needed_measured()?)),
     }
 }
 
@@ -236,7 +211,7 @@ fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Meas
 pub fn place(
     py: Python<'_>,
     scene: &str,
-    free: Vec<Bounds>,
+    free: Vec<NamedBounds>,
     goal: &str,
     min_critical_rpm: Option<f64>,
     samples: usize,
@@ -246,12 +221,14 @@ pub fn place(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     let demands = arguments::demands(&scene, goal, min_critical_rpm)?;
-    let options = arguments::place_options(samples, refine, map)?;
-    let usual = Freed::usual_to_place(scene.file());
-    if usual.is_empty() && free.is_empty() {
-        return Err(missing("guides", "a guide to be placed".to_owned()).into());
-    }
-    let freed = arguments::freed(&scene, free, usual)?;
+    let options = PlaceOptions {
+        samples,
+        refine: refine.max(1),
+        map,
+        ..PlaceOptions::default()
+    };
+    let options = options.checked().map_err(Failure::from)?;
+    let freed = Freed::to_place(&scene, &free).map_err(Failure::from)?;
     compute(py, progress, move |meter| {
         let progress = |what, done, of| meter.show_of(what, done, of);
         let found = Placement::new(&scene, &freed, &demands, &options, &progress)?;

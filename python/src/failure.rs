@@ -7,7 +7,7 @@ use sawflutter::check::CheckError;
 use sawflutter::figure::FigureError;
 use sawflutter::fit::FitError;
 use sawflutter::place::PlaceError;
-use sawflutter::scene::SceneError;
+use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;
 use sawflutter::stability::{AnalysisError, SensitivityError};
 use sawflutter::study::{LogError, StudyError};
@@ -58,17 +58,39 @@ impl Refusal {
 
 impl Failure {
     /// An argument of a method that is out of range.
-    pub fn argument(key: &str, value: impl ToString, allowed: String, remedy: &str) -> Self {
-        let value = value.to_string();
-        Failure::Refused(Box::new(Refusal {
-            class: "ArgumentError",
-            message: format!("{key} is {value}, but must be {allowed}; {remedy}"),
-            key: Some(key.to_owned()),
-            value: Some(value),
-            allowed: Some(allowed),
-            remedy: Some(remedy.to_owned()),
-        }))
+    pub fn argument(
+        key: &str,
+        value: impl ToString,
+        allowed: String,
+        remedy: &'static str,
+    ) -> Self {
+        let (key, value) = (key.to_owned(), value.to_string());
+        RefusedValue {
+            key,
+            value,
+            allowed,
+            remedy,
+        }
+        .into()
     }
+}
+
+impl From<RefusedValue> for Failure {
+    fn from(refused: RefusedValue) -> Self {
+        value("ArgumentError", refused)
+    }
+}
+
+/// A value that cannot be used, of an exception of this name.
+fn value(class: &'static str, refused: RefusedValue) -> Failure {
+    Failure::Refused(Box::new(Refusal {
+        class,
+        message: refused.to_string(),
+        key: Some(refused.key),
+        value: Some(refused.value),
+        allowed: Some(refused.allowed),
+        remedy: Some(refused.remedy.to_owned()),
+    }))
 }
 
 impl From<SceneError> for Failure {
@@ -78,19 +100,7 @@ impl From<SceneError> for Failure {
         match error {
             SceneError::File(source) => file(class, source),
             SceneError::Syntax { key, .. } => Refusal::saying(class, message, Some(key)),
-            SceneError::Value {
-                key,
-                value,
-                allowed,
-                remedy,
-            } => Failure::Refused(Box::new(Refusal {
-                class,
-                message,
-                key: Some(key),
-                value: Some(value),
-                allowed: Some(allowed),
-                remedy: Some(remedy.to_owned()),
-            })),
+            SceneError::Value(refused) => value(class, refused),
             _ => Refusal::saying(class, message, None),
         }
     }
@@ -112,19 +122,7 @@ impl From<StudyError> for Failure {
         let class = "StudyError";
         match error {
             StudyError::Syntax { key, .. } => Refusal::saying(class, message, Some(key)),
-            StudyError::Value {
-                key,
-                value,
-                allowed,
-                remedy,
-            } => Failure::Refused(Box::new(Refusal {
-                class,
-                message,
-                key: Some(key),
-                value: Some(value),
-                allowed: Some(allowed),
-                remedy: Some(remedy.to_owned()),
-            })),
+            StudyError::Value(refused) => value(class, refused),
             StudyError::Scene { key, source } => match Failure::from(source) {
                 Failure::Refused(refusal) => Failure::Refused(Box::new(Refusal {
                     message,

@@ -11,9 +11,6 @@ use crate::arguments;
 use crate::failure::Failure;
 use crate::watch::compute;
 
-/// Most diameters and most radial functions: beyond them digits are lost or memory is.
-const LARGEST: (usize, usize) = (64, 14);
-
 /// The matrices by name, row by row as little-endian doubles, and the size of their basis.
 /// Bytes and no array: NumPy reads them without a copy, and rust-numpy would have the whole library
 /// built a second time, for features of its dependencies that the program does without.
@@ -25,7 +22,8 @@ pub fn matrices<'py>(
     basis: Option<(usize, usize)>,
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
-    let basis = basis.map(resolution).transpose()?;
+    let basis = basis.map(|(diameters, radial)| Resolution::new(diameters, radial));
+    let basis = basis.transpose().map_err(Failure::from)?;
     let (named, resolution) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
@@ -46,22 +44,6 @@ pub fn matrices<'py>(
         found.set_item(name, PyBytes::new(py, &matrix))?;
     }
     Ok((found, resolution.max_diameters, resolution.radial_functions))
-}
-
-fn resolution((max_diameters, radial_functions): (usize, usize)) -> Result<Resolution, Failure> {
-    let (diameters, functions) = LARGEST;
-    if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {
-        return Ok(Resolution {
-            max_diameters,
-            radial_functions,
-        });
-    }
-    Err(Failure::argument(
-        "basis",
-        format!("({max_diameters}, {radial_functions})"),
-        format!("diameters 2 to {diameters} and radial functions 2 to {functions}"),
-        "(16, 8) is usual",
-    ))
 }
 
 fn bytes(matrix: &Mat<f64>) -> Vec<u8> {

@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod limits;
 mod static_deflection;
 
 use faer::linalg::solvers::Solve;
@@ -22,9 +23,10 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, verdict};
+use crate::stability::{Analysis, Instability, verdict};
 use crate::system::GyroscopicSystem;
 
+pub use limits::{Limits, LimitsFile, RIM_LIMIT_M_PER_S};
 use static_deflection::{StaticDeflection, point};
 
 /// Why a saw could not be held against limits.
@@ -39,49 +41,6 @@ pub enum CheckError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-}
-
-/// What a saw has to keep.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Speed at which it is run.
-    pub operating_rad_per_s: f64,
-    /// Largest share of the lowest critical speed that the operating speed may be.
-    pub margin: f64,
-    /// Least flutter speed.
-    pub min_flutter_rad_per_s: Option<f64>,
-    /// Least first critical speed.
-    pub min_critical_rad_per_s: Option<f64>,
-    /// Largest speed of the rim.
-    pub max_rim_m_per_s: f64,
-}
-
-/// Saws for wood are run with 60 to 90 m/s at the rim, and makers of carbide-tipped blades allow no
-/// more than this.
-pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
-
-impl Limits {
-    /// The usual 85 % rule and the usual speed of the rim at an operating speed, and nothing else.
-    pub fn at(operating_rad_per_s: f64) -> Self {
-        Limits {
-            operating_rad_per_s,
-            margin: OPERATING_LIMIT,
-            min_flutter_rad_per_s: None,
-            min_critical_rad_per_s: None,
-            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
-        }
-    }
-
-    /// How far a sweep has to go: past every speed asked for, so that a band that begins there
-    /// is seen to.
-    pub fn reach_rad_per_s(&self) -> f64 {
-        let asked = [
-            Some(self.operating_rad_per_s / self.margin),
-            self.min_flutter_rad_per_s,
-            self.min_critical_rad_per_s,
-        ];
-        BEYOND * asked.into_iter().flatten().fold(0.0, f64::max)
-    }
 }
 
 /// One limit and what was found.
@@ -124,8 +83,6 @@ const POINT_LOAD_BASIS: Resolution = Resolution {
     max_diameters: 30,
     radial_functions: 12,
 };
-/// The sweep reaches past the speeds asked for by this factor.
-const BEYOND: f64 = 1.02;
 
 impl Check {
     /// Analyses a saw as far as the limits ask, and compares.

@@ -3,13 +3,12 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::check::{Check, Limits, RIM_LIMIT_M_PER_S};
+use crate::check::{Check, Limits, LimitsFile, RIM_LIMIT_M_PER_S};
 use crate::report::CheckReport;
-use crate::scene::{Scene, rad_per_s};
-use anyhow::{Context, bail};
+use crate::scene::Scene;
 use clap::Args;
 
-use super::common::{Input, say};
+use super::common::{Input, of_option, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
 use crate::summary::wrapped;
@@ -85,47 +84,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
 }
 
 fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
-    let operating = match arguments.operating_rpm {
-        Some(rpm) => rad_per_s(speed("--operating-rpm", rpm)?),
-        None => scene.operating_rad_per_s().context(
-            "--operating-rpm is missing, but must say how fast the saw is run; give it, or operating_rpm in the scene",
-        )?,
-    };
-    if !(arguments.margin > 0.0 && arguments.margin <= 1.0) {
-        bail!(
-            "--margin is {}, but must be above 0 and at most 1; the usual rule is 0.85",
-            arguments.margin
-        );
-    }
-    let rim = arguments.max_rim_m_per_s;
-    if !(rim > 0.0 && rim <= MAX_RIM_M_PER_S) {
-        bail!(
-            "--max-rim-m-per-s is {rim}, but must be above 0 and at most {MAX_RIM_M_PER_S}; saws for wood are run with at most {RIM_LIMIT_M_PER_S}"
-        );
-    }
-    let asked =
-        |name, value: Option<f64>| value.map(|rpm| speed(name, rpm).map(rad_per_s)).transpose();
-    Ok(Limits {
+    let asked = LimitsFile {
+        operating_rpm: arguments.operating_rpm,
         margin: arguments.margin,
-        max_rim_m_per_s: rim,
-        min_flutter_rad_per_s: asked("--min-flutter-rpm", arguments.min_flutter_rpm)?,
-        min_critical_rad_per_s: asked("--min-critical-rpm", arguments.min_critical_rpm)?,
-        ..Limits::at(operating)
-    })
-}
-
-/// Faster than sound in steel.
-const MAX_RIM_M_PER_S: f64 = 1e4;
-/// Faster than any saw, and far from overflow.
-const MAX_RPM: f64 = 1e9;
-
-fn speed(name: &str, rpm: f64) -> anyhow::Result<f64> {
-    if rpm > 0.0 && rpm <= MAX_RPM {
-        return Ok(rpm);
-    }
-    bail!(
-        "{name} is {rpm}, but must be above 0 and at most {MAX_RPM:e}; give it in revolutions per minute"
-    )
+        min_flutter_rpm: arguments.min_flutter_rpm,
+        min_critical_rpm: arguments.min_critical_rpm,
+    };
+    let limits = asked.limits(scene);
+    let limits = limits.and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s));
+    limits.map_err(of_option)
 }
 
 fn summary(check: &Check, report: &CheckReport) -> String {

@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use crate::scene::{Accuracy, SCENE_TEXT, Scene, SceneError};
+use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError};
 use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -100,6 +100,12 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
         false => path.display().to_string(),
     };
     error.context(format!("{name} was refused"))
+}
+
+/// The error of an option, with the name that it has on the command line.
+pub fn of_option(refused: RefusedValue) -> anyhow::Error {
+    let key = format!("--{}", refused.key.replace('_', "-"));
+    RefusedValue { key, ..refused }.into()
 }
 
 /// Writes to standard output what a terminal may be sent.

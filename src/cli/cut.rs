@@ -1,13 +1,11 @@
 //! `sawflutter cut`.
 
 use crate::report::CutReport;
-use crate::scene::CutRun;
 use crate::transient::Cutting;
-use anyhow::bail;
 use clap::Args;
 
 use super::common::{Common, progress_bar, show};
-use super::paste::cut_block;
+use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
 
 pub const EXAMPLES: &str = "\
@@ -30,24 +28,11 @@ pub struct Arguments {
 /// Computes a cut, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let Some(cut) = &scene.cut() else {
-        // By itself, for the words of an error are one line.
-        eprintln!("{}\n", cut_block(scene.file()));
-        bail!(
-            "cut is missing, but must say which forces act on the teeth; paste the block above behind the first brace of the scene and put in the numbers of your wood"
-        );
-    };
-    let asked = arguments.rpm.iter().map(|rpm| cut.at_rpm(*rpm));
-    let asked = asked.collect::<Result<Vec<CutRun>, _>>()?;
-    let runs = if asked.is_empty() { &cut.runs } else { &asked };
-    if runs.is_empty() {
-        bail!(
-            "cut.speeds is missing, but must name a speed to cut at; add it or operating_rpm to the scene, or give --rpm"
-        );
-    }
+    let cut = pasted(&scene, scene.needed_cut())?;
+    let runs = cut.runs_at(&arguments.rpm)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("points of the map");
-    let cutting = Cutting::new(&scene, cut, runs, &|done, of| show(&bar, done, of))?;
+    let cutting = Cutting::new(&scene, cut, &runs, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let report = CutReport::new(&cutting);
     let json = serde_json::to_string_pretty(&report)?;

@@ -28,25 +28,13 @@ pub struct Arguments {
     basis: Option<Resolution>,
 }
 
-/// Most diameters and most radial functions: beyond them digits are lost or memory is.
-const LARGEST: (usize, usize) = (64, 14);
-
 fn basis(text: &str) -> Result<Resolution, String> {
-    let refused = || {
-        format!(
-            "give diameters 2 to {} and radial functions 2 to {}, such as 16,8",
-            LARGEST.0, LARGEST.1
-        )
-    };
-    let (diameters, radial) = text.split_once(',').ok_or_else(refused)?;
-    let number = |text: &str, most: usize| match text.trim().parse::<usize>() {
-        Ok(number) if (2..=most).contains(&number) => Ok(number),
-        _ => Err(refused()),
-    };
-    Ok(Resolution {
-        max_diameters: number(diameters, LARGEST.0)?,
-        radial_functions: number(radial, LARGEST.1)?,
-    })
+    let numbers = text.split_once(',');
+    let numbers = numbers.and_then(|(diameters, radial)| {
+        Some((diameters.trim().parse().ok()?, radial.trim().parse().ok()?))
+    });
+    let (diameters, radial) = numbers.ok_or("give two numbers, such as 16,8")?;
+    Resolution::new(diameters, radial).map_err(|refused| refused.to_string())
 }
 
 /// Writes the matrices that the scene asks for, and what they are.

@@ -6,11 +6,10 @@ use crate::fit::{Compared, Fit, Measurement, Options};
 use crate::report::FitReport;
 use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
-use anyhow::{Context, bail};
 use clap::Args;
 
-use super::common::{Common, progress_bar, read_text, refused, show};
-use super::free::{freed, number};
+use super::common::{Common, of_option, progress_bar, read_text, refused, show};
+use super::free::named_bounds;
 use super::pictures::drawn;
 
 pub const EXAMPLES: &str = "\
@@ -55,8 +54,6 @@ pub struct Arguments {
     seed: u64,
 }
 
-/// More starts than these never found anything new.
-const MAX_STARTS: usize = 1000;
 /// As for scenes; a table of frequencies is a page.
 const TABLE: Kind = Kind {
     limit: 1 << 20,
@@ -66,23 +63,16 @@ const TABLE: Kind = Kind {
 /// Fits a saw to measured frequencies, writes the files and prints the table.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let to_rpm = match arguments.to_rpm {
-        Some(rpm) => number("--to-rpm", rpm, (0.0, 1e9))?,
-        None => f64::INFINITY,
-    };
-    let options = Options {
-        to_rpm,
-        ..options(arguments)?
-    };
     let measurement = measurement(arguments, &scene)?;
-    if measurement.up_to(to_rpm).count() == 0 {
-        bail!(
-            "no frequency of {} is left to fit; give a table with some, or another --to-rpm",
-            measurement.source
-        );
-    }
-    let usual = Freed::usual_to_fit(scene.file());
-    let freed = freed(&scene, &arguments.free, &usual)?;
+    let options = Options {
+        confidence: arguments.confidence,
+        starts: arguments.starts,
+        seed: arguments.seed,
+        to_rpm: arguments.to_rpm.unwrap_or(f64::INFINITY),
+        ..Options::default()
+    };
+    let options = options.checked(&measurement).map_err(of_option)?;
+    let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("starts");
     let fit = Fit::new(&scene, &measurement, &freed, &options, &|done, of| {
@@ -100,33 +90,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .print(&folder, &files, &[], &json, || report.summary())
 }
 
-fn options(arguments: &Arguments) -> anyhow::Result<Options> {
-    if !(arguments.confidence > 0.0 && arguments.confidence < 1.0) {
-        bail!(
-            "--confidence is {}, but must be between 0 and 1; 0.95 is usual",
-            arguments.confidence
-        );
-    }
-    if !(1..=MAX_STARTS).contains(&arguments.starts) {
-        bail!(
-            "--starts is {}, but must be from 1 to {MAX_STARTS}; a dozen is usual",
-            arguments.starts
-        );
-    }
-    Ok(Options {
-        confidence: arguments.confidence,
-        starts: arguments.starts,
-        seed: arguments.seed,
-        ..Options::default()
-    })
-}
-
 fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measurement> {
     let Some(path) = &arguments.measured else {
-        let own = scene.file().measured.as_ref().context(
-            "measured is missing, but must say what was measured; give a table after the scene, or write it into the scene",
-        )?;
-        return Ok(Measurement::of_scene(own));
+        return Ok(Measurement::of_scene(scene.needed_measured()?));
     };
     let text = read_text(path, TABLE)?;
     let name = path.file_name().unwrap_or(path.as_os_str());

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde_json::{Value, json};
 
-use crate::scene::SceneFile;
+use crate::scene::{RefusedValue, Scene, SceneFile};
 
 /// Rim speed of a saw that says no speed of its own: between those of the stone and the
 /// timber industry.
@@ -12,8 +12,26 @@ const RIM_SPEED_M_PER_S: f64 = 60.0;
 /// Power of a cut in each metre of depth, of the order of the paper's saw.
 const POWER_W_PER_M: f64 = 200e3;
 
+/// What a command needs of a scene; where that is missing, with a block to paste on the error
+/// stream.
+pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Result<T> {
+    needed.map_err(|refused| {
+        let (block, place) = match refused.key.as_str() {
+            "cut" => (cut_block(scene.file()), "the scene"),
+            "runup" => (runup_block(scene.file()), "the scene"),
+            "cut.washboarding" => (washboarding_block(), "its block \"cut\""),
+            _ => return refused.into(),
+        };
+        // By itself, for the words of an error are one line.
+        eprintln!(
+            "{block}\n\nPaste this behind the first brace of {place}, with your own numbers.\n"
+        );
+        refused.into()
+    })
+}
+
 /// The key `cut`, of a middling cut for this blade.
-pub fn cut_block(scene: &SceneFile) -> String {
+fn cut_block(scene: &SceneFile) -> String {
     let depth_m = rounded(0.25 * scene.blade.outer_diameter_m);
     let mut cut = json!({
         "depth_m": depth_m,
@@ -34,7 +52,7 @@ pub fn cut_block(scene: &SceneFile) -> String {
 }
 
 /// The key `cut.washboarding`, of a cut of middling stiffness.
-pub fn washboarding_block() -> String {
+fn washboarding_block() -> String {
     block(
         "washboarding",
         &json!({ "stiffness_n_per_m": 20000, "overlap": 1 }),
@@ -42,7 +60,7 @@ pub fn washboarding_block() -> String {
 }
 
 /// The key `runup`, to half as fast again as the saw runs.
-pub fn runup_block(scene: &SceneFile) -> String {
+fn runup_block(scene: &SceneFile) -> String {
     let usual_rpm = scene.operating_rpm.unwrap_or_else(|| usual_rpm(scene));
     let runup = json!({
         "from_rpm": 0,

@@ -2,13 +2,12 @@
 
 use crate::place::{Demands, Goal, Options, Placement};
 use crate::report::PlaceReport;
-use crate::scene::{Freed, Scene, rad_per_s};
-use anyhow::{Context, bail};
+use crate::scene::{Freed, Scene};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressBar;
 
-use super::common::{Common, progress_bar, show};
-use super::free::{freed, number};
+use super::common::{Common, of_option, progress_bar, show};
+use super::free::named_bounds;
 use super::pictures::{drawn, figure_names};
 
 pub const EXAMPLES: &str = "\
@@ -55,36 +54,18 @@ enum GoalName {
     Window,
 }
 
-const MAX_SAMPLES: usize = 100_000;
-const MAX_MAP: usize = 400;
-
 /// Looks for the best place, writes the files and prints the summary; whether the limit is kept.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.common.scene()?;
     let demands = demands(arguments, &scene)?;
-    if !(1..=MAX_SAMPLES).contains(&arguments.samples) {
-        bail!(
-            "--samples is {}, but must be from 1 to {MAX_SAMPLES}; a hundred is usual",
-            arguments.samples
-        );
-    }
-    if arguments.map == 1 || arguments.map > MAX_MAP {
-        bail!(
-            "--map is {}, but must be 0 or from 2 to {MAX_MAP}; 17 is usual",
-            arguments.map
-        );
-    }
     let options = Options {
         samples: arguments.samples,
         refine: arguments.refine.max(1),
         map: arguments.map,
         ..Options::default()
     };
-    let usual = Freed::usual_to_place(scene.file());
-    if usual.is_empty() && arguments.free.is_empty() {
-        bail!("guides is missing, but there must be one to be placed; write one into the scene");
-    }
-    let freed = freed(&scene, &arguments.free, &usual)?;
+    let options = options.checked().map_err(of_option)?;
+    let freed = Freed::to_place(&scene, &named_bounds(&arguments.free)?)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("{msg}");
     let found = Placement::new(&scene, &freed, &demands, &options, &|what, done, of| {
@@ -115,16 +96,7 @@ fn told(bar: &ProgressBar, what: &'static str, done: usize, of: usize) {
 fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
     let goal = match arguments.goal {
         GoalName::Flutter => Goal::FlutterSpeed,
-        GoalName::Window => Goal::StableWindow {
-            around_rad_per_s: scene.operating_rad_per_s().context(
-                "operating_rpm is missing, but must say how fast the saw is run; write it into the scene",
-            )?,
-        },
+        GoalName::Window => Goal::window_of(scene)?,
     };
-    let limit = arguments.min_critical_rpm;
-    let limit = limit.map(|rpm| number("--min-critical-rpm", rpm, (0.0, 1e9)));
-    Ok(Demands {
-        goal,
-        min_critical_rad_per_s: limit.transpose()?.map(rad_per_s),
-    })
+    Demands::new(goal, arguments.min_critical_rpm).map_err(of_option)
 }

@@ -2,11 +2,10 @@
 
 use crate::report::RunUpReport;
 use crate::transient::RunningUp;
-use anyhow::bail;
 use clap::Args;
 
 use super::common::{Common, progress_bar, show};
-use super::paste::runup_block;
+use super::paste::pasted;
 use super::pictures::drawn;
 
 pub const EXAMPLES: &str = "\
@@ -26,13 +25,7 @@ pub struct Arguments {
 /// Computes a run-up, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let Some(runup) = &scene.runup() else {
-        // By itself, for the words of an error are one line.
-        eprintln!("{}\n", runup_block(scene.file()));
-        bail!(
-            "runup is missing, but must say from and to which speed, in which time and under which force; paste the block above behind the first brace of the scene and put in your own numbers"
-        );
-    };
+    let runup = pasted(&scene, scene.needed_runup())?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("steps");
     let found = RunningUp::new(&scene, runup, &|done, of| show(&bar, done, of))?;

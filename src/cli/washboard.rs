@@ -2,11 +2,10 @@
 
 use crate::report::WashboardReport;
 use crate::washboarding::Washboard;
-use anyhow::{Context, bail};
 use clap::Args;
 
 use super::common::{Common, progress_bar, show};
-use super::paste::{cut_block, washboarding_block};
+use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
 
 pub const EXAMPLES: &str = "\
@@ -30,22 +29,8 @@ pub struct Arguments {
 /// Looks at washboarding, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let Some(cut) = scene.cut() else {
-        eprintln!("{}\n", cut_block(scene.file()));
-        bail!(
-            "cut is missing, but must say which forces act on the teeth; paste the block above behind the first brace of the scene and put in the numbers of your wood"
-        );
-    };
-    let Some(washboarding) = &cut.washboarding else {
-        eprintln!("{}\n", washboarding_block());
-        bail!(
-            "cut.washboarding is missing, but must say how stiff the cut is across the blade; paste the block above behind the first brace of cut and put in the number of your wood"
-        );
-    };
-    let rpm = arguments.rpm.or(scene.file().operating_rpm).context(
-        "operating_rpm is missing, but must say how fast the saw cuts; add it to the scene, or give --rpm",
-    )?;
-    let run = cut.at_rpm(rpm)?;
+    let (cut, washboarding) = pasted(&scene, scene.needed_washboarding())?;
+    let run = cut.at_rpm(scene.needed_operating_rpm(arguments.rpm)?)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("speeds");
     let progress = |done, of| show(&bar, done, of);

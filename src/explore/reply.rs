@@ -9,7 +9,9 @@ use serde::{Deserialize, Serialize};
 use super::examples::examples;
 use crate::figure::{self, FigureError};
 use crate::report::{Report, SensitivityEntry};
-use crate::scene::{Accuracy, QUANTITIES, Quantity, Scene, SceneError, SceneFile, json_schema};
+use crate::scene::{
+    Accuracy, QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneFile, json_schema,
+};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail, sensitivities};
 
@@ -63,20 +65,25 @@ pub struct Refusal {
     pub allowed: Option<String>,
 }
 
+impl From<RefusedValue> for Refusal {
+    fn from(error: RefusedValue) -> Self {
+        Refusal {
+            message: error.to_string(),
+            key: Some(error.key),
+            allowed: Some(error.allowed),
+        }
+    }
+}
+
 impl From<SceneError> for Refusal {
     fn from(error: SceneError) -> Self {
-        let key = match &error {
-            SceneError::Syntax { key, .. } | SceneError::Value { key, .. } => Some(key.clone()),
-            _ => None,
-        };
-        let allowed = match &error {
-            SceneError::Value { allowed, .. } => Some(allowed.clone()),
-            _ => None,
-        };
-        Refusal {
-            key,
-            message: error.to_string(),
-            allowed,
+        match error {
+            SceneError::Value(refused) => refused.into(),
+            SceneError::Syntax { ref key, .. } => Refusal {
+                key: Some(key.clone()),
+                ..Refusal::of(&error)
+            },
+            _ => Refusal::of(&error),
         }
     }
 }

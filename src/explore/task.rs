@@ -131,30 +131,17 @@ fn refused(error: TransientError) -> Refusal {
     Refusal::of(&error)
 }
 
-/// A part of the scene that the task needs and that is not there.
-fn missing(key: &str, what: &str) -> Refusal {
-    Refusal {
-        key: Some(key.to_owned()),
-        message: format!("{key} is missing, but must say {what}; put it in on the left"),
-        allowed: None,
-    }
-}
-
 fn cut(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let cut = scene.cut();
-    let cut = cut.ok_or_else(|| missing("cut", "which forces act on the teeth"))?;
-    if cut.runs.is_empty() {
-        return Err(missing("cut.speeds", "at which speeds to cut"));
-    }
+    let cut = scene.needed_cut()?;
+    let runs = cut.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
-    let cutting = Cutting::new(scene, cut, &cut.runs, &progress).map_err(refused)?;
+    let cutting = Cutting::new(scene, cut, &runs, &progress).map_err(refused)?;
     let report = CutReport::new(&cutting);
     answer(&report, report.summary(), None)
 }
 
 fn runup(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let runup = scene.runup();
-    let runup = runup.ok_or_else(|| missing("runup", "speeds, duration and force"))?;
+    let runup = scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
     let found = RunningUp::new(scene, runup, &progress).map_err(refused)?;
     let report = RunUpReport::new(&found);
@@ -162,14 +149,8 @@ fn runup(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
 }
 
 fn washboard(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let named = scene
-        .cut()
-        .and_then(|cut| Some((cut, cut.washboarding.as_ref()?)));
-    let (cut, washboarding) = named
-        .ok_or_else(|| missing("cut.washboarding", "how stiff the cut is across the blade"))?;
-    let rpm = scene.file().operating_rpm;
-    let rpm = rpm.ok_or_else(|| missing("operating_rpm", "how fast the saw cuts"))?;
-    let run = cut.at_rpm(rpm)?;
+    let (cut, washboarding) = scene.needed_washboarding()?;
+    let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
     let found = Washboard::new(scene, (cut, washboarding), &run, &progress);
     let found = found.map_err(|error: WashboardError| Refusal::of(&error))?;
@@ -178,52 +159,24 @@ fn washboard(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
 }
 
 fn fit(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let Some(own) = &scene.file().measured else {
-        return Err(Refusal {
-            key: None,
-            message: "No frequencies were measured of this saw; drop a table (rpm, then frequencies in Hz) on the page".to_owned(),
-            allowed: None,
-        });
-    };
-    let freed = Freed::usual_to_fit(scene.file());
-    let freed = with_usual_bounds(scene, &freed)?;
+    let measurement = Measurement::of_scene(scene.needed_measured()?);
+    let options = fit::Options::default().checked(&measurement)?;
+    let freed = Freed::to_fit(scene, &[])?;
     let progress = |done, of| meter.show("starts", done, of);
-    let measurement = Measurement::of_scene(own);
-    let compared = Fit::new(
-        scene,
-        &measurement,
-        &freed,
-        &fit::Options::default(),
-        &progress,
-    )
-    .and_then(|fit| Ok((Compared::new(&fit)?, fit)));
+    let compared = Fit::new(scene, &measurement, &freed, &options, &progress)
+        .and_then(|fit| Ok((Compared::new(&fit)?, fit)));
     let (compared, fit) = compared.map_err(|error: FitError| Refusal::of(&error))?;
     let report = FitReport::new(&fit, &compared);
     answer(&report, report.summary(), Some(&report.scene))
 }
 
-fn with_usual_bounds(scene: &Scene, paths: &[String]) -> Result<Vec<Freed>, Refusal> {
-    let freed = paths
-        .iter()
-        .map(|path| Freed::with_usual_bounds(scene, path));
-    Ok(freed.collect::<Result<_, _>>()?)
-}
-
 fn place(scene: &Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> {
-    let goal = match (asked.window, scene.operating_rad_per_s()) {
-        (false, _) => Goal::FlutterSpeed,
-        (true, Some(around_rad_per_s)) => Goal::StableWindow { around_rad_per_s },
-        (true, None) => return Err(missing("operating_rpm", "how fast the saw is run")),
+    let goal = match asked.window {
+        false => Goal::FlutterSpeed,
+        true => Goal::window_of(scene)?,
     };
-    let limit = asked.min_critical_rpm.map(crate::scene::rad_per_s);
-    let demands = Demands {
-        goal,
-        min_critical_rad_per_s: limit,
-    };
-    let freed = with_usual_bounds(scene, &Freed::usual_to_place(scene.file()))?;
-    if freed.is_empty() {
-        return Err(missing("guides", "which guide is to be placed"));
-    }
+    let demands = Demands::new(goal, asked.min_critical_rpm)?;
+    let freed = Freed::to_place(scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
     let found = Placement::new(scene, &freed, &demands, &options, &progress);

@@ -15,6 +15,12 @@ pub enum FitError {
         /// What is wrong and what to do.
         problem: String,
     },
+    /// A table of nothing but speeds.
+    #[error("there is no frequency in {source_name}; give a table with some")]
+    Empty {
+        /// Name of the table.
+        source_name: String,
+    },
     /// More unknowns than the data can determine.
     #[error(
         "{measured} measured frequencies do not determine {free} numbers; measure more, or free fewer numbers"

@@ -1,6 +1,6 @@
 //! Measured frequencies, and which computed ones they are held against.
 
-use crate::scene::{Measured, MeasuredRow, rad_per_s};
+use crate::scene::{MAX_RPM, Measured, MeasuredRow, rad_per_s};
 
 use super::FitError;
 use super::table::{Table, TableRow};
@@ -26,8 +26,7 @@ pub struct Row {
 /// Rows and frequencies beyond these are no table that a person measured.
 const MAX_ROWS: usize = 1000;
 const MAX_COLUMNS: usize = 24;
-/// As far as scenes go, in rpm and in Hz.
-const MAX_RPM: f64 = 1e9;
+/// As far as scenes go, in Hz.
 const MAX_HZ: f64 = 1e9;
 
 impl Row {
@@ -74,7 +73,8 @@ impl Measurement {
     /// that begin with # are passed over.
     ///
     /// # Errors
-    /// [`FitError::Table`] with the line, the column and what is wrong with it.
+    /// [`FitError::Table`] with the line, the column and what is wrong with it, and
+    /// [`FitError::Empty`].
     pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
         let table = Table::read(text)?;
         let rows: Vec<Row> = table.rows.iter().map(row).collect::<Result<_, _>>()?;
@@ -85,6 +85,10 @@ impl Measurement {
                 rows.len()
             );
             return Err(wrong(beyond, problem));
+        }
+        if rows.iter().all(|row| row.pairs.is_empty()) {
+            let source_name = source.to_owned();
+            return Err(FitError::Empty { source_name });
         }
         Ok(Measurement {
             source: source.to_owned(),

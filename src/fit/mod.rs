@@ -23,7 +23,6 @@
 //! ```
 
 mod compared;
-mod effect;
 mod error;
 mod measurement;
 mod model;
@@ -35,12 +34,13 @@ use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Freed, Scene, SceneError, SpeedRange, rad_per_s, scene_at};
+use crate::scene::{
+    Freed, RefusedValue, Scene, SceneError, SpeedRange, effective, rad_per_s, scene_at,
+};
 use crate::spectrum::{LowestModes, SpectrumError};
 use crate::stability::ChosenBasis;
 
 pub use compared::{BeforeAndAfter, Compared};
-use effect::effective;
 pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
@@ -72,6 +72,36 @@ impl Default for Options {
             to_rpm: f64::INFINITY,
             resolution: None,
         }
+    }
+}
+
+/// More starts than these never found anything new.
+const MAX_STARTS: usize = 1000;
+
+impl Options {
+    /// The same, if a fit to a measurement can have them.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] that names the option that no fit can have, or the measurement where it has
+    /// no frequency up to the speed asked for.
+    pub fn checked(self, measurement: &Measurement) -> Result<Self, RefusedValue> {
+        if !(self.confidence > 0.0 && self.confidence < 1.0) {
+            let (key, remedy) = ("confidence", "0.95 is usual");
+            let allowed = "between 0 and 1";
+            return Err(RefusedValue::new(key, self.confidence, allowed, remedy));
+        }
+        if !(1..=MAX_STARTS).contains(&self.starts) {
+            let allowed = format!("from 1 to {MAX_STARTS}");
+            let remedy = "a dozen is usual";
+            return Err(RefusedValue::new("starts", self.starts, allowed, remedy));
+        }
+        if measurement.count() > 0 && measurement.up_to(self.to_rpm).count() == 0 {
+            let source = &measurement.source;
+            let allowed = format!("at least the lowest speed of {source} with a frequency");
+            let remedy = "give a higher speed, or another table";
+            return Err(RefusedValue::new("to_rpm", self.to_rpm, allowed, remedy));
+        }
+        Ok(self)
     }
 }
 
@@ -125,6 +155,10 @@ pub struct Fit {
     pub starts: Vec<Start>,
 }
 
+/// Shares of the bounds at which a number is looked at for whether it moves anything.
+const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
+/// Frequencies that move by less than this between them do not move, in Hz.
+const IDLE_HZ: f64 = 1e-5;
 /// Starts are told from each other, and parameters from idle ones, as well on this.
 const COARSE_TOLERANCE: f64 = 1e-2;
 
@@ -145,7 +179,7 @@ impl Fit {
             Some(resolution) => resolution,
             None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
         };
-        let (freed, without_effect) = effective(scene, measurement, freed, coarse)?;
+        let (freed, without_effect) = moving(scene, measurement, freed, coarse)?;
         if freed.is_empty() {
             return Err(FitError::NothingFree);
         }
@@ -212,6 +246,30 @@ impl Fit {
             .map(|rpm| Model::frequencies_hz(&lowest, rad_per_s(*rpm), count))
             .collect()
     }
+}
+
+/// Parts the freed numbers into those that move a measured frequency and the others.
+fn moving(
+    scene: &Scene,
+    measurement: &Measurement,
+    freed: &[Freed],
+    resolution: Resolution,
+) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
+    let model = Model {
+        scene: scene.file(),
+        freed,
+        measurement,
+        resolution,
+    };
+    let residuals = |shares: &[f64]| {
+        let residuals = model.residuals_hz(shares)?;
+        Ok((!residuals.iter().any(|r| r.is_nan())).then_some(residuals))
+    };
+    let differ = |x: &Vec<f64>, y: &Vec<f64>| {
+        let mut pairs = x.iter().zip(y);
+        pairs.any(|(x, y)| (x - y).abs() > IDLE_HZ)
+    };
+    effective(scene, freed, &LOOKED_AT, residuals, differ)
 }
 
 /// Every number with what was found for it, from shares of its bounds.

@@ -27,12 +27,13 @@ mod outcome;
 mod search;
 mod settle;
 
+use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
-use crate::scene::{Freed, Scene, SceneError, common_turn, spread};
+use crate::scene::{Freed, RefusedValue, Scene, SceneError, effective, rad_per_s, speed_rad_per_s};
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
@@ -81,6 +82,17 @@ pub enum Goal {
     },
 }
 
+impl Goal {
+    /// The widest stable window around the operating speed of a scene.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene has no operating speed.
+    pub fn window_of(scene: &Scene) -> Result<Self, RefusedValue> {
+        let around_rad_per_s = rad_per_s(scene.needed_operating_rpm(None)?);
+        Ok(Goal::StableWindow { around_rad_per_s })
+    }
+}
+
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demands {
@@ -88,6 +100,20 @@ pub struct Demands {
     pub goal: Goal,
     /// Least lowest critical speed.
     pub min_critical_rad_per_s: Option<f64>,
+}
+
+impl Demands {
+    /// A goal under a limit in rpm.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the limit is no speed.
+    pub fn new(goal: Goal, min_critical_rpm: Option<f64>) -> Result<Self, RefusedValue> {
+        let limit = min_critical_rpm.map(|rpm| speed_rad_per_s("min_critical_rpm", rpm));
+        Ok(Demands {
+            goal,
+            min_critical_rad_per_s: limit.transpose()?,
+        })
+    }
 }
 
 impl Default for Demands {
@@ -123,6 +149,31 @@ impl Default for Options {
             map: 17,
             resolution: None,
         }
+    }
+}
+
+/// A search of this many saws takes a day.
+const MAX_SAMPLES: usize = 100_000;
+/// A map of this many points along each axis is finer than it is drawn.
+const MAX_MAP: usize = 400;
+
+impl Options {
+    /// The same, if a search can have them.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] that names the option that no search can have.
+    pub fn checked(self) -> Result<Self, RefusedValue> {
+        if !(1..=MAX_SAMPLES).contains(&self.samples) {
+            let allowed = format!("from 1 to {MAX_SAMPLES}");
+            let remedy = "a hundred is usual";
+            return Err(RefusedValue::new("samples", self.samples, allowed, remedy));
+        }
+        if self.map == 1 || self.map > MAX_MAP {
+            let allowed = format!("0 or from 2 to {MAX_MAP}");
+            let remedy = "17 is usual, 0 draws none";
+            return Err(RefusedValue::new("map", self.map, allowed, remedy));
+        }
+        Ok(self)
     }
 }
 
@@ -187,6 +238,8 @@ const MAP_ROUNDS: usize = 3;
 const MORE_SAMPLES: usize = 2;
 /// Nearer to a bound than this a share rests on it.
 const AT_BOUND: f64 = 1e-3;
+/// Shares of the bounds at which a number is looked at for whether it moves anything.
+const LOOKED_AT: [f64; 2] = [0.23, 0.71];
 /// Speeds that move by less than this share of themselves do not move.
 const IDLE: f64 = 1e-7;
 
@@ -210,7 +263,7 @@ impl Placement {
             range: chosen.range_rad_per_s,
             resolution: options.resolution.unwrap_or(chosen.plate.resolution),
         };
-        let (freed, without_effect) = effective(scene, freed, &question, &evaluations);
+        let (freed, without_effect) = moving(scene, freed, &question, &evaluations);
         if freed.is_empty() {
             return Err(PlaceError::NothingFree);
         }
@@ -318,8 +371,8 @@ fn cheapest(tried: &[Tried]) -> Option<Tried> {
     least.cloned()
 }
 
-/// Sorts the freed numbers into those that move a critical speed or a band, and the others.
-fn effective(
+/// Parts the freed numbers into those that move a critical speed or a band, and the others.
+fn moving(
     scene: &Scene,
     freed: &[Freed],
     question: &Question,
@@ -331,44 +384,21 @@ fn effective(
         question,
         evaluations,
     };
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
-    let held = common_turn(scene, freed);
-    let speeds = |shares: &[f64]| -> Option<[f64; 3]> {
-        let outcome = search.outcome(shares)?;
-        let critical = outcome.critical_rad_per_s.unwrap_or(0.0);
-        let first = outcome
-            .bands
-            .first()
-            .map_or(0.0, |band| band.from_rad_per_s);
-        Some([outcome.value_rad_per_s, critical, first])
+    let speeds = |shares: &[f64]| {
+        let of = |outcome: Outcome| {
+            let first = outcome.bands.first();
+            [
+                outcome.value_rad_per_s,
+                outcome.critical_rad_per_s.unwrap_or(0.0),
+                first.map_or(0.0, |band| band.from_rad_per_s),
+            ]
+        };
+        Ok::<_, Infallible>(search.outcome(shares).map(of))
     };
-    let moves = |k: &usize| -> bool {
-        if held == Some(*k) {
-            return false;
-        }
-        [own.clone(), spread(freed.len(), 0, 0)].iter().any(|base| {
-            let found = [0.23, 0.71].iter().filter_map(|share| {
-                let mut shares = base.clone();
-                shares[*k] = *share;
-                speeds(&shares)
-            });
-            let found: Vec<[f64; 3]> = found.collect();
-            let differ = |x: f64, y: f64| (x - y).abs() > IDLE * x.abs().max(y.abs());
-            found
-                .iter()
-                .any(|other| (0..3).any(|i| differ(found[0][i], other[i])))
-        })
+    let differ = |x: &[f64; 3], y: &[f64; 3]| {
+        let mut pairs = x.iter().zip(y);
+        pairs.any(|(x, y)| (x - y).abs() > IDLE * x.abs().max(y.abs()))
     };
-    let moving: Vec<bool> = (0..freed.len())
-        .into_par_iter()
-        .map(|k| moves(&k))
-        .collect();
-    let with = |wanted: bool| {
-        let pairs = freed
-            .iter()
-            .zip(&moving)
-            .filter(move |(_, m)| **m == wanted);
-        pairs.map(|(f, _)| f.clone()).collect()
-    };
-    (with(true), with(false))
+    let Ok(parted) = effective(scene, freed, &LOOKED_AT, speeds, differ);
+    parted
 }

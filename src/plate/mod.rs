@@ -35,7 +35,7 @@ use faer::Mat;
 
 use stress::CentrifugalStress;
 
-use crate::scene::{Accuracy, Blade, Cut, CutRun, Damping, Scene};
+use crate::scene::{Accuracy, Blade, Cut, CutRun, Damping, RefusedValue, Scene};
 
 /// How many functions describe the deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,28 @@ pub struct Resolution {
     pub radial_functions: usize,
 }
 
+/// Most diameters and most radial functions that may be asked for: beyond them digits are lost or
+/// memory is.
+const LARGEST: (usize, usize) = (64, 14);
+
 impl Resolution {
+    /// A basis as asked for.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where it is too small to bend, or larger than doubles and memory allow.
+    pub fn new(max_diameters: usize, radial_functions: usize) -> Result<Self, RefusedValue> {
+        let (diameters, functions) = LARGEST;
+        if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {
+            return Ok(Resolution {
+                max_diameters,
+                radial_functions,
+            });
+        }
+        let given = format!("{max_diameters},{radial_functions}");
+        let allowed = format!("diameters 2 to {diameters} and radial functions 2 to {functions}");
+        Err(RefusedValue::new("basis", given, allowed, "16,8 is usual"))
+    }
+
     /// The basis of a named accuracy.
     pub fn of(accuracy: Accuracy) -> Self {
         let (max_diameters, radial_functions) = match accuracy {

@@ -1,6 +1,6 @@
 //! Ranges of the numbers of a scene, and the errors of those outside.
 
-use super::{Blade, SceneError};
+use super::{Blade, RefusedValue, SceneError};
 
 /// Widest range of a positive quantity: far beyond any saw, and narrow enough
 /// that no product of them overflows.
@@ -19,12 +19,7 @@ pub fn refuse(
     allowed: impl Into<String>,
     remedy: &'static str,
 ) -> SceneError {
-    SceneError::Value {
-        key: key.to_owned(),
-        value: value.to_string(),
-        allowed: allowed.into(),
-        remedy,
-    }
+    RefusedValue::new(key, value, allowed, remedy).into()
 }
 
 /// A quantity that must not be zero.

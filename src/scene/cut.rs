@@ -1,94 +1,11 @@
 //! The cut: which forces the wood exerts on which teeth, and for how long.
 
-use std::f64::consts::{PI, TAU};
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::check::{MAX_RPM, SPAN, positive, refuse, within};
-use super::washboarding::{Washboarding, WashboardingFile};
-use super::wood::{Wood, WoodFile};
-use super::{Blade, SceneError, SceneFile, rad_per_s};
-
-/// Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth,
-/// or the depth of cut; the tangential force, or the power.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CutFile {
-    /// Angle of the middle of the cut, positive with the rotation.
-    #[serde(default)]
-    pub angle_deg: f64,
-    /// Depth of cut; over the pitch of the teeth it gives their number.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub depth_m: Option<f64>,
-    /// Number of teeth in the cut at a time; wins over the depth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub teeth_in_cut: Option<u32>,
-    /// Force against the rotation on each tooth; wins over the power.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tangential_n_per_tooth: Option<f64>,
-    /// Force towards the axis on each tooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radial_n_per_tooth: Option<f64>,
-    /// Force across the blade on each tooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lateral_n_per_tooth: Option<f64>,
-    /// Power of the cut.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub power_w: Option<f64>,
-    /// Speed at which the wood is fed; with the length of the board it tells how long
-    /// the cut takes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub feed_m_per_s: Option<f64>,
-    /// Length of the board. Without it, or without the feed, the cut takes one second.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub board_length_m: Option<f64>,
-    /// Time shown before and after the cut.
-    #[serde(default = "default_idle_s")]
-    pub idle_s: f64,
-    /// Speed of the cut whose forces bear on the saw in `analyze`, `check`, `fit`, `place` and
-    /// `study`, whatever the speed there: a dead load. By default they look at the idling saw.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub chart_rpm: Option<f64>,
-    /// The wood that leans against the blade in the kerf. None by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wood: Option<WoodFile>,
-    /// The force on a tooth that cuts the surface left by the one before, for
-    /// `sawflutter washboard`. None by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub washboarding: Option<WashboardingFile>,
-    /// Speeds at which the saw cuts, and what differs there. By default the operating
-    /// speed.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub speeds: Vec<CutSpeedFile>,
-}
-
-fn default_idle_s() -> f64 {
-    0.5
-}
-
-/// A speed at which the saw cuts. What is not given is that of the cut.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CutSpeedFile {
-    /// Rotation speed.
-    pub rpm: f64,
-    /// Force against the rotation on each tooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tangential_n_per_tooth: Option<f64>,
-    /// Force towards the axis on each tooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radial_n_per_tooth: Option<f64>,
-    /// Force across the blade on each tooth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lateral_n_per_tooth: Option<f64>,
-    /// Power of the cut.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub power_w: Option<f64>,
-    /// Speed at which the wood is fed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub feed_m_per_s: Option<f64>,
-}
+use super::cut_file::{CutFile, CutSpeedFile};
+use super::teeth_in_cut::TeethInCut;
+use super::washboarding::Washboarding;
+use super::wood::Wood;
+use super::{Blade, RefusedValue, SceneError, SceneFile, rad_per_s};
 
 /// A validated cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,21 +63,11 @@ impl Cut {
         file: &SceneFile,
         blade: &Blade,
     ) -> Result<Self, SceneError> {
-        let all_teeth = file.blade.teeth.filter(|teeth| *teeth > 0);
-        let Some(all_teeth) = all_teeth else {
-            let remedy = "the pitch of the teeth says where the forces act; give their number";
-            let given = file.blade.teeth.map_or("missing".into(), |t| t.to_string());
-            return Err(SceneError::Value {
-                key: "blade.teeth".into(),
-                value: given,
-                allowed: "at least 1 where the scene has a cut".into(),
-                remedy,
-            });
-        };
+        let teeth = TeethInCut::new(typed, file.blade.teeth, blade)?;
         let mut cut = Cut {
-            angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
-            teeth: teeth_in_cut(typed, all_teeth, blade)?,
-            pitch_rad: TAU / f64::from(all_teeth),
+            angle_rad: teeth.angle_rad,
+            teeth: teeth.count,
+            pitch_rad: teeth.pitch_rad,
             idle_s: within("cut.idle_s", typed.idle_s, (0.0, MAX_DURATION_S))?,
             runs: Vec::new(),
             wood: None,
@@ -178,11 +85,11 @@ impl Cut {
             cut.runs.push(run);
         }
         if let Some(wood) = &typed.wood {
-            cut.wood = Wood::new(wood, &cut, blade)?;
+            cut.wood = Wood::new(wood, &teeth, blade)?;
         }
         let washboarding = typed.washboarding.as_ref();
         cut.washboarding = washboarding
-            .map(|washboarding| Washboarding::new(washboarding, &cut))
+            .map(|washboarding| Washboarding::new(washboarding, &teeth))
             .transpose()?;
         cut.chart = typed.chart_rpm.map(|rpm| cut.at_rpm(rpm)).transpose()?;
         Ok(cut)
@@ -218,12 +125,10 @@ impl Cut {
             force,
         )?;
         let Some(tangential_n) = given.or(tangential_of_power_n) else {
-            return Err(SceneError::Value {
-                key: "cut.tangential_n_per_tooth".into(),
-                value: "missing".into(),
-                allowed: "given, or cut.power_w in its place".into(),
-                remedy: "a cut needs the force against the rotation, or the power",
-            });
+            let allowed = "given, or cut.power_w in its place";
+            let remedy = "a cut needs the force against the rotation, or the power";
+            let key = "cut.tangential_n_per_tooth";
+            return Err(RefusedValue::missing(key, allowed, remedy).into());
         };
         let or_none = |name: &str, own: Option<f64>, of_cut: Option<f64>| {
             number(name, own, of_cut, force).map(|found| found.unwrap_or(0.0))
@@ -265,39 +170,6 @@ impl Cut {
         let first = -0.5 * f64::from(self.teeth - 1);
         (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
     }
-}
-
-/// The given number, or the depth over the pitch, rounded: what is in the cut on average.
-fn teeth_in_cut(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneError> {
-    if let Some(teeth) = typed.teeth_in_cut {
-        if (1..=all_teeth).contains(&teeth) {
-            return Ok(teeth);
-        }
-        let allowed = format!("between 1 and blade.teeth ({all_teeth})");
-        let remedy = "count the teeth that touch the wood at a time";
-        return Err(refuse(
-            "cut.teeth_in_cut",
-            f64::from(teeth),
-            allowed,
-            remedy,
-        ));
-    }
-    let Some(depth_m) = typed.depth_m else {
-        return Err(SceneError::Value {
-            key: "cut.teeth_in_cut".into(),
-            value: "missing".into(),
-            allowed: "given, or cut.depth_m in its place".into(),
-            remedy: "say how many teeth are in the cut, or how deep it is",
-        });
-    };
-    let diameter_m = 2.0 * blade.outer_radius_m;
-    if !(depth_m > 0.0 && depth_m <= diameter_m) {
-        let allowed = format!("above 0 and at most the blade's diameter ({diameter_m})");
-        let remedy = "give the depth of cut in metres";
-        return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
-    }
-    let pitch_m = PI * diameter_m / f64::from(all_teeth);
-    Ok(((depth_m / pitch_m).round() as u32).clamp(1, all_teeth))
 }
 
 #[cfg(test)]
@@ -357,7 +229,7 @@ mod tests {
         ];
         for (expected, change) in cases {
             match with(change) {
-                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
                 other => panic!("{expected}: {other:?}"),
             }
         }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::refuse;
-use super::{SceneError, SceneFile};
+use super::{RefusedValue, SceneError, SceneFile};
 
 /// Lines of the Campbell diagram at multiples of the rotation speed, and where they cross the
 /// natural frequencies.
@@ -58,11 +58,13 @@ impl ExcitationLine {
             .collect();
         if typed.tooth_passing > 0 {
             let teeth = file.blade.teeth.filter(|teeth| *teeth > 0);
-            let teeth = teeth.ok_or_else(|| SceneError::Value {
-                key: "blade.teeth".into(),
-                value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
-                allowed: "at least 1 where excitation.tooth_passing asks for it".into(),
-                remedy: "give the number of teeth",
+            let teeth = teeth.ok_or_else(|| {
+                SceneError::Value(RefusedValue {
+                    key: "blade.teeth".into(),
+                    value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
+                    allowed: "at least 1 where excitation.tooth_passing asks for it".into(),
+                    remedy: "give the number of teeth",
+                })
             })?;
             let multiples = (1..=typed.tooth_passing).map(|multiple| ExcitationLine {
                 order: multiple.saturating_mul(teeth),

@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cut::CutFile;
+use super::cut_file::CutFile;
 use super::excitation::ExcitationFile;
 use super::membrane::MembraneFile;
 use super::runup::{ProbeFile, RunUpFile};

@@ -1,6 +1,8 @@
 //! A number of a scene that may move between two bounds.
 
-use super::{Parameter, Scene, SceneError, SceneFile};
+use rayon::prelude::*;
+
+use super::{Parameter, RefusedValue, Scene, SceneError, SceneFile};
 
 /// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] see it as a share
 /// between 0 and 1, of the distance between the bounds or of its logarithm.
@@ -14,6 +16,11 @@ pub struct Freed {
     pub to: f64,
 }
 
+/// The path of a number of a scene, and its bounds where they are not the usual ones.
+pub type NamedBounds = (String, Option<(f64, f64)>);
+
+/// More numbers than these at once are beyond what a search can tell.
+const MAX_FREED: usize = 12;
 /// Bounds with this ratio or more are decades to search, not a length.
 const DECADE: f64 = 10.0;
 
@@ -27,12 +34,10 @@ impl Freed {
         let parameter = Parameter::new(path);
         parameter.get(scene)?;
         if !(from.is_finite() && to.is_finite() && from < to) {
-            return Err(SceneError::Value {
-                key: format!("the range of {path}"),
-                value: format!("{from}..{to}"),
-                allowed: "from a number to a larger one".into(),
-                remedy: "write it like 0.15..0.3",
-            });
+            let key = format!("the range of {path}");
+            let allowed = "from a number to a larger one";
+            let remedy = "write it like 0.15..0.3";
+            return Err(RefusedValue::new(key, format!("{from}..{to}"), allowed, remedy).into());
         }
         for bound in [from, to] {
             scene.with(&[(&parameter, bound)])?;
@@ -62,33 +67,67 @@ impl Freed {
         Freed::new(&scene.file, path, from, to)
     }
 
-    /// What is hardly ever known of a saw: where the guides act and how stiff they are. Angles are
-    /// seen only between guides. Without guides: density.
-    pub fn usual_to_fit(scene: &SceneFile) -> Vec<String> {
-        let count = scene.guides.len();
-        if count == 0 {
-            return vec!["blade.material.density_kg_per_m3".into()];
-        }
-        let of = |index: usize| {
-            let mut names = vec!["radius_m", "stiffness_n_per_m"];
-            if index > 0 {
-                names.push("angle_deg");
-            }
-            names
-                .into_iter()
-                .map(move |name| format!("guides[{index}].{name}"))
+    /// The numbers asked for of a fit. Without any, what is hardly ever known of a saw: where the
+    /// guides act and how stiff they are. Angles are seen only between guides. Without guides:
+    /// density.
+    ///
+    /// # Errors
+    /// [`SceneError`] as [`Freed::new`], and where a number is named twice or too many are.
+    pub fn to_fit(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
+        let of_guide = |index: usize| {
+            let angle = (index > 0).then_some("angle_deg");
+            let names = ["radius_m", "stiffness_n_per_m"].into_iter().chain(angle);
+            names.map(move |name| format!("guides[{index}].{name}"))
         };
-        (0..count).flat_map(of).collect()
+        let usual: Vec<String> = match scene.file.guides.len() {
+            0 => vec!["blade.material.density_kg_per_m3".into()],
+            count => (0..count).flat_map(of_guide).collect(),
+        };
+        Freed::all(scene, asked, usual)
     }
 
-    /// What a designer may choose: radius, angle and stiffness of the first guide. Nothing
-    /// without guides.
-    pub fn usual_to_place(scene: &SceneFile) -> Vec<String> {
+    /// The numbers asked for of a placement. Without any, what a designer may choose: radius,
+    /// angle and stiffness of the first guide.
+    ///
+    /// # Errors
+    /// [`SceneError`] as [`Freed::new`], and where there is no guide, or a number is named twice or
+    /// too many are.
+    pub fn to_place(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
+        if scene.file.guides.is_empty() && asked.is_empty() {
+            let allowed = "given, with a guide to be placed";
+            return Err(RefusedValue::missing("guides", allowed, "add one to the scene").into());
+        }
         let of_first = ["radius_m", "angle_deg", "stiffness_n_per_m"];
-        let guides = scene.guides.iter().take(1);
-        guides
-            .flat_map(|_| of_first.map(|name| format!("guides[0].{name}")))
-            .collect()
+        let usual = of_first.map(|name| format!("guides[0].{name}"));
+        Freed::all(scene, asked, usual.into())
+    }
+
+    fn all(
+        scene: &Scene,
+        asked: &[NamedBounds],
+        usual: Vec<String>,
+    ) -> Result<Vec<Self>, SceneError> {
+        let usual: Vec<NamedBounds> = usual.into_iter().map(|path| (path, None)).collect();
+        let asked = if asked.is_empty() { &usual } else { asked };
+        if asked.len() > MAX_FREED {
+            let allowed = format!("at most {MAX_FREED}");
+            let remedy = "name those that matter";
+            let key = "the number of free paths";
+            return Err(RefusedValue::new(key, asked.len(), allowed, remedy).into());
+        }
+        let mut freed: Vec<Freed> = Vec::new();
+        for (path, bounds) in asked {
+            let one = match bounds {
+                Some((from, to)) => Freed::new(&scene.file, path, *from, *to)?,
+                None => Freed::with_usual_bounds(scene, path)?,
+            };
+            if freed.iter().any(|other| other.parameter == one.parameter) {
+                let given = format!("{path} again");
+                return Err(RefusedValue::new("free", given, "named once", "name it once").into());
+            }
+            freed.push(one);
+        }
+        Ok(freed)
     }
 
     /// Whether the share is of the logarithm.
@@ -145,6 +184,48 @@ pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
     let acting = pads.filter(|(_, pad)| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0);
     let angles: Option<Vec<usize>> = acting.map(|(index, _)| place(index)).collect();
     angles.and_then(|angles| angles.first().copied())
+}
+
+/// Parts the freed numbers into those that move an answer and those that do not: the angle of a
+/// single pad, say, which turns the saw as a whole. Each is moved alone to every one of `shares`,
+/// from the scene's own numbers and from others, for a number may rest where another one is.
+/// `answer` is `None` where a saw has none.
+///
+/// # Errors
+/// Those of `answer`.
+pub fn effective<A, E: Send>(
+    scene: &Scene,
+    freed: &[Freed],
+    shares: &[f64],
+    answer: impl Fn(&[f64]) -> Result<Option<A>, E> + Sync,
+    differ: impl Fn(&A, &A) -> bool + Sync,
+) -> Result<(Vec<Freed>, Vec<Freed>), E> {
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
+    let held = common_turn(scene, freed);
+    let moves = |k: usize| -> Result<bool, E> {
+        if held == Some(k) {
+            return Ok(false);
+        }
+        for base in [own.clone(), spread(freed.len(), 0, 0)] {
+            let mut first = None;
+            for share in shares {
+                let mut moved = base.clone();
+                moved[k] = *share;
+                match (answer(&moved)?, &first) {
+                    (Some(answer), None) => first = Some(answer),
+                    (Some(answer), Some(first)) if differ(first, &answer) => return Ok(true),
+                    _ => (),
+                }
+            }
+        }
+        Ok(false)
+    };
+    let moving = (0..freed.len()).into_par_iter().map(moves);
+    let moving = moving.collect::<Result<Vec<bool>, E>>()?;
+    let parted = freed.iter().cloned().zip(moving);
+    let (moving, idle): (Vec<_>, Vec<_>) = parted.partition(|(_, moves)| *moves);
+    let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
+    Ok((freed(moving), freed(idle)))
 }
 
 /// Point `index` of a sequence that fills the unit cube evenly in any number of dimensions:

@@ -349,7 +349,7 @@ mod tests {
         ];
         for (text, expected) in cases {
             match scene(text) {
-                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
                 other => panic!("{expected}: {other:?}"),
             }
         }

@@ -7,18 +7,22 @@
 
 mod check;
 mod cut;
+mod cut_file;
 mod excitation;
 mod file;
 mod freed;
 mod guide;
 mod membrane;
+mod needed;
 mod parameter;
 mod profile;
 mod quantity;
 mod read;
+mod refused;
 mod residual;
 mod runup;
 mod spline;
+mod teeth_in_cut;
 mod thickness;
 mod validate;
 mod validated;
@@ -26,27 +30,30 @@ mod washboarding;
 mod wood;
 
 pub(crate) use check::MAX_RPM;
-pub use cut::{Cut, CutFile, CutRun, CutSpeedFile};
+pub use cut::{Cut, CutRun};
+pub use cut_file::{CutFile, CutSpeedFile};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
     SceneFile, SweepFile,
 };
-pub use freed::Freed;
 #[doc(hidden)]
 pub use freed::spread;
-pub(crate) use freed::{common_turn, scene_at};
+pub use freed::{Freed, NamedBounds};
+pub(crate) use freed::{effective, scene_at};
 pub use guide::Guide;
 pub use membrane::{
     Membrane, MembraneFile, RollBand, RollBandFile, Temperature, TemperatureFile, TemperatureRow,
     TemperatureShape,
 };
+pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 pub use quantity::{QUANTITIES, Quantity};
 pub(crate) use quantity::{unusual, unusual_number};
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use refused::RefusedValue;
 pub use residual::{ResidualStress, ResidualStressRow};
 pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
 pub use spline::{Spline, SplineFile};

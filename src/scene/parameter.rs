@@ -2,7 +2,7 @@
 
 use serde_json::{Number, Value};
 
-use super::{Scene, SceneError, SceneFile};
+use super::{RefusedValue, Scene, SceneError, SceneFile};
 
 /// A number of a scene by its JSON path, written as in the errors: `guides[0].radius_m`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -40,12 +40,12 @@ impl Parameter {
     }
 
     fn missing(&self) -> SceneError {
-        SceneError::Value {
+        SceneError::Value(RefusedValue {
             key: "the parameter".into(),
             value: format!("{:?}", self.path),
             allowed: "the path of a number that the scene has, like guides[0].radius_m".into(),
             remedy: "write this number into the scene, or mend its name",
-        }
+        })
     }
 }
 
@@ -59,11 +59,13 @@ impl SceneFile {
         for (parameter, number) in numbers {
             let place = json.pointer_mut(&parameter.pointer);
             let place = place.filter(|v| v.is_number());
-            let number = Number::from_f64(*number).ok_or_else(|| SceneError::Value {
-                key: parameter.path.clone(),
-                value: number.to_string(),
-                allowed: "finite".into(),
-                remedy: "give a number",
+            let number = Number::from_f64(*number).ok_or_else(|| {
+                SceneError::Value(RefusedValue {
+                    key: parameter.path.clone(),
+                    value: number.to_string(),
+                    allowed: "finite".into(),
+                    remedy: "give a number",
+                })
             })?;
             *place.ok_or_else(|| parameter.missing())? = Value::Number(number);
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Scene, SceneFile};
+use super::{RefusedValue, Scene, SceneFile};
 use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
 /// No scene a person writes comes near this size; a file beyond it is something else.
@@ -34,17 +34,8 @@ pub enum SceneError {
         message: String,
     },
     /// A number that no saw has.
-    #[error("{key} is {value}, but must be {allowed}; {remedy}")]
-    Value {
-        /// JSON path of the key.
-        key: String,
-        /// What was given.
-        value: String,
-        /// What is allowed.
-        allowed: String,
-        /// What to do about it.
-        remedy: &'static str,
-    },
+    #[error(transparent)]
+    Value(#[from] RefusedValue),
 }
 
 impl Scene {

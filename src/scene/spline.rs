@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{positive, within};
-use super::{Blade, Mount, SceneError, SceneFile};
+use super::{Blade, Mount, RefusedValue, SceneError, SceneFile};
 
 /// Contact between the splined bore and the arbor; with it the motion of the blade in
 /// its own plane is simulated.
@@ -78,12 +78,12 @@ impl Spline {
         };
         let refuse = |key: &str, value: String, allowed: String, remedy| {
             let key = key.to_owned();
-            Err(SceneError::Value {
+            Err(SceneError::Value(RefusedValue {
                 key,
                 value,
                 allowed,
                 remedy,
-            })
+            }))
         };
         if let Mount::Collar { .. } = file.mount {
             let allowed = "spline when the scene has a spline block".to_owned();
@@ -184,7 +184,7 @@ mod tests {
         ];
         for (expected, result) in cases {
             match result {
-                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
                 other => panic!("{expected}: {other:?}"),
             }
         }

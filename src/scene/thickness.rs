@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{positive, refuse, within};
-use super::{Blade, BladeFile, SceneError, SceneFile};
+use super::{Blade, BladeFile, RefusedValue, SceneError, SceneFile};
 
 /// Thickness at one radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -170,12 +170,12 @@ impl RimMass {
         let key = "blade.rim.mass_per_tooth_kg";
         let each = within(key, typed.mass_per_tooth_kg, (0.0, MAX_TOOTH_KG))?;
         let Some(teeth) = file.blade.teeth.filter(|teeth| *teeth > 0) else {
-            return Err(SceneError::Value {
+            return Err(SceneError::Value(RefusedValue {
                 key: "blade.teeth".into(),
                 value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
                 allowed: "at least 1 where blade.rim gives a mass for each".into(),
                 remedy: "give the number of teeth",
-            });
+            }));
         };
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         let radius_m = typed.radius_m.unwrap_or(outer);

@@ -235,7 +235,7 @@ mod tests {
         ];
         for (expected, result) in cases {
             match result {
-                Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
                 other => panic!("{expected}: {other:?}"),
             }
         }

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::SceneError;
 use super::check::{MAX_GUIDES, refuse, within};
-use super::cut::Cut;
+use super::teeth_in_cut::TeethInCut;
 use super::wood::Wood;
+use super::{RefusedValue, SceneError};
 
 /// The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the surface
 /// that the tooth before it has left at the same place in space, one tooth period τ ago.
@@ -58,7 +58,7 @@ const ROUNDED_DEG: f64 = 0.05;
 const LEAST_PITCH: f64 = 0.05;
 
 impl Washboarding {
-    pub(super) fn new(typed: &WashboardingFile, cut: &Cut) -> Result<Self, SceneError> {
+    pub(super) fn new(typed: &WashboardingFile, teeth: &TeethInCut) -> Result<Self, SceneError> {
         let key = |name: &str| format!("cut.washboarding.{name}");
         let stiffness = typed.stiffness_n_per_m;
         if !(stiffness > 0.0 && stiffness <= MAX_CUTTING_STIFFNESS) {
@@ -73,15 +73,15 @@ impl Washboarding {
         }
         let arc_rad = match typed.arc_deg {
             Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
-            None => f64::from(cut.teeth) * cut.pitch_rad,
+            None => teeth.arc_rad(),
         };
-        let teeth = (TAU / cut.pitch_rad).round() as u32;
+        let all_teeth = (TAU / teeth.pitch_rad).round() as u32;
         Ok(Washboarding {
             stiffness_n_per_m: stiffness,
             overlap: within(&key("overlap"), typed.overlap, (0.0, 1.0))?,
-            pitches_rad: pitches_rad(&key("pitches_deg"), &typed.pitches_deg, teeth)?,
-            teeth,
-            angle_rad: cut.angle_rad,
+            pitches_rad: pitches_rad(&key("pitches_deg"), &typed.pitches_deg, all_teeth)?,
+            teeth: all_teeth,
+            angle_rad: teeth.angle_rad,
             arc_rad,
         })
     }
@@ -134,12 +134,12 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
     }
     let turn = typed.iter().sum::<f64>() * f64::from(teeth) / count as f64;
     if (turn - 360.0).abs() > ROUNDED_DEG * f64::from(teeth) {
-        return Err(SceneError::Value {
+        return Err(SceneError::Value(RefusedValue {
             key: key.to_owned(),
             value: format!("{turn} degrees in all, repeated around {teeth} teeth"),
             allowed: "a whole turn of 360 degrees".into(),
             remedy: "give pitches whose mean is 360 degrees over the number of teeth",
-        });
+        }));
     }
     let even = typed.iter().all(|pitch| *pitch == typed[0]);
     let filling = 360.0 / turn;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_GUIDE, refuse, within};
-use super::cut::Cut;
+use super::teeth_in_cut::TeethInCut;
 use super::{Blade, SceneError};
 
 /// Wood in the kerf, a spring and a damper that stand in space around the middle of the cut.
@@ -45,14 +45,14 @@ impl Wood {
     /// `None` without stiffness and damping.
     pub(super) fn new(
         typed: &WoodFile,
-        cut: &Cut,
+        teeth: &TeethInCut,
         blade: &Blade,
     ) -> Result<Option<Self>, SceneError> {
         let key = |name: &str| format!("cut.wood.{name}");
         let width = blade.outer_radius_m - blade.inner_radius_m;
         let arc_rad = match typed.arc_deg {
             Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
-            None => f64::from(cut.teeth) * cut.pitch_rad,
+            None => teeth.arc_rad(),
         };
         if !(0.0..=width).contains(&typed.depth_m) {
             let allowed = format!("from 0 to the width of the moving ring ({width})");
@@ -61,7 +61,7 @@ impl Wood {
         }
         let range = (0.0, MAX_GUIDE);
         let wood = Wood {
-            angle_rad: cut.angle_rad,
+            angle_rad: teeth.angle_rad,
             arc_rad,
             depth_m: typed.depth_m,
             stiffness_n_per_m: within(&key("stiffness_n_per_m"), typed.stiffness_n_per_m, range)?,

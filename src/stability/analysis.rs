@@ -4,7 +4,8 @@ use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
 use super::basis::ChosenBasis;
-use super::chart::{CHART_SPEEDS, Detail, StabilityChart, chart, drawn};
+use super::chart::{CHART_SPEEDS, StabilityChart, chart, drawn};
+use super::detail::Detail;
 use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};

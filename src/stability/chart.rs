@@ -3,6 +3,7 @@
 use super::band::Instability;
 use super::certificate::Certificate;
 use super::damped;
+use super::detail::Detail;
 use super::error::AnalysisError;
 use super::undamped;
 use crate::campbell::{Campbell, Progress};
@@ -10,16 +11,6 @@ use crate::spectrum::SpectralModel;
 
 /// Speeds of a chart, before those that its events add.
 pub(super) const CHART_SPEEDS: usize = 51;
-
-/// How closely a chart is drawn. Critical speeds and bands do not depend on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Detail {
-    /// As the figures show it.
-    #[default]
-    Full,
-    /// At fewer speeds, without root loci: for a chart that is looked at for a moment.
-    Sketch,
-}
 
 /// Everything about the stability of a saw over a range of speeds.
 #[derive(Debug, Clone)]

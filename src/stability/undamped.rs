@@ -3,7 +3,7 @@
 use super::band::Instability;
 use super::certificate::Certificate;
 use super::certified::{Depth, bands, contradictions};
-use super::chart::Detail;
+use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::signature::Signature;

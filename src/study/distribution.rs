@@ -3,6 +3,7 @@
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::file::{DistributionFile, StudyError};
+use crate::scene::RefusedValue;
 
 /// Beyond these a normal distribution is a uniform one, or none that is cut off.
 const TRUNCATION: (f64, f64) = (0.1, 8.0);
@@ -35,12 +36,12 @@ impl Distribution {
             DistributionFile::Uniform { from, to } if from < to => {
                 Ok(Distribution::Uniform(*from, *to))
             }
-            DistributionFile::Uniform { from, to } => Err(StudyError::Value {
+            DistributionFile::Uniform { from, to } => Err(StudyError::Value(RefusedValue {
                 key: format!("{key}.to"),
                 value: to.to_string(),
                 allowed: format!("above from, {from}"),
                 remedy: "exchange them, or leave a number that does not vary out of the study",
-            }),
+            })),
             DistributionFile::Normal {
                 mean,
                 standard_deviation,
@@ -49,12 +50,12 @@ impl Distribution {
                 let spread = positive(&format!("{key}.standard_deviation"), *standard_deviation)?;
                 let cut = *truncated_at_deviations;
                 if !(TRUNCATION.0..=TRUNCATION.1).contains(&cut) {
-                    return Err(StudyError::Value {
+                    return Err(StudyError::Value(RefusedValue {
                         key: format!("{key}.truncated_at_deviations"),
                         value: cut.to_string(),
                         allowed: format!("between {} and {}", TRUNCATION.0, TRUNCATION.1),
                         remedy: "3 leaves 0.3 % out",
-                    });
+                    }));
                 }
                 let mean = mean.unwrap_or(nominal);
                 Ok(Distribution::Normal(
@@ -85,21 +86,23 @@ fn positive(key: &str, value: f64) -> Result<f64, StudyError> {
     if value > 0.0 && value.is_finite() {
         return Ok(value);
     }
-    Err(StudyError::Value {
+    Err(StudyError::Value(RefusedValue {
         key: key.to_owned(),
         value: value.to_string(),
         allowed: "above 0".into(),
         remedy: "give it in the unit of the number, or leave a number that does not vary out",
-    })
+    }))
 }
 
 fn grid(values: &[f64], key: &str) -> Result<Distribution, StudyError> {
     let repeated = (1..values.len()).find(|k| values[..*k].contains(&values[*k]));
-    let refuse = |value: String, allowed: String| StudyError::Value {
-        key: format!("{key}.values"),
-        value,
-        allowed,
-        remedy: "list each value once",
+    let refuse = |value: String, allowed: String| {
+        StudyError::Value(RefusedValue {
+            key: format!("{key}.values"),
+            value,
+            allowed,
+            remedy: "list each value once",
+        })
     };
     if values.is_empty() || values.len() > MAX_VALUES {
         let count = format!("a list of {}", values.len());

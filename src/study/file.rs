@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::SceneError;
+use crate::check::LimitsFile;
+use crate::scene::{RefusedValue, SceneError};
 use crate::stability::AnalysisError;
 use crate::text::{KeyedError, from_keyed_json};
 
@@ -118,28 +119,6 @@ fn default_truncation() -> f64 {
     3.0
 }
 
-/// What a saw has to keep, as the options of `sawflutter check`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LimitsFile {
-    /// Speed at which it is run; the scene's by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub operating_rpm: Option<f64>,
-    /// Largest share of the lowest critical speed that the operating speed may be.
-    #[serde(default = "default_margin")]
-    pub margin: f64,
-    /// Least flutter speed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min_flutter_rpm: Option<f64>,
-    /// Least first critical speed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min_critical_rpm: Option<f64>,
-}
-
-fn default_margin() -> f64 {
-    crate::stability::OPERATING_LIMIT
-}
-
 /// Why a study was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
@@ -152,17 +131,8 @@ pub enum StudyError {
         message: String,
     },
     /// A value that no study has.
-    #[error("{key} is {value}, but must be {allowed}; {remedy}")]
-    Value {
-        /// JSON path of the key.
-        key: String,
-        /// What was given.
-        value: String,
-        /// What is allowed.
-        allowed: String,
-        /// What to do about it.
-        remedy: &'static str,
-    },
+    #[error(transparent)]
+    Value(#[from] RefusedValue),
     /// The scene, as it stands or without a number that is to vary.
     #[error("{key}: {source}")]
     Scene {

@@ -46,7 +46,7 @@ mod table;
 mod tally;
 
 pub use csv::CsvTable;
-pub use file::{DistributionFile, LimitsFile, ParameterFile, StudyError, StudyFile, json_schema};
+pub use file::{DistributionFile, ParameterFile, StudyError, StudyFile, json_schema};
 pub use inputs::Inputs;
 pub use log::{Log, LogError, read_inputs, rows_of};
 #[cfg(feature = "parquet")]

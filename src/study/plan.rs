@@ -7,10 +7,10 @@
 //! differs between two of them is then due to the grid.
 
 use super::distribution::Distribution;
-use super::file::{LimitsFile, StudyError, StudyFile};
+use super::file::{StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
-use crate::check::{Criterion, Limits, RIM_LIMIT_M_PER_S};
-use crate::scene::{MAX_RPM, Parameter, Scene, SceneFile, SpeedRange, rad_per_s};
+use crate::check::{Criterion, Limits, LimitsFile};
+use crate::scene::{Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
 use crate::stability::ChosenBasis;
 
 /// Saws of a study: as many as there are points but one, and a log of 600 GB.
@@ -66,9 +66,9 @@ impl Study {
         let varying = varying(scene.file(), &file)?;
         let (drawn, count) = counts(&file, &varying)?;
         check_statistics(&file)?;
-        let limits = file.limits.map(|l| limits(&l, scene.file())).transpose()?;
+        let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
         let end = match (file.to_rpm, scene.sweep()) {
-            (Some(rpm), _) => rad_per_s(speed("to_rpm", rpm)?),
+            (Some(rpm), _) => speed_rad_per_s("to_rpm", rpm)?,
             (None, Some(sweep)) => sweep.to_rad_per_s,
             (None, None) => {
                 ChosenBasis::new(&scene, scene.tolerance())?
@@ -162,12 +162,7 @@ fn refuse(
     allowed: impl Into<String>,
     remedy: &'static str,
 ) -> StudyError {
-    StudyError::Value {
-        key: key.into(),
-        value: value.to_string(),
-        allowed: allowed.into(),
-        remedy,
-    }
+    RefusedValue::new(key, value, allowed, remedy).into()
 }
 
 fn varying(
@@ -274,42 +269,13 @@ fn check_statistics(file: &StudyFile) -> Result<(), StudyError> {
     Ok(())
 }
 
-fn speed(key: &str, rpm: f64) -> Result<f64, StudyError> {
-    if rpm > 0.0 && rpm <= MAX_RPM {
-        return Ok(rpm);
-    }
-    let allowed = format!("above 0 and at most {MAX_RPM:e}");
-    Err(refuse(
-        key,
-        rpm,
-        allowed,
-        "give it in revolutions per minute",
-    ))
-}
-
-fn limits(file: &LimitsFile, scene: &SceneFile) -> Result<Limits, StudyError> {
-    let Some(operating) = file.operating_rpm.or(scene.operating_rpm) else {
-        let remedy = "give it here, or operating_rpm in the scene";
-        let allowed = "how fast the saw is run";
-        return Err(refuse("limits.operating_rpm", "missing", allowed, remedy));
+/// What every saw is held against, from the block `limits` of the study.
+fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
+    let of_study = |refused: RefusedValue| RefusedValue {
+        key: format!("limits.{}", refused.key),
+        ..refused
     };
-    if !(file.margin > 0.0 && file.margin <= 1.0) {
-        let allowed = "above 0 and at most 1";
-        return Err(refuse(
-            "limits.margin",
-            file.margin,
-            allowed,
-            "the usual rule is 0.85",
-        ));
-    }
-    let asked = |key, rpm: Option<f64>| rpm.map(|rpm| speed(key, rpm).map(rad_per_s)).transpose();
-    Ok(Limits {
-        operating_rad_per_s: rad_per_s(speed("limits.operating_rpm", operating)?),
-        margin: file.margin,
-        min_flutter_rad_per_s: asked("limits.min_flutter_rpm", file.min_flutter_rpm)?,
-        min_critical_rad_per_s: asked("limits.min_critical_rpm", file.min_critical_rpm)?,
-        max_rim_m_per_s: RIM_LIMIT_M_PER_S,
-    })
+    Ok(file.limits(scene).map_err(of_study)?)
 }
 
 #[cfg(test)]

@@ -5,16 +5,8 @@ use std::f64::consts::PI;
 
 use crate::spectrum::turn_along;
 
+use super::boundary::Boundary;
 use super::delayed::DelayedSaw;
-
-/// The least cutting stiffness at which a motion begins to grow.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Boundary {
-    /// Zero where one grows without the delayed force.
-    pub stiffness_n_per_m: f64,
-    /// Its frequency in space.
-    pub frequency_rad_per_s: f64,
-}
 
 /// The eigenvalues of the loop gain along the imaginary axis.
 #[derive(Debug)]

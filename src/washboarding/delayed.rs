@@ -10,7 +10,7 @@ use crate::scene::Washboarding;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
-use super::count::Boundary;
+use super::boundary::Boundary;
 use super::delay::Delay;
 use super::transfer::Transfer;
 

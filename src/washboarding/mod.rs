@@ -17,6 +17,7 @@
 //! for teeth that are not evenly spaced, and for the mean over the passing teeth.
 
 mod basis;
+mod boundary;
 mod count;
 mod delay;
 mod delayed;
@@ -31,7 +32,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::Mat;
 use rayon::prelude::*;
 
-pub use self::count::Boundary;
+pub use self::boundary::Boundary;
 pub use self::modes::{Pattern, WashboardMode};
 
 use self::basis::Motions;

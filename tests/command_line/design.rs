@@ -121,7 +121,7 @@ fn a_table_is_fitted_and_the_scene_it_gives_can_be_used() {
 fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
     let cases: [(&str, &[&str], &str); 9] = [
         ("rpm,f\n0,x\n", &[], "line 2"),
-        ("rpm,f\n", &[], "no frequency"),
+        ("rpm,f\n", &[], "no frequency in measured.csv"),
         (TABLE, &["--to-rpm", "-1"], "--to-rpm is -1"),
         (TABLE, &["--confidence", "1"], "--confidence is 1"),
         (TABLE, &["--starts", "0"], "--starts is 0"),

@@ -7,11 +7,12 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, MAX_SCENE_BYTES, Scene};
+use sawflutter::scene::{Accuracy, Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
 use sawflutter::stability::Analysis;
-use serde_json::Value;
+use serde_json::{Value, json};
+use tempfile::TempDir;
 
-use super::program::program;
+use super::program::{program, run, text, write_scene};
 
 struct Server {
     child: Child,
@@ -34,6 +35,13 @@ struct Answer {
 impl Answer {
     fn json(&self) -> Value {
         serde_json::from_slice(&self.body).unwrap()
+    }
+
+    /// Of an answer that comes line by line, in chunks.
+    fn last_line(&self) -> Value {
+        let body = String::from_utf8(self.body.clone()).unwrap();
+        let mut lines = body.lines().filter(|line| line.starts_with('{'));
+        serde_json::from_str(lines.next_back().unwrap()).unwrap()
     }
 }
 
@@ -241,4 +249,53 @@ fn an_interrupt_ends_everything() {
         std::thread::sleep(Duration::from_millis(20));
     };
     assert!(status.success(), "{status}");
+}
+
+/// What a scene lacks for a command is said by the library once: the page answers in its words and
+/// names its key, and the program prints them.
+#[test]
+fn what_a_scene_lacks_is_said_in_the_same_words_by_page_and_program() {
+    let saw = Scene::paper().edited(|saw| {
+        saw.cut = None;
+        saw.runup = None;
+        saw.measured = None;
+        saw.operating_rpm = None;
+        saw.guides.clear();
+    });
+    let saw = saw.unwrap();
+    let folder = TempDir::new().unwrap();
+    let path = write_scene(&folder, saw.file());
+    let cases: [(&str, &[&str], RefusedValue); 6] = [
+        ("cut", &[], saw.needed_cut().unwrap_err()),
+        ("runup", &[], saw.needed_runup().unwrap_err()),
+        ("washboard", &[], saw.needed_washboarding().unwrap_err()),
+        ("fit", &[], saw.needed_measured().unwrap_err()),
+        (
+            "place",
+            &["--goal", "window"],
+            saw.needed_operating_rpm(None).unwrap_err(),
+        ),
+        ("place", &[], no_guides()),
+    ];
+    let server = Server::start();
+    for (command, options, expected) in cases {
+        let asked = json!({ "scene": saw.file(), "window": !options.is_empty() });
+        let answer = server.ask(&format!("POST /task/{command}"), &[], &asked.to_string());
+        let refusal = &answer.last_line()["refusal"];
+        assert_eq!(refusal["key"], expected.key, "{command}");
+        assert_eq!(refusal["message"], expected.to_string(), "{command}");
+        let arguments = [&[command, path.to_str().unwrap()], options].concat();
+        let output = run(&arguments, &folder);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let told = text(&output.stderr).replace('\n', " ");
+        assert!(told.contains(&expected.to_string()), "{command}: {told}");
+    }
+}
+
+fn no_guides() -> RefusedValue {
+    let free = Scene::paper().edited(|saw| saw.guides.clear());
+    match Freed::to_place(&free.unwrap(), &[]) {
+        Err(SceneError::Value(refused)) => refused,
+        other => panic!("{other:?}"),
+    }
 }

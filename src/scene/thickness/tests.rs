@@ -72,7 +72,7 @@ fn rows_that_no_blade_has_are_refused_by_name() {
     ];
     for (list, expected) in cases {
         match blade_with(list) {
-            Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+            Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }
@@ -111,7 +111,7 @@ fn the_mass_of_teeth_needs_their_number_and_a_place_on_the_blade() {
         (with(4.0, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
     ] {
         match result {
-            Err(SceneError::Value { key, .. }) => assert_eq!(key, expected),
+            Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
             other => panic!("{expected}: {other:?}"),
         }
     }

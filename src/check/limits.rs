@@ -1,0 +1,118 @@
+//! What a saw has to keep: as typed, in rpm, and validated, in rad/s.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
+use crate::stability::OPERATING_LIMIT;
+
+/// What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a study.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LimitsFile {
+    /// Speed at which it is run; the scene's by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operating_rpm: Option<f64>,
+    /// Largest share of the lowest critical speed that the operating speed may be.
+    #[serde(default = "default_margin")]
+    pub margin: f64,
+    /// Least flutter speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_flutter_rpm: Option<f64>,
+    /// Least first critical speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_critical_rpm: Option<f64>,
+}
+
+fn default_margin() -> f64 {
+    OPERATING_LIMIT
+}
+
+impl LimitsFile {
+    /// The limits of a scene, and the usual one of the rim.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] that names the number that no limit has, or the operating speed where
+    /// there is none.
+    pub fn limits(&self, scene: &Scene) -> Result<Limits, RefusedValue> {
+        let operating_rpm = scene.needed_operating_rpm(self.operating_rpm)?;
+        if !(self.margin > 0.0 && self.margin <= 1.0) {
+            let allowed = "above 0 and at most 1";
+            let remedy = "the usual rule is 0.85";
+            return Err(RefusedValue::new("margin", self.margin, allowed, remedy));
+        }
+        let speed = |key, rpm: Option<f64>| rpm.map(|rpm| speed_rad_per_s(key, rpm)).transpose();
+        Ok(Limits {
+            operating_rad_per_s: speed_rad_per_s("operating_rpm", operating_rpm)?,
+            margin: self.margin,
+            min_flutter_rad_per_s: speed("min_flutter_rpm", self.min_flutter_rpm)?,
+            min_critical_rad_per_s: speed("min_critical_rpm", self.min_critical_rpm)?,
+            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+        })
+    }
+}
+
+/// What a saw has to keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Speed at which it is run.
+    pub operating_rad_per_s: f64,
+    /// Largest share of the lowest critical speed that the operating speed may be.
+    pub margin: f64,
+    /// Least flutter speed.
+    pub min_flutter_rad_per_s: Option<f64>,
+    /// Least first critical speed.
+    pub min_critical_rad_per_s: Option<f64>,
+    /// Largest speed of the rim.
+    pub max_rim_m_per_s: f64,
+}
+
+/// Saws for wood are run with 60 to 90 m/s at the rim, and makers of carbide-tipped blades allow no
+/// more than this.
+pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
+
+/// The sweep reaches past the speeds asked for by this factor.
+const BEYOND: f64 = 1.02;
+/// Faster than sound in steel.
+const MAX_RIM_M_PER_S: f64 = 1e4;
+
+impl Limits {
+    /// The same with another limit of the speed of the rim.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where no rim has this speed.
+    pub fn with_rim_speed(self, max_rim_m_per_s: f64) -> Result<Self, RefusedValue> {
+        if max_rim_m_per_s > 0.0 && max_rim_m_per_s <= MAX_RIM_M_PER_S {
+            return Ok(Limits {
+                max_rim_m_per_s,
+                ..self
+            });
+        }
+        let allowed = format!("above 0 and at most {MAX_RIM_M_PER_S}");
+        let remedy = "saws for wood are run with at most 100";
+        let key = "max_rim_m_per_s";
+        Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))
+    }
+
+    /// The usual 85 % rule and the usual speed of the rim at an operating speed, and nothing else.
+    pub fn at(operating_rad_per_s: f64) -> Self {
+        Limits {
+            operating_rad_per_s,
+            margin: OPERATING_LIMIT,
+            min_flutter_rad_per_s: None,
+            min_critical_rad_per_s: None,
+            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+        }
+    }
+
+    /// How far a sweep has to go: past every speed asked for, so that a band that begins there
+    /// is seen to.
+    pub fn reach_rad_per_s(&self) -> f64 {
+        let asked = [
+            Some(self.operating_rad_per_s / self.margin),
+            self.min_flutter_rad_per_s,
+            self.min_critical_rad_per_s,
+        ];
+        BEYOND * asked.into_iter().flatten().fold(0.0, f64::max)
+    }
+}

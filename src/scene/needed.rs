@@ -1,0 +1,97 @@
+//! What single commands need of a scene: blocks that a scene may leave out.
+
+use super::check::MAX_RPM;
+use super::{
+    Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, Washboarding, rad_per_s,
+};
+
+impl Scene {
+    /// The cut, for a command that cannot do without.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene has none.
+    pub fn needed_cut(&self) -> Result<&Cut, RefusedValue> {
+        let allowed = "given, with the forces on the teeth";
+        let remedy = "add it to the scene";
+        self.cut()
+            .ok_or_else(|| RefusedValue::missing("cut", allowed, remedy))
+    }
+
+    /// The cut and its delayed force.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene lacks one of them.
+    pub fn needed_washboarding(&self) -> Result<(&Cut, &Washboarding), RefusedValue> {
+        let cut = self.needed_cut()?;
+        let allowed = "given, with the cutting stiffness across the blade";
+        let remedy = "add it to the scene's cut";
+        let washboarding = cut.washboarding.as_ref();
+        let missing = || RefusedValue::missing("cut.washboarding", allowed, remedy);
+        Ok((cut, washboarding.ok_or_else(missing)?))
+    }
+
+    /// The run-up.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene has none.
+    pub fn needed_runup(&self) -> Result<&RunUp, RefusedValue> {
+        let allowed = "given, with its speeds, duration and force";
+        let remedy = "add it to the scene";
+        self.runup()
+            .ok_or_else(|| RefusedValue::missing("runup", allowed, remedy))
+    }
+
+    /// The frequencies measured of the saw.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene has none.
+    pub fn needed_measured(&self) -> Result<&Measured, RefusedValue> {
+        let allowed = "given, with the frequencies measured of the saw";
+        let remedy = "give a table of them, or add it to the scene";
+        let measured = self.file.measured.as_ref();
+        measured.ok_or_else(|| RefusedValue::missing("measured", allowed, remedy))
+    }
+
+    /// The speed at which the saw is run: the one asked for, in rpm, else the scene's.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where there is none.
+    pub fn needed_operating_rpm(&self, asked: Option<f64>) -> Result<f64, RefusedValue> {
+        let allowed = "the speed at which the saw is run";
+        let remedy = "give it, or operating_rpm in the scene";
+        let rpm = asked.or(self.file.operating_rpm);
+        rpm.ok_or_else(|| RefusedValue::missing("operating_rpm", allowed, remedy))
+    }
+}
+
+impl Cut {
+    /// The forces at the speeds asked for, in rpm; without any, those of the scene's.
+    ///
+    /// # Errors
+    /// [`SceneError`] where there is no speed at all, or as [`Cut::at_rpm`].
+    pub fn runs_at(&self, rpm: &[f64]) -> Result<Vec<CutRun>, SceneError> {
+        let asked = rpm.iter().map(|rpm| self.at_rpm(*rpm));
+        let asked = asked.collect::<Result<Vec<CutRun>, _>>()?;
+        let runs = if asked.is_empty() {
+            self.runs.clone()
+        } else {
+            asked
+        };
+        if runs.is_empty() {
+            let allowed = "given, with a speed to cut at";
+            let remedy = "name a speed, or add it or operating_rpm to the scene";
+            return Err(RefusedValue::missing("cut.speeds", allowed, remedy).into());
+        }
+        Ok(runs)
+    }
+}
+
+/// A rotation speed above zero, in rad/s, of an argument in rpm.
+pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> {
+    if rpm > 0.0 && rpm <= MAX_RPM {
+        return Ok(rad_per_s(rpm));
+    }
+    let allowed = format!("above 0 and at most {MAX_RPM:e}");
+    let remedy = "give it in revolutions per minute";
+    Err(RefusedValue::new(key, rpm, allowed, remedy))
+}
