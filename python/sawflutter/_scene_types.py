@@ -604,7 +604,8 @@ class ParameterDict(TypedDict):
 
 
 class LimitsDict(TypedDict, total=False):
-    """What a saw has to keep, as the options of `sawflutter check`."""
+    """What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a
+    study."""
 
     operating_rpm: float | None
     """Speed at which it is run; the scene's by default."""

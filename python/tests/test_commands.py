@@ -165,7 +165,7 @@ def test_place_moves_what_is_named_within_its_bounds(draft: sf.Scene) -> None:
 def test_what_cannot_be_placed_is_refused(draft: sf.Scene) -> None:
     with pytest.raises(sf.ArgumentError, match="goal"):
         draft.place(goal="noise")  # type: ignore[arg-type]
-    with pytest.raises(sf.ArgumentError, match="guides"):
+    with pytest.raises(sf.SceneError, match="guides"):
         draft.replace({"guides": []}).place()
     with pytest.raises(sf.ArgumentError, match="operating_rpm"):
         draft.replace({"operating_rpm": None, "cut": None}).place(goal="window")
