@@ -15,7 +15,6 @@
 mod inverse;
 mod operator;
 
-use faer::linalg::solvers::{Eigen, EvdError};
 use faer::{Col, Mat, Scale};
 
 use crate::scene::rpm;
@@ -25,7 +24,8 @@ use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
 use super::inertia::WholeBasis;
 use super::mode::rigid_noise;
-use super::vectors::{Eigenpair, by_magnitude, split, unit};
+use super::real_eigen::{NoConvergence, RealEigen};
+use super::vectors::{Eigenpair, by_magnitude, unit};
 use crate::tuned::Tuned;
 
 /// Share of a vector that is left beside the span of the others, below which it is rounding.
@@ -102,7 +102,7 @@ fn nearest<O: Operator>(
     operator: &O,
     wanted: usize,
     shift_per_s: f64,
-) -> Result<Vec<Eigenpair>, EvdError> {
+) -> Result<Vec<Eigenpair>, NoConvergence> {
     let order = O::most_vectors(operator.order());
     let wanted = wanted.min(order);
     let beyond = O::steps_beyond();
@@ -183,16 +183,16 @@ impl Krylov {
         wanted: usize,
         shift: f64,
         finished: bool,
-    ) -> Result<Option<Vec<Eigenpair>>, EvdError> {
+    ) -> Result<Option<Vec<Eigenpair>>, NoConvergence> {
         let m = self.steps;
         let square = self.hessenberg.get(..m, ..m).to_owned();
-        let eigen = match Eigen::new_from_real(square.as_ref()) {
+        let eigen = match RealEigen::new(square.as_ref()) {
             Ok(eigen) => eigen,
             Err(_) if !finished => return Ok(None),
             Err(error) => return Err(error),
         };
         let mut order: Vec<usize> = (0..m).collect();
-        order.sort_by(|&i, &k| eigen.S()[k].norm().total_cmp(&eigen.S()[i].norm()));
+        order.sort_by(|&i, &k| eigen.values[k].norm().total_cmp(&eigen.values[i].norm()));
         order.truncate(wanted);
         let last = if m == 0 {
             0.0
@@ -200,9 +200,9 @@ impl Krylov {
             self.hessenberg[(m, m - 1)]
         };
         let converged = |i: &usize| {
-            let y = eigen.U().col(*i);
+            let y = eigen.vector(*i);
             let residual = last * y[m - 1].norm() / y.norm_l2();
-            residual <= TOLERANCE.get() * eigen.S()[*i].norm()
+            residual <= TOLERANCE.get() * eigen.values[*i].norm()
         };
         let all = order.len();
         order.retain(converged);
@@ -213,8 +213,9 @@ impl Krylov {
         let pairs = order
             .into_iter()
             .flat_map(|i| {
-                let (re, im) = split(&eigen.U().col(i).to_owned());
-                operator.pairs(eigen.S()[i], span * re, span * im)
+                let halves = span * eigen.halves_of(&[i]);
+                let [re, im] = [0, 1].map(|k| halves.col(k).to_owned());
+                operator.pairs(eigen.values[i], re, im)
             })
             .filter(|(lambda, _)| lambda.im >= 0.0 && lambda.is_finite())
             .map(|(lambda, q)| (lambda * shift, unit(q.as_ref())))

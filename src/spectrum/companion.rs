@@ -1,6 +1,5 @@
 //! All eigenvalues of the quadratic problem, by its companion matrix.
 
-use faer::linalg::solvers::Eigen;
 use faer::reborrow::ReborrowMut;
 use faer::{Col, Mat, Scale, c64};
 
@@ -9,6 +8,7 @@ use crate::system::GyroscopicSystem;
 
 use super::deflation::Deflation;
 use super::error::SpectrumError;
+use super::real_eigen::RealEigen;
 use super::vectors::{Eigenpair, by_magnitude, unit};
 use super::work::Cancellation;
 
@@ -85,21 +85,22 @@ pub fn companion_eigenpairs(
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let (state, scale, deflation) = deflated_companion(system, speed_rad_per_s)?;
     let size = system.order();
-    let eigen = Eigen::new_from_real(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
+    let eigen = RealEigen::new(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
         order: state.nrows(),
         rpm: rpm(speed_rad_per_s),
     })?;
     let displacement = |i: usize| match &deflation {
-        Some(deflation) => deflation.displacement(eigen.S()[i], &eigen.U().col(i).to_owned()),
-        None => eigen.U().col(i).subrows(0, size).to_owned(),
+        Some(deflation) => deflation.displacement(eigen.values[i], &eigen.vector(i)),
+        None => eigen.vector(i).subrows(0, size).to_owned(),
     };
     let free = deflation.iter().flat_map(|_| &system.free_rigid).map(|z| {
         let z = Col::from_fn(size, |i| c64::new(z[i], 0.0));
         (c64::new(0.0, 0.0), z)
     });
-    let pairs = (0..state.nrows())
-        .filter(|&i| eigen.S()[i].im >= 0.0)
-        .map(|i| (eigen.S()[i] * scale, unit(displacement(i).as_ref())))
+    let pairs = eigen
+        .upper()
+        .into_iter()
+        .map(|i| (eigen.values[i] * scale, unit(displacement(i).as_ref())))
         .chain(free)
         .collect();
     Ok(by_magnitude(pairs))

@@ -14,6 +14,7 @@ use super::error::SpectrumError;
 use super::hermitian::negative_eigenvalues;
 use super::mode::{GROWTH_NOISE, Mode, classify, pairs_of};
 use super::projection::Projection;
+use super::real_eigen::real_eigenvalues;
 use super::residual::MatrixNorms;
 use super::vectors::{orthonormal, split};
 
@@ -27,12 +28,10 @@ pub fn fastest_growing(
     speed_rad_per_s: f64,
 ) -> Result<Option<c64>, SpectrumError> {
     let (state, scale, _) = deflated_companion(system, speed_rad_per_s)?;
-    let values = state
-        .eigenvalues()
-        .map_err(|_| SpectrumError::NoConvergence {
-            order: state.nrows(),
-            rpm: rpm(speed_rad_per_s),
-        })?;
+    let values = real_eigenvalues(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
+        order: state.nrows(),
+        rpm: rpm(speed_rad_per_s),
+    })?;
     // A maximum would pass over what is not a number.
     if !values.iter().all(|value| value.is_finite()) {
         return Err(SpectrumError::NotFinite {

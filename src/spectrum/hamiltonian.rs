@@ -7,13 +7,14 @@
 //! Galerkin's projection zᵀJᵀz, zᵀSz keeps the system Hamiltonian, so its eigenvalues are
 //! wrong by the square of what the states lack, and none loses its Krein sign.
 
-use faer::linalg::solvers::{Eigen, Solve};
+use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::error::SpectrumError;
+use super::real_eigen::RealEigen;
 use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
@@ -123,18 +124,12 @@ impl HamiltonianReduction {
             order: matrix.nrows(),
             rpm: rpm(speed_rad_per_s),
         };
-        let eigen = Eigen::new_from_real(matrix.as_ref()).map_err(failed)?;
-        let upper: Vec<usize> = (0..matrix.nrows())
-            .filter(|&i| eigen.S()[i].im >= 0.0)
-            .collect();
-        let halves = Mat::from_fn(matrix.nrows(), 2 * upper.len(), |i, k| {
-            let y = eigen.U()[(i, upper[k / 2])];
-            if k % 2 == 0 { y.re } else { y.im }
-        });
-        let shapes = &self.deflections * halves;
+        let eigen = RealEigen::new(matrix.as_ref()).map_err(failed)?;
+        let upper = eigen.upper();
+        let shapes = &self.deflections * eigen.halves_of(&upper);
         let pairs = upper.iter().enumerate().map(|(k, &i)| {
             let q = joined(&shapes, k);
-            (eigen.S()[i] * self.scale, unit(q.as_ref()))
+            (eigen.values[i] * self.scale, unit(q.as_ref()))
         });
         Ok(by_magnitude(pairs.collect()))
     }

@@ -38,6 +38,7 @@ mod mode_name;
 mod mode_pair;
 mod model;
 mod projection;
+mod real_eigen;
 mod reflected;
 mod residual;
 mod vectors;
