@@ -82,8 +82,8 @@ impl Options {
     /// The same, if a fit to a measurement can have them.
     ///
     /// # Errors
-    /// [`RefusedValue`] that names the option that no fit can have, or the measurement where it has
-    /// no frequency up to the speed asked for.
+    /// [`RefusedValue`] that names the option that no fit can have, or the last speed where nothing is
+    /// measured up to there.
     pub fn checked(self, measurement: &Measurement) -> Result<Self, RefusedValue> {
         if !(self.confidence > 0.0 && self.confidence < 1.0) {
             let (key, remedy) = ("confidence", "0.95 is usual");
@@ -180,16 +180,7 @@ impl Fit {
             None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
         };
         let (freed, without_effect) = moving(scene, measurement, freed, coarse)?;
-        if freed.is_empty() {
-            return Err(FitError::NothingFree);
-        }
-        let (count, free) = (measurement.count(), freed.len());
-        if count <= free {
-            return Err(FitError::TooFew {
-                measured: count,
-                free,
-            });
-        }
+        check_determined(freed.len(), measurement.count())?;
         let model = |resolution| Model {
             scene: scene.file(),
             freed: &freed,
@@ -245,6 +236,15 @@ impl Fit {
         rpm.par_iter()
             .map(|rpm| Model::frequencies_hz(&lowest, rad_per_s(*rpm), count))
             .collect()
+    }
+}
+
+/// Whether measured frequencies determine so many free numbers.
+fn check_determined(free: usize, measured: usize) -> Result<(), FitError> {
+    match free {
+        0 => Err(FitError::NothingFree),
+        free if measured <= free => Err(FitError::TooFew { measured, free }),
+        _ => Ok(()),
     }
 }
 

@@ -21,6 +21,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod demands;
 mod map;
 mod neighbours;
 mod outcome;
@@ -33,11 +34,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
-use crate::scene::{Freed, RefusedValue, Scene, SceneError, effective, rad_per_s, speed_rad_per_s};
+use crate::scene::{Freed, Scene, SceneError, effective};
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
+pub use demands::{Demands, Goal, Options};
 pub use map::Map;
 pub use neighbours::{Neighbour, Neighbours};
 pub use outcome::Outcome;
@@ -68,113 +70,6 @@ pub enum PlaceError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-}
-
-/// What is to be made large.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Goal {
-    /// Onset of the first flutter band that reaches the scene's threshold.
-    FlutterSpeed,
-    /// Distance from the end of the last band below a speed to the onset of the first above it.
-    StableWindow {
-        /// The speed.
-        around_rad_per_s: f64,
-    },
-}
-
-impl Goal {
-    /// The widest stable window around the operating speed of a scene.
-    ///
-    /// # Errors
-    /// [`RefusedValue`] where the scene has no operating speed.
-    pub fn window_of(scene: &Scene) -> Result<Self, RefusedValue> {
-        let around_rad_per_s = rad_per_s(scene.needed_operating_rpm(None)?);
-        Ok(Goal::StableWindow { around_rad_per_s })
-    }
-}
-
-/// What is wanted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Demands {
-    /// What is to be made large.
-    pub goal: Goal,
-    /// Least lowest critical speed.
-    pub min_critical_rad_per_s: Option<f64>,
-}
-
-impl Demands {
-    /// A goal under a limit in rpm.
-    ///
-    /// # Errors
-    /// [`RefusedValue`] where the limit is no speed.
-    pub fn new(goal: Goal, min_critical_rpm: Option<f64>) -> Result<Self, RefusedValue> {
-        let limit = min_critical_rpm.map(|rpm| speed_rad_per_s("min_critical_rpm", rpm));
-        Ok(Demands {
-            goal,
-            min_critical_rad_per_s: limit.transpose()?,
-        })
-    }
-}
-
-impl Default for Demands {
-    fn default() -> Self {
-        Demands {
-            goal: Goal::FlutterSpeed,
-            min_critical_rad_per_s: None,
-        }
-    }
-}
-
-/// How hard to look.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// Saws spread over the bounds at first.
-    pub samples: usize,
-    /// How many of the best of them, if apart, are refined.
-    pub places: usize,
-    /// Saws that each refinement may take.
-    pub refine: u64,
-    /// Points of the map along each axis; 0 for none.
-    pub map: usize,
-    /// A basis instead of the one that the scene's tolerance asks for.
-    pub resolution: Option<Resolution>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            samples: 64,
-            places: 3,
-            refine: 60,
-            map: 17,
-            resolution: None,
-        }
-    }
-}
-
-/// A search of this many saws takes a day.
-const MAX_SAMPLES: usize = 100_000;
-/// A map of this many points along each axis is finer than it is drawn.
-const MAX_MAP: usize = 400;
-
-impl Options {
-    /// The same, if a search can have them.
-    ///
-    /// # Errors
-    /// [`RefusedValue`] that names the option that no search can have.
-    pub fn checked(self) -> Result<Self, RefusedValue> {
-        if !(1..=MAX_SAMPLES).contains(&self.samples) {
-            let allowed = format!("from 1 to {MAX_SAMPLES}");
-            let remedy = "a hundred is usual";
-            return Err(RefusedValue::new("samples", self.samples, allowed, remedy));
-        }
-        if self.map == 1 || self.map > MAX_MAP {
-            let allowed = format!("0 or from 2 to {MAX_MAP}");
-            let remedy = "17 is usual, 0 draws none";
-            return Err(RefusedValue::new("map", self.map, allowed, remedy));
-        }
-        Ok(self)
-    }
 }
 
 /// A number and what was found for it.

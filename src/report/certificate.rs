@@ -254,6 +254,29 @@ mod tests {
     use super::*;
     use crate::scene::rad_per_s;
 
+    /// The same with everything that may not agree.
+    fn contradicted(clean: Certificate) -> Certificate {
+        Certificate {
+            violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),
+            mismatches: vec![Mismatch {
+                speed_rad_per_s: rad_per_s(1400.0),
+                kind: InstabilityKind::Flutter,
+                unstable_modes: 1,
+                bands: 0,
+                growth_per_s: 2.0,
+                peak_per_s: 0.0,
+            }],
+            gave_up: true,
+            miscounts: vec![Miscount {
+                speed_rad_per_s: rad_per_s(1500.0),
+                from_rad_per_s: 10.0 * TAU,
+                to_rad_per_s: 12.0 * TAU,
+                missing: 1,
+            }],
+            ..clean
+        }
+    }
+
     #[test]
     fn everything_that_does_not_agree_is_in_the_sentence() {
         let clean = Certificate {
@@ -289,25 +312,7 @@ mod tests {
             statement(&clean, true, whole)
                 .ends_with("the whole sweep is proven free of unlisted bands")
         );
-        let wrong = Certificate {
-            violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),
-            mismatches: vec![Mismatch {
-                speed_rad_per_s: rad_per_s(1400.0),
-                kind: InstabilityKind::Flutter,
-                unstable_modes: 1,
-                bands: 0,
-                growth_per_s: 2.0,
-                peak_per_s: 0.0,
-            }],
-            gave_up: true,
-            miscounts: vec![Miscount {
-                speed_rad_per_s: rad_per_s(1500.0),
-                from_rad_per_s: 10.0 * TAU,
-                to_rad_per_s: 12.0 * TAU,
-                missing: 1,
-            }],
-            ..clean
-        };
+        let wrong = contradicted(clean);
         assert_eq!(
             says(&wrong),
             "Krein index does not match at 2 of 567 speeds, 1200.0 to 1300.0 rpm; \

@@ -44,6 +44,34 @@ impl Default for AnalysisOptions<'_> {
     }
 }
 
+/// The eigenvalues of the flutter band that begins at a speed; `None` with damping, where no pair
+/// coalesces.
+fn root_loci(
+    model: &SpectralModel,
+    chart: &StabilityChart,
+    onset_rad_per_s: f64,
+    range_rad_per_s: (f64, f64),
+) -> Result<Option<RootLoci>, SpectrumError> {
+    let begins = |band: &&Instability| {
+        band.kind == InstabilityKind::Flutter && band.from_rad_per_s == onset_rad_per_s
+    };
+    match chart.instabilities.iter().find(begins) {
+        Some(band) if model.is_conservative() => RootLoci::new(model, band, range_rad_per_s),
+        _ => Ok(None),
+    }
+}
+
+/// Of the chart, where it begins at rest.
+fn modes_at_rest(
+    model: &SpectralModel,
+    chart: &StabilityChart,
+) -> Result<Vec<DescribedMode>, SpectrumError> {
+    match chart.campbell.samples.first() {
+        Some(sample) if sample.speed_rad_per_s == 0.0 => Ok(sample.modes.clone()),
+        _ => Ok(model.describe(0.0, model.modes(0.0)?)),
+    }
+}
+
 /// Everything about the stability of one saw.
 #[derive(Debug)]
 pub struct Analysis {
@@ -117,20 +145,13 @@ impl Analysis {
         let estimates = Estimates::new(&model, range, &chart, larger, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
-        let loci = model.is_conservative() && detail == Detail::Full;
-        let onset = flutter_speed.or(first_merge).filter(|_| loci);
-        let begins = |band: &&Instability| {
-            band.kind == InstabilityKind::Flutter && Some(band.from_rad_per_s) == onset
-        };
-        let root_loci = match chart.instabilities.iter().find(begins) {
-            Some(band) => RootLoci::new(&model, band, range)?,
-            None => None,
-        };
+        let drawn_onset = flutter_speed
+            .or(first_merge)
+            .filter(|_| detail == Detail::Full);
+        let root_loci = drawn_onset.map(|onset| root_loci(&model, &chart, onset, range));
+        let root_loci = root_loci.transpose()?.flatten();
         let heat = HeatLimits::new(scene, &model)?;
-        let modes_at_rest = match chart.campbell.samples.first() {
-            Some(sample) if sample.speed_rad_per_s == 0.0 => sample.modes.clone(),
-            _ => model.describe(0.0, model.modes(0.0)?),
-        };
+        let modes_at_rest = modes_at_rest(&model, &chart)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;
         let idling = match scene.cut().and_then(|cut| cut.chart) {
             Some(_) if detail == Detail::Full => Some(Onsets::idling(scene, range)?),

@@ -106,44 +106,62 @@ fn rows(entry: &RootLociEntry) -> Vec<Row> {
     rows
 }
 
-/// Mean and square of half the difference are smooth through both ends of the band.
-fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
-    let (onset, end) = (entry.onset_rpm, entry.end_rpm);
-    let mean: Vec<[f64; 2]> = rows
-        .iter()
-        .map(|row| [row.rpm, (row.hz[0] + row.hz[1]) / 2.0])
-        .collect();
-    let square = |row: &Row| {
-        let growth = (row.growth[0] - row.growth[1]) / 2.0;
-        let apart = TAU * (row.hz[0] - row.hz[1]) / 2.0;
-        let inside = onset <= row.rpm && row.rpm <= end;
-        [
-            row.rpm,
-            if inside {
-                growth * growth
-            } else {
-                -apart * apart
-            },
-        ]
-    };
-    let meeting = Meeting::new([onset, end], [true; 2], rows.iter().map(square))?;
-    let sample = |rpm: f64, side: f64| {
-        let square = meeting.square(rpm);
+/// Two eigenvalues without damping, about a band in which they have coalesced. Mean frequency and
+/// square of half the difference are smooth through both ends of the band.
+struct Coalescing {
+    /// Onset and end of the band, in rpm.
+    band: [f64; 2],
+    meeting: Meeting,
+    /// Speed in rpm and mean frequency in Hz.
+    mean: Vec<[f64; 2]>,
+}
+
+impl Coalescing {
+    fn new(band: [f64; 2], rows: &[Row]) -> Option<Self> {
+        let mean = rows
+            .iter()
+            .map(|row| [row.rpm, (row.hz[0] + row.hz[1]) / 2.0]);
+        let square = |row: &Row| {
+            let growth = (row.growth[0] - row.growth[1]) / 2.0;
+            let apart = TAU * (row.hz[0] - row.hz[1]) / 2.0;
+            match (band[0]..=band[1]).contains(&row.rpm) {
+                true => [row.rpm, growth * growth],
+                false => [row.rpm, -apart * apart],
+            }
+        };
+        Some(Coalescing {
+            band,
+            meeting: Meeting::new(band, [true; 2], rows.iter().map(square))?,
+            mean: mean.collect(),
+        })
+    }
+
+    /// One of the two, on this side (±1) of their mean.
+    fn sample(&self, rpm: f64, side: f64) -> Sample {
+        let square = self.meeting.square(rpm);
         let half = side * square.abs().sqrt();
-        let mean = interpolate(&mean, rpm);
-        let inside = onset <= rpm && rpm <= end;
+        let mean = interpolate(&self.mean, rpm);
+        let inside = (self.band[0]..=self.band[1]).contains(&rpm);
         Sample {
             rpm,
             growth: if inside { half } else { 0.0 },
             hz: if inside { mean } else { mean + half / TAU },
         }
-    };
-    let track = |ends: [f64; 2], side: f64, look: Look, name: Option<String>| Track {
-        look,
-        name,
-        samples: between(ends).map(|rpm| sample(rpm, side)).collect(),
-    };
+    }
 
+    fn track(&self, ends: [f64; 2], side: f64, look: Look, name: Option<String>) -> Track {
+        let samples = between(ends).map(|rpm| self.sample(rpm, side));
+        Track {
+            look,
+            name,
+            samples: samples.collect(),
+        }
+    }
+}
+
+fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
+    let (onset, end) = (entry.onset_rpm, entry.end_rpm);
+    let pair = Coalescing::new([onset, end], rows)?;
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     let outside = [(first, [first.rpm, onset]), (last, [end, last.rpm])].into_iter();
     let outside = outside.filter(|(_, ends)| ends[0] < ends[1]);
@@ -152,19 +170,19 @@ fn undamped(entry: &RootLociEntry, rows: &[Row]) -> Option<Loci> {
             apart(outermost).map(|(path, side, look)| {
                 let begins = outermost.rpm < onset;
                 let name = begins.then(|| entry.paths[path].name.clone());
-                track(ends, side, look, name)
+                pair.track(ends, side, look, name)
             })
         })
         .collect();
-    tracks.push(track([onset, end], -1.0, Look::Decaying, None));
-    let growing = track([onset, end], 1.0, Look::Growing, None);
+    tracks.push(pair.track([onset, end], -1.0, Look::Decaying, None));
+    let growing = pair.track([onset, end], 1.0, Look::Growing, None);
     let peak = highest(&growing.samples)?;
     tracks.push(growing);
     Some(Loci {
         tracks,
-        onset: sample(onset, 1.0),
+        onset: pair.sample(onset, 1.0),
         peak,
-        end: sample(end, 1.0),
+        end: pair.sample(end, 1.0),
         merge: true,
     })
 }

@@ -154,26 +154,7 @@ impl DampedBasis {
             }
             own += radial;
         }
-        let mut core = left.transpose() * &right;
-        let mut row = 0;
-        for (columns, weight) in &parts {
-            for i in row..row + columns.cosine.ncols() {
-                for k in 0..count {
-                    core[(i, k)] *= weight;
-                }
-                core[(i, i)] += 1.0;
-            }
-            row += columns.cosine.ncols();
-        }
-        let factors = core.partial_piv_lu();
-        let swaps = factors.P().arrays().0;
-        angle += if is_odd(swaps) {
-            std::f64::consts::PI
-        } else {
-            0.0
-        };
-        let upper = factors.U();
-        angle += (0..count).map(|i| upper[(i, i)].arg()).sum::<f64>();
+        angle += core_angle(left.transpose() * &right, &parts);
         angle.is_finite().then_some(angle)
     }
 
@@ -194,6 +175,28 @@ impl DampedBasis {
             unit + stiffness + material * self.bending[k][(i, j)] + air * self.area[k][(i, j)]
         })
     }
+}
+
+/// Argument of det(1 + WPᵀB⁻¹P), W the weights of what touches the blade, of PᵀB⁻¹P.
+fn core_angle(mut core: Mat<c64>, parts: &[(&Columns, c64)]) -> f64 {
+    let count = core.ncols();
+    let mut row = 0;
+    for (columns, weight) in parts {
+        for i in row..row + columns.cosine.ncols() {
+            for k in 0..count {
+                core[(i, k)] *= weight;
+            }
+            core[(i, i)] += 1.0;
+        }
+        row += columns.cosine.ncols();
+    }
+    let factors = core.partial_piv_lu();
+    let swaps = match is_odd(factors.P().arrays().0) {
+        true => std::f64::consts::PI,
+        false => 0.0,
+    };
+    let upper = factors.U();
+    swaps + (0..count).map(|i| upper[(i, i)].arg()).sum::<f64>()
 }
 
 /// τ where C = τK.

@@ -217,67 +217,66 @@ fn cost_of_the_proof() {
     for accuracy in [Accuracy::Design, Accuracy::Reference] {
         let (model, speeds) = paper(accuracy);
         for depth in [Depth::Counts, Depth::Proof] {
-            let start = std::time::Instant::now();
-            let (bands, certificate) = bands(&model, &speeds, depth).unwrap();
-            let spent = start.elapsed();
+            let all = || bands(&model, &speeds, depth).unwrap();
+            let (bands, certificate) = timed(&format!("{accuracy:?} {depth:?}"), all);
             println!(
-                "{accuracy:?} {depth:?} {spent:?}: {} bands, {} speeds, {} counts, mismatches {:?}, miscounts {:?}",
+                "{} bands, {} speeds, {} counts, mismatches {:?}, miscounts {:?}",
                 bands.len(),
                 certificate.speeds_checked,
                 certificate.full_basis_counts,
                 certificate.mismatches,
                 certificate.miscounts
             );
-            let start = std::time::Instant::now();
-            let full = FullBasis::new(&model).unwrap();
-            println!("prepared {:?}", start.elapsed());
-            let start = std::time::Instant::now();
-            let mut open = Vec::new();
-            let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
-            let path = Path::search(&evaluator, evaluator.at_all(&speeds).unwrap()).unwrap();
-            println!("path {:?}", start.elapsed());
-            let start = std::time::Instant::now();
-            let checks = Checks {
-                evaluator: &evaluator,
-                full: &full,
-                bands: &bands,
-                path: &path,
-            };
-            open.extend(checks.at_anchors());
-            println!("{} counts at anchors {:?}", full.counted(), start.elapsed());
-            let start = std::time::Instant::now();
-            let extra = evaluator.at_all(&checks.chosen_speeds()).unwrap();
-            println!("{} extra {:?}", extra.len(), start.elapsed());
-            let start = std::time::Instant::now();
-            full.miscounts(
-                &extra.iter().collect::<Vec<_>>(),
-                evaluator.height_rad_per_s(),
-            )
-            .unwrap();
-            println!("{} counts {:?}", full.counted(), start.elapsed());
-            let start = std::time::Instant::now();
-            let before = evaluator.certificate().speeds_checked;
-            let proof = Proof {
-                full: &full,
-                evaluator: &evaluator,
-                bands: &bands,
-            };
-            proof.unproven(&path.signatures).unwrap();
-            println!(
-                "{} lines {} speeds {:?}",
-                full.counted(),
-                evaluator.certificate().speeds_checked - before,
-                start.elapsed()
-            );
-
-            if let Some(unproven) = certificate.unproven_rad_per_s {
-                let open: f64 = unproven.iter().map(|(a, b)| rpm(b - a)).sum();
-                println!("{} stretches, {open:.3} rpm open of 3000", unproven.len());
-                for (a, b) in unproven {
-                    print!("{:.2}+{:.3} ", rpm(a), rpm(b - a));
-                }
-                println!();
+            print_steps(&model, &speeds, &bands);
+            let unproven = certificate.unproven_rad_per_s.unwrap_or_default();
+            let open: f64 = unproven.iter().map(|(a, b)| rpm(b - a)).sum();
+            println!("{} stretches, {open:.3} rpm open of 3000", unproven.len());
+            for (a, b) in unproven {
+                print!("{:.2}+{:.3} ", rpm(a), rpm(b - a));
             }
+            println!();
         }
     }
+}
+
+/// What each step of the proof takes by itself.
+fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
+    let full = timed("prepared", || FullBasis::new(model).unwrap());
+    let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
+    let path = timed("path", || {
+        Path::search(&evaluator, evaluator.at_all(speeds).unwrap()).unwrap()
+    });
+    let checks = Checks {
+        evaluator: &evaluator,
+        full: &full,
+        bands,
+        path: &path,
+    };
+    timed("counts at anchors", || checks.at_anchors().unwrap());
+    let extra = timed("extra", || {
+        evaluator.at_all(&checks.chosen_speeds()).unwrap()
+    });
+    let signatures: Vec<_> = extra.iter().collect();
+    let height = evaluator.height_rad_per_s();
+    timed("miscounts", || full.miscounts(&signatures, height).unwrap());
+    let before = evaluator.certificate().speeds_checked;
+    let proof = Proof {
+        full: &full,
+        evaluator: &evaluator,
+        bands,
+    };
+    timed("lines", || proof.unproven(&path.signatures).unwrap());
+    println!(
+        "{} counts in all, {} speeds of the lines",
+        full.counted(),
+        evaluator.certificate().speeds_checked - before
+    );
+}
+
+/// Does something and prints how long it took.
+fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let start = std::time::Instant::now();
+    let done = work();
+    println!("{what}: {:?}", start.elapsed());
+    done
 }
