@@ -72,6 +72,7 @@ pub struct Campbell {
 }
 
 /// `count` speeds, evenly spread over a range, its ends included, in the unit of the range.
+#[doc(hidden)]
 pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
     let last = count.max(2) - 1;
     (0..=last)
@@ -106,6 +107,7 @@ fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<()
 ///
 /// # Errors
 /// [`CampbellError`] of the last speed or of the lowest that fails; [`CampbellError::TooLarge`].
+#[doc(hidden)]
 pub fn sample(
     model: &SpectralModel,
     speeds: &[f64],

@@ -40,6 +40,7 @@ pub mod analytical;
 pub mod campbell;
 pub mod check;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "explore")]
 pub mod explore;
@@ -55,6 +56,7 @@ pub mod stability;
 pub mod study;
 mod summary;
 pub mod system;
+#[doc(hidden)]
 pub mod text;
 pub mod transient;
 mod tuned;

@@ -377,6 +377,7 @@ fn skew(matrix: Mat<f64>) -> Mat<f64> {
 
 /// K₀ and K_σ − N of one harmonic in the body frame, where the undamped free blade
 /// is a symmetric problem: (K_b + K_m + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
+#[doc(hidden)]
 pub fn body_frame_stiffness(block: &HarmonicBlock, speed_rad_per_s: f64) -> Mat<f64> {
     let n2 = (block.diameters * block.diameters) as f64;
     let speed2 = speed_rad_per_s.powi(2);

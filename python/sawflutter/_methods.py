@@ -2,22 +2,50 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
 
-if TYPE_CHECKING:
-    from ._report_types import Shape, Wave
+
+class _Profile(Protocol):
+    """Deflection of n nodal diameters at a few radii."""
+
+    @property
+    def nodal_diameters(self) -> int: ...
+    @property
+    def radius_m(self) -> FloatArray: ...
+    @property
+    def cosine(self) -> FloatArray: ...
+    @property
+    def sine(self) -> FloatArray: ...
+
+
+class _Complex(Protocol):
+    @property
+    def re(self) -> FloatArray: ...
+    @property
+    def im(self) -> FloatArray: ...
+
+
+class _Harmonic(Protocol):
+    """The same of a mode at a speed."""
+
+    @property
+    def nodal_diameters(self) -> int: ...
+    @property
+    def cosine(self) -> _Complex: ...
+    @property
+    def sine(self) -> _Complex: ...
 
 
 class RestModeMethods(Entry):
     """Of a mode at rest."""
 
     if TYPE_CHECKING:
-        profiles: tuple[Shape, ...]
+        profiles: tuple[_Profile, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> FloatArray:
         """Deflection at points of the blade, scaled to a largest value of one.
@@ -51,7 +79,7 @@ class ModeMethods(Entry):
         frequency_hz: float
         growth_per_s: float
         radius_m: FloatArray
-        harmonics: tuple[Wave, ...]
+        harmonics: tuple[_Harmonic, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> ComplexArray:
         """Complex deflection in space; its real part times e^(iωt) is what moves.

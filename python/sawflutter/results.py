@@ -191,7 +191,7 @@ class CampbellResults(Result, CampbellReport):
         """Frequencies over speed, growth rates below."""
         from .plot.campbell import campbell
 
-        return campbell(self)
+        return campbell(self, self._facts())
 
     def root_loci_chart(self) -> Chart:
         """The two modes that meet at the flutter speed, in the complex plane."""
@@ -242,7 +242,7 @@ class CheckResults(Result, CheckReport):
         """Speeds that were asked for and found."""
         from .plot.design import check
 
-        return check(self)
+        return check(self, self._facts())
 
     def _facts(self) -> str:
         found = "passed" if self.passed else f"failed: {'; '.join(self.failures)}"
@@ -269,7 +269,7 @@ class CutResults(Result, CutReport):
         """Deflection at the probe over time, one panel a speed."""
         from .plot.histories import cut
 
-        return cut(self)
+        return cut(self, self._facts())
 
     def map_chart(self, run: int = 0) -> Chart:
         """Growth over guide angle and load, of one of the runs."""
@@ -302,7 +302,7 @@ class RunUpResults(Result, RunUpReport):
         """Deflection at the probe over speed."""
         from .plot.histories import run_up
 
-        return run_up(self)
+        return run_up(self, self._facts())
 
     def response_chart(self) -> Chart:
         """Deflection per newton over speed and frequency, with the branches on top."""
@@ -333,7 +333,7 @@ class WashboardResults(Result, WashboardReport):
         """Least cutting stiffness at which a motion grows, and its frequency, over the speed."""
         from .plot.washboard import lobes
 
-        return lobes(self)
+        return lobes(self, self._facts())
 
     def _facts(self) -> str:
         least = self.critical_stiffness_n_per_m
@@ -354,7 +354,7 @@ class FitResults(Result, FitReport):
         """Measured and computed frequencies over speed."""
         from .plot.design import fit
 
-        return fit(self)
+        return fit(self, self._facts())
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -374,7 +374,7 @@ class PlaceResults(Result, PlaceReport):
         """The goal over one or two numbers."""
         from .plot.design import place
 
-        return place(self)
+        return place(self, self._facts())
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -443,7 +443,7 @@ class StudyResults(Result, StudyReport):
         """Shares of the saws below a speed, and those that can be run at one."""
         from .plot.design import study
 
-        return study(self)
+        return study(self, self._facts())
 
     def _facts(self) -> str:
         passing = self.all.passing
@@ -481,7 +481,7 @@ class TradeoffResults:
         """Error over time."""
         from .plot.design import tradeoff
 
-        return tradeoff(self)
+        return tradeoff(self.settings, self.name)
 
     def plot(self) -> Figure:
         """A plotly figure."""

@@ -10,13 +10,48 @@
 //! Stahl, J. Appl. Mech. 40 (1973), 445–451; Huang & Crandall, J. Appl. Mech. 41 (1974), for
 //! the two dampings.
 
-/// ω_b = √(ω₀² + κΩ²), in rad/s.
-pub fn body_frequency_rad_per_s(
-    rest_frequency_rad_per_s: f64,
-    spin_stiffening: f64,
-    speed_rad_per_s: f64,
-) -> f64 {
-    (rest_frequency_rad_per_s.powi(2) + spin_stiffening * speed_rad_per_s.powi(2)).sqrt()
+/// A wave of one shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FreeWave {
+    /// n.
+    pub nodal_diameters: usize,
+    /// ω₀, its frequency at rest.
+    pub rest_frequency_rad_per_s: f64,
+    /// κ, without a unit.
+    pub spin_stiffening: f64,
+}
+
+impl FreeWave {
+    /// ω_b = √(ω₀² + κΩ²), its frequency on the blade, in rad/s.
+    pub fn body_frequency_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
+        let stiffened = self.spin_stiffening * speed_rad_per_s.powi(2);
+        (self.rest_frequency_rad_per_s.powi(2) + stiffened).sqrt()
+    }
+
+    /// The speed in rad/s at which the backward wave stands still in space: nΩ = ω_b, so
+    /// Ω = ω₀/√(n² − κ). `None` where tension outruns the speed, n² ≤ κ, as for n ≤ 1.
+    pub fn critical_speed_rad_per_s(&self) -> Option<f64> {
+        self.damped_onset_rad_per_s(LightDamping::default())
+    }
+
+    /// The speed in rad/s from which light damping makes the backward wave grow.
+    ///
+    /// Seen from the blade the backward wave has the frequency ω_b; seen from air that turns at sΩ it is
+    /// carried along with the difference of the two speeds and has ω_b − n(1 − s)Ω. The work of both
+    /// dampings, η ω₀² ω_b + (c/ρh)(ω_b − n(1 − s)Ω), vanishes at Ω = q ω₀/√(n²(1 − s)² − κq²) with
+    /// q = 1 + η ω₀² ρh/c. Without material damping and in air at rest that is the critical speed; both
+    /// the material and the turning of the air delay the onset beyond it, and with either alone (no
+    /// air, or s = 1) it never comes. `None` where there is none, κq² ≥ n²(1 − s)².
+    ///
+    /// Exact to first order in the damping ratios. Air that turns relative to the disk: M. H. Hansen, A.
+    /// Raman & C. D. Mote, *Estimation of nonconservative aerodynamic pressure leading to flutter of
+    /// spinning disks*, J. Fluids Struct. 15 (2001), 39–57.
+    pub fn damped_onset_rad_per_s(&self, damping: LightDamping) -> Option<f64> {
+        let q = 1.0 + damping.material_to_air;
+        let carried = self.nodal_diameters as f64 * (1.0 - damping.air_rotation_share);
+        let rest = carried.powi(2) - self.spin_stiffening * q * q;
+        (rest > 0.0).then(|| q * self.rest_frequency_rad_per_s / rest.sqrt())
+    }
 }
 
 /// Frequencies in space of the forward and the backward wave, ω_b + nΩ and ω_b − nΩ, in rad/s.
@@ -34,21 +69,6 @@ pub fn space_frequencies_rad_per_s(
     ]
 }
 
-/// The speed in rad/s at which the backward wave stands still in space: nΩ = ω_b, so
-/// Ω = ω₀/√(n² − κ). `None` where tension outruns the speed, n² ≤ κ, as for n ≤ 1.
-pub fn critical_speed_rad_per_s(
-    nodal_diameters: usize,
-    rest_frequency_rad_per_s: f64,
-    spin_stiffening: f64,
-) -> Option<f64> {
-    damped_onset_rad_per_s(
-        nodal_diameters,
-        rest_frequency_rad_per_s,
-        spin_stiffening,
-        LightDamping::default(),
-    )
-}
-
 /// Light damping of a wave by air and by the material of the blade.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightDamping {
@@ -57,30 +77,6 @@ pub struct LightDamping {
     pub material_to_air: f64,
     /// s, the speed with which the air turns over that of the blade: 0 for air at rest in space.
     pub air_rotation_share: f64,
-}
-
-/// The speed in rad/s from which light damping makes the backward wave grow.
-///
-/// Seen from the blade the backward wave has the frequency ω_b; seen from air that turns at sΩ it is
-/// carried along with the difference of the two speeds and has ω_b − n(1 − s)Ω. The work of both
-/// dampings, η ω₀² ω_b + (c/ρh)(ω_b − n(1 − s)Ω), vanishes at Ω = q ω₀/√(n²(1 − s)² − κq²) with
-/// q = 1 + η ω₀² ρh/c. Without material damping and in air at rest that is the critical speed; both
-/// the material and the turning of the air delay the onset beyond it, and with either alone (no
-/// air, or s = 1) it never comes. `None` where there is none, κq² ≥ n²(1 − s)².
-///
-/// Exact to first order in the damping ratios. Air that turns relative to the disk: M. H. Hansen, A.
-/// Raman & C. D. Mote, *Estimation of nonconservative aerodynamic pressure leading to flutter of
-/// spinning disks*, J. Fluids Struct. 15 (2001), 39–57.
-pub fn damped_onset_rad_per_s(
-    nodal_diameters: usize,
-    rest_frequency_rad_per_s: f64,
-    spin_stiffening: f64,
-    damping: LightDamping,
-) -> Option<f64> {
-    let q = 1.0 + damping.material_to_air;
-    let carried = nodal_diameters as f64 * (1.0 - damping.air_rotation_share);
-    let rest = carried.powi(2) - spin_stiffening * q * q;
-    (rest > 0.0).then(|| q * rest_frequency_rad_per_s / rest.sqrt())
 }
 
 /// ω_b on an even bed of springs under the whole blade, in rad/s: √(ω_b² + k″/ρh), with k″ in N/m
@@ -100,22 +96,33 @@ mod tests {
     /// The work of the two dampings, put down for itself, changes its sign at the onset.
     #[test]
     fn no_work_is_done_at_the_onset() {
-        let (n, rest, stiffening, ratio, share) = (3, 200.0, 2.6, 0.1, 0.3);
-        let light = |material_to_air, air_rotation_share| LightDamping {
-            material_to_air,
-            air_rotation_share,
+        let (n, ratio, share) = (3, 0.1, 0.3);
+        let wave = FreeWave {
+            nodal_diameters: n,
+            rest_frequency_rad_per_s: 200.0,
+            spin_stiffening: 2.6,
         };
-        let onset = |damping| damped_onset_rad_per_s(n, rest, stiffening, damping);
-        let speed = onset(light(ratio, share)).unwrap();
-        let body = body_frequency_rad_per_s(rest, stiffening, speed);
+        let onset = |material_to_air, air_rotation_share| {
+            wave.damped_onset_rad_per_s(LightDamping {
+                material_to_air,
+                air_rotation_share,
+            })
+        };
+        let speed = onset(ratio, share).unwrap();
+        let body = wave.body_frequency_rad_per_s(speed);
         // Seen from the air the wave is carried by what the blade is faster.
         let [_, backward] = space_frequencies_rad_per_s(n, body, (1.0 - share) * speed);
         assert!((ratio * body + backward).abs() < 1e-12 * body);
-        let critical = critical_speed_rad_per_s(n, rest, stiffening).unwrap();
-        let body = body_frequency_rad_per_s(rest, stiffening, critical);
+        let critical = wave.critical_speed_rad_per_s().unwrap();
+        let body = wave.body_frequency_rad_per_s(critical);
         assert!((body - 3.0 * critical).abs() < 1e-12 * body && critical < speed);
-        assert_eq!(critical_speed_rad_per_s(1, rest, 1.0), None);
-        assert_eq!(onset(light(5.0, 0.0)), None);
-        assert_eq!(onset(light(0.0, 1.0)), None);
+        let tilt = FreeWave {
+            nodal_diameters: 1,
+            spin_stiffening: 1.0,
+            ..wave
+        };
+        assert_eq!(tilt.critical_speed_rad_per_s(), None);
+        assert_eq!(onset(5.0, 0.0), None);
+        assert_eq!(onset(0.0, 1.0), None);
     }
 }

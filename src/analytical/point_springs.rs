@@ -53,66 +53,66 @@ impl EvenSprings {
     pub fn couple(&self, first: i64, second: i64) -> bool {
         self.count > 0 && (first - second) % self.count as i64 == 0
     }
-}
 
-/// The left side of the equation of the class c at λ = [Re, Im] in 1/s, as [Re, Im].
-pub fn characteristic(
-    springs: EvenSprings,
-    class: i64,
-    waves: &[BodyWave],
-    speed_rad_per_s: f64,
-    lambda_per_s: [f64; 2],
-) -> [f64; 2] {
-    let mut sum = [1.0, 0.0];
-    for wave in waves {
-        let n = wave.nodal_diameters as i64;
-        let directions: &[i64] = if n == 0 { &[0] } else { &[n, -n] };
-        for &number in directions.iter().filter(|p| springs.couple(**p, class)) {
-            let [growth, frequency] = lambda_per_s;
-            let carried = frequency - number as f64 * speed_rad_per_s;
-            let square = wave.frequency_rad_per_s.powi(2);
-            let denominator = [
-                square + growth * growth - carried * carried,
-                2.0 * growth * carried,
-            ];
-            let strength = springs.sum_n_per_m() * wave.share_per_kg();
-            let term = quotient([strength, 0.0], denominator);
-            sum = [sum[0] + term[0], sum[1] + term[1]];
+    /// The left side of the equation of the class c at λ = [Re, Im] in 1/s, as [Re, Im].
+    pub fn characteristic(
+        &self,
+        class: i64,
+        waves: &[BodyWave],
+        speed_rad_per_s: f64,
+        lambda_per_s: [f64; 2],
+    ) -> [f64; 2] {
+        let mut sum = [1.0, 0.0];
+        for wave in waves {
+            let n = wave.nodal_diameters as i64;
+            let directions: &[i64] = if n == 0 { &[0] } else { &[n, -n] };
+            for &number in directions.iter().filter(|p| self.couple(**p, class)) {
+                let [growth, frequency] = lambda_per_s;
+                let carried = frequency - number as f64 * speed_rad_per_s;
+                let square = wave.frequency_rad_per_s.powi(2);
+                let denominator = [
+                    square + growth * growth - carried * carried,
+                    2.0 * growth * carried,
+                ];
+                let strength = self.sum_n_per_m() * wave.share_per_kg();
+                let term = quotient([strength, 0.0], denominator);
+                sum = [sum[0] + term[0], sum[1] + term[1]];
+            }
         }
+        sum
     }
-    sum
-}
 
-/// The eigenvalue [Re, Im] of the class c to which the secant method converges from a place near
-/// it, in 1/s. `None` where it does not.
-pub fn eigenvalue_near(
-    springs: EvenSprings,
-    class: i64,
-    waves: &[BodyWave],
-    speed_rad_per_s: f64,
-    start_per_s: [f64; 2],
-) -> Option<[f64; 2]> {
-    let at = |z: [f64; 2]| characteristic(springs, class, waves, speed_rad_per_s, z);
-    let size = |z: [f64; 2]| z[0].hypot(z[1]);
-    let unit = size(start_per_s).max(speed_rad_per_s);
-    let mut before = [start_per_s[0] + 1e-7 * unit, start_per_s[1] + 1e-7 * unit];
-    let mut here = start_per_s;
-    let mut value_before = at(before);
-    for _ in 0..60 {
-        let value = at(here);
-        let run = [here[0] - before[0], here[1] - before[1]];
-        let rise = [value[0] - value_before[0], value[1] - value_before[1]];
-        if size(rise) == 0.0 {
-            break;
+    /// The eigenvalue [Re, Im] of the class c to which the secant method converges from a place near
+    /// it, in 1/s. `None` where it does not.
+    pub fn eigenvalue_near(
+        &self,
+        class: i64,
+        waves: &[BodyWave],
+        speed_rad_per_s: f64,
+        start_per_s: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        let at = |z: [f64; 2]| self.characteristic(class, waves, speed_rad_per_s, z);
+        let size = |z: [f64; 2]| z[0].hypot(z[1]);
+        let unit = size(start_per_s).max(speed_rad_per_s);
+        let mut before = [start_per_s[0] + 1e-7 * unit, start_per_s[1] + 1e-7 * unit];
+        let mut here = start_per_s;
+        let mut value_before = at(before);
+        for _ in 0..60 {
+            let value = at(here);
+            let run = [here[0] - before[0], here[1] - before[1]];
+            let rise = [value[0] - value_before[0], value[1] - value_before[1]];
+            if size(rise) == 0.0 {
+                break;
+            }
+            let step = quotient(product(value, run), rise);
+            (before, value_before) = (here, value);
+            here = [here[0] - step[0], here[1] - step[1]];
+            if size(step) <= 1e-14 * unit {
+                return Some(here);
+            }
         }
-        let step = quotient(product(value, run), rise);
-        (before, value_before) = (here, value);
-        here = [here[0] - step[0], here[1] - step[1]];
-        if size(step) <= 1e-14 * unit {
-            return Some(here);
-        }
+        None
     }
-    None
 }
 
 fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
@@ -183,7 +183,9 @@ mod tests {
             amplitude_per_sqrt_kg: 1.5,
         };
         let expected = f64::sqrt(1600.0 + 300.0 * 2.25);
-        let found = eigenvalue_near(spring, 0, &[wave], 100.0, [0.0, 47.0]).unwrap();
+        let found = spring
+            .eigenvalue_near(0, &[wave], 100.0, [0.0, 47.0])
+            .unwrap();
         assert!((found[1] - expected).abs() < 1e-10 && found[0].abs() < 1e-10);
     }
 

@@ -60,42 +60,43 @@ pub enum Meeting {
     Coalescence,
 }
 
-/// Chen's rule for two waves that meet.
-pub fn meeting(springs: EvenSprings, first: SpaceWave, second: SpaceWave) -> Meeting {
-    if !springs.couple(first.wave_number, second.wave_number) {
-        Meeting::Crossing
-    } else if first.reflected != second.reflected {
-        Meeting::Coalescence
-    } else {
-        Meeting::Veering
+impl EvenSprings {
+    /// Chen's rule for two waves that meet.
+    pub fn meeting(&self, first: SpaceWave, second: SpaceWave) -> Meeting {
+        if !self.couple(first.wave_number, second.wave_number) {
+            Meeting::Crossing
+        } else if first.reflected != second.reflected {
+            Meeting::Coalescence
+        } else {
+            Meeting::Veering
+        }
     }
-}
 
-/// Chen's rule for a critical speed: whether the springs split the pair of waves of n nodal
-/// diameters, between whose critical speeds the blade then diverges.
-pub fn diverges(springs: EvenSprings, nodal_diameters: usize) -> bool {
-    let n = nodal_diameters as i64;
-    n > 0 && springs.couple(n, -n)
-}
+    /// Chen's rule for a critical speed: whether the springs split the pair of waves of n nodal
+    /// diameters, between whose critical speeds the blade then diverges.
+    pub fn diverges(&self, nodal_diameters: usize) -> bool {
+        let n = nodal_diameters as i64;
+        n > 0 && self.couple(n, -n)
+    }
 
-/// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth where two coupled waves
-/// coalesce, and half of the least distance of their frequencies where they veer.
-pub fn coupling_per_s(springs: EvenSprings, first: BodyWave, second: BodyWave) -> f64 {
-    let shares = (first.share_per_kg() * second.share_per_kg()).sqrt();
-    let frequencies = (first.frequency_rad_per_s * second.frequency_rad_per_s).sqrt();
-    0.5 * springs.sum_n_per_m() * shares / frequencies
-}
+    /// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth where two coupled waves
+    /// coalesce, and half of the least distance of their frequencies where they veer.
+    pub fn coupling_per_s(&self, first: BodyWave, second: BodyWave) -> f64 {
+        let shares = (first.share_per_kg() * second.share_per_kg()).sqrt();
+        let frequencies = (first.frequency_rad_per_s * second.frequency_rad_per_s).sqrt();
+        0.5 * self.sum_n_per_m() * shares / frequencies
+    }
 
-/// ±S k g²/(2ω), in rad/s, to first order in k: by how much the springs raise the frequency in
-/// space of a wave; they lower that of a reflected one.
-pub fn frequency_shift_rad_per_s(springs: EvenSprings, wave: BodyWave, reflected: bool) -> f64 {
-    let shift = coupling_per_s(springs, wave, wave);
-    if reflected { -shift } else { shift }
+    /// ±S k g²/(2ω), in rad/s, to first order in k: by how much the springs raise the frequency in
+    /// space of a wave; they lower that of a reflected one.
+    pub fn frequency_shift_rad_per_s(&self, wave: BodyWave, reflected: bool) -> f64 {
+        let shift = self.coupling_per_s(wave, wave);
+        if reflected { -shift } else { shift }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::point_springs::eigenvalue_near;
     use super::*;
 
     fn springs(count: usize) -> EvenSprings {
@@ -123,10 +124,10 @@ mod tests {
             (4, reflected(3), backward(1), Coalescence),
             (1, reflected(3), forward(0), Coalescence),
         ] {
-            assert_eq!(meeting(springs(count), first, second), expected);
+            assert_eq!(springs(count).meeting(first, second), expected);
         }
-        assert!(diverges(springs(4), 2) && !diverges(springs(4), 3) && diverges(springs(3), 3));
-        assert!(!diverges(springs(3), 0));
+        assert!(springs(4).diverges(2) && !springs(4).diverges(3) && springs(3).diverges(3));
+        assert!(!springs(3).diverges(0));
     }
 
     /// The exact equation of two waves, at the speed where first order says that they coalesce.
@@ -145,14 +146,14 @@ mod tests {
                 stiffness_n_per_m,
             };
             let shifts = [
-                frequency_shift_rad_per_s(springs, reflected, true),
-                frequency_shift_rad_per_s(springs, forward, false),
+                springs.frequency_shift_rad_per_s(reflected, true),
+                springs.frequency_shift_rad_per_s(forward, false),
             ];
             let speed = 100.0 + (shifts[1] - shifts[0]) / 3.0;
-            let expected = coupling_per_s(springs, reflected, forward);
+            let expected = springs.coupling_per_s(reflected, forward);
             let start = [expected, speed + 50.0 + shifts[1]];
             let waves = [reflected, forward];
-            let found = eigenvalue_near(springs, 1, &waves, speed, start).unwrap();
+            let found = springs.eigenvalue_near(1, &waves, speed, start).unwrap();
             (found[0] / expected - 1.0).abs()
         };
         let (coarse, fine) = (off(20.0), off(2.0));

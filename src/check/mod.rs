@@ -26,7 +26,8 @@ use crate::stability::AnalysisError;
 use crate::stability::{Analysis, Instability, verdict};
 use crate::system::GyroscopicSystem;
 
-pub use limits::{Limits, LimitsFile, RIM_LIMIT_M_PER_S};
+pub(crate) use limits::RIM_LIMIT_M_PER_S;
+pub use limits::{Limits, LimitsFile};
 use static_deflection::{StaticDeflection, point};
 
 /// Why a saw could not be held against limits.

@@ -14,16 +14,13 @@ use crate::study::StudyReport;
 /// A figure, laid out.
 #[derive(Debug)]
 pub struct Figure {
-    names: Names,
+    names: [&'static str; 2],
     sheet: Sheet,
 }
 
-/// Names of the files of a figure, PNG and SVG.
-pub type Names = [&'static str; 2];
-
 impl Figure {
     /// Names of its files, PNG and SVG.
-    pub fn names(&self) -> Names {
+    pub fn names(&self) -> [&'static str; 2] {
         self.names
     }
 
@@ -58,13 +55,13 @@ impl Figure {
 /// A report that can be drawn.
 pub trait Figures {
     /// Names of the figures that such a report may have.
-    const NAMES: &'static [Names];
+    const NAMES: &'static [[&'static str; 2]];
 
     /// The figures that this one has something to show in.
     fn figures(&self) -> Vec<Figure>;
 }
 
-fn named<const N: usize>(names: &[Names], sheets: [Option<Sheet>; N]) -> Vec<Figure> {
+fn named<const N: usize>(names: &[[&'static str; 2]], sheets: [Option<Sheet>; N]) -> Vec<Figure> {
     let pairs = names.iter().zip(sheets);
     pairs
         .filter_map(|(names, sheet)| {
@@ -77,7 +74,7 @@ fn named<const N: usize>(names: &[Names], sheets: [Option<Sheet>; N]) -> Vec<Fig
 }
 
 impl Figures for Report {
-    const NAMES: &'static [Names] = &[
+    const NAMES: &'static [[&'static str; 2]] = &[
         ["campbell.png", "campbell.svg"],
         ["root-loci.png", "root-loci.svg"],
         ["membrane.png", "membrane.svg"],
@@ -117,7 +114,7 @@ impl Report {
 }
 
 impl Figures for CutReport {
-    const NAMES: &'static [Names] = &[
+    const NAMES: &'static [[&'static str; 2]] = &[
         ["cut.png", "cut.svg"],
         ["cut-map.png", "cut-map.svg"],
         ["spline-orbit.png", "spline-orbit.svg"],
@@ -131,7 +128,7 @@ impl Figures for CutReport {
 }
 
 impl Figures for RunUpReport {
-    const NAMES: &'static [Names] = &[
+    const NAMES: &'static [[&'static str; 2]] = &[
         ["runup.png", "runup.svg"],
         ["response-map.png", "response-map.svg"],
     ];
@@ -143,7 +140,7 @@ impl Figures for RunUpReport {
 }
 
 impl Figures for WashboardReport {
-    const NAMES: &'static [Names] = &[["washboard.png", "washboard.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[["washboard.png", "washboard.svg"]];
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(washboard::sheet(self))])
@@ -151,7 +148,7 @@ impl Figures for WashboardReport {
 }
 
 impl Figures for CheckReport {
-    const NAMES: &'static [Names] = &[["check.png", "check.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[["check.png", "check.svg"]];
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(check::sheet(self))])
@@ -159,7 +156,7 @@ impl Figures for CheckReport {
 }
 
 impl Figures for FitReport {
-    const NAMES: &'static [Names] = &[["fit.png", "fit.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[["fit.png", "fit.svg"]];
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(fit::sheet(self))])
@@ -167,7 +164,7 @@ impl Figures for FitReport {
 }
 
 impl Figures for PlaceReport {
-    const NAMES: &'static [Names] = &[["place.png", "place.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[["place.png", "place.svg"]];
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [place::sheet(self)])
@@ -175,7 +172,7 @@ impl Figures for PlaceReport {
 }
 
 impl Figures for StudyReport {
-    const NAMES: &'static [Names] = &[["study.png", "study.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[["study.png", "study.svg"]];
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(study::sheet(self))])

@@ -48,8 +48,9 @@ mod tidy;
 mod tradeoff;
 mod washboard;
 
-pub use drawn::{Figure, Figures, Names, tradeoff};
-pub use palette::{PALETTE, Palette, Rgb};
+pub use drawn::{Figure, Figures, tradeoff};
+#[doc(hidden)]
+pub use palette::{PALETTE, Palette};
 
 use crate::report::Report;
 

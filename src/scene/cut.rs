@@ -1,5 +1,7 @@
 //! The cut: which forces the wood exerts on which teeth, and for how long.
 
+use std::f64::consts::{PI, TAU};
+
 use super::check::{MAX_RPM, SPAN, positive, refuse, within};
 use super::cut_file::{CutFile, CutSpeedFile};
 use super::teeth_in_cut::TeethInCut;
@@ -63,7 +65,7 @@ impl Cut {
         file: &SceneFile,
         blade: &Blade,
     ) -> Result<Self, SceneError> {
-        let teeth = TeethInCut::new(typed, file.blade.teeth, blade)?;
+        let teeth = teeth_in_cut(typed, file.blade.teeth, blade)?;
         let mut cut = Cut {
             angle_rad: teeth.angle_rad,
             teeth: teeth.count,
@@ -170,6 +172,51 @@ impl Cut {
         let first = -0.5 * f64::from(self.teeth - 1);
         (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
     }
+}
+
+/// The teeth in the cut of a blade with so many in all.
+fn teeth_in_cut(
+    typed: &CutFile,
+    teeth: Option<u32>,
+    blade: &Blade,
+) -> Result<TeethInCut, SceneError> {
+    let Some(all_teeth) = teeth.filter(|teeth| *teeth > 0) else {
+        let remedy = "the pitch of the teeth says where the forces act; give their number";
+        let given = teeth.map_or("missing".into(), |teeth| teeth.to_string());
+        let allowed = "at least 1 where the scene has a cut";
+        return Err(RefusedValue::new("blade.teeth", given, allowed, remedy).into());
+    };
+    Ok(TeethInCut {
+        angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
+        count: count(typed, all_teeth, blade)?,
+        pitch_rad: TAU / f64::from(all_teeth),
+    })
+}
+
+/// The given number, or the depth over the pitch, rounded: what is in the cut on average.
+fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneError> {
+    let key = "cut.teeth_in_cut";
+    if let Some(teeth) = typed.teeth_in_cut {
+        if (1..=all_teeth).contains(&teeth) {
+            return Ok(teeth);
+        }
+        let allowed = format!("between 1 and blade.teeth ({all_teeth})");
+        let remedy = "count the teeth that touch the wood at a time";
+        return Err(refuse(key, f64::from(teeth), allowed, remedy));
+    }
+    let Some(depth_m) = typed.depth_m else {
+        let allowed = "given, or cut.depth_m in its place";
+        let remedy = "say how many teeth are in the cut, or how deep it is";
+        return Err(RefusedValue::missing(key, allowed, remedy).into());
+    };
+    let diameter_m = 2.0 * blade.outer_radius_m;
+    if !(depth_m > 0.0 && depth_m <= diameter_m) {
+        let allowed = format!("above 0 and at most the blade's diameter ({diameter_m})");
+        let remedy = "give the depth of cut in metres";
+        return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
+    }
+    let pitch_m = PI * diameter_m / f64::from(all_teeth);
+    Ok(((depth_m / pitch_m).round() as u32).clamp(1, all_teeth))
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ mod validated;
 mod washboarding;
 mod wood;
 
+pub use crate::text::FileError;
 pub(crate) use check::MAX_RPM;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
@@ -49,8 +50,7 @@ pub use membrane::{
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
-pub use quantity::{QUANTITIES, Quantity};
-pub(crate) use quantity::{unusual, unusual_number};
+pub(crate) use quantity::{QUANTITIES, Quantity, unusual, unusual_number};
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use refused::RefusedValue;

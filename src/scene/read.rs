@@ -6,6 +6,7 @@ use super::{RefusedValue, Scene, SceneFile};
 use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
 /// No scene a person writes comes near this size; a file beyond it is something else.
+#[doc(hidden)]
 pub const MAX_SCENE_BYTES: u64 = 1 << 20;
 
 /// How the files of scenes and studies are read.

@@ -78,4 +78,6 @@ pub use model::{DescribedMode, SpectralModel, Strategy};
 pub(crate) use reflected::{KnownStates, ReflectedModel};
 #[doc(hidden)]
 pub use vectors::{orthonormal, split};
-pub use work::{Cancellation, WorkCounters};
+pub use work::Cancellation;
+#[doc(hidden)]
+pub use work::WorkCounters;

@@ -39,6 +39,7 @@ use crate::scene::Scene;
 
 /// How long and how finely to simulate.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(hidden)]
 pub struct Run {
     /// Where the blade begins.
     pub start: Start,
@@ -55,6 +56,7 @@ pub struct Run {
 
 /// Where the blade begins; its centre is at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[doc(hidden)]
 pub enum Start {
     /// Seated on the teeth under the load, centred if the load does not press it on any.
     #[default]
@@ -79,6 +81,7 @@ impl Default for Run {
 
 /// What the simulation gives.
 #[derive(Debug, Clone)]
+#[doc(hidden)]
 pub struct SplineRun {
     /// The centre at evenly spread times, settling included.
     pub orbit: Vec<OrbitPoint>,
@@ -139,6 +142,7 @@ pub enum SplineError {
 ///
 /// # Errors
 /// [`SplineError`] when the scene has no `spline` block, or the motion cannot be followed.
+#[doc(hidden)]
 pub fn simulate(
     scene: &Scene,
     loads: &[RimForce],

@@ -38,7 +38,8 @@ mod tradeoff;
 mod undamped;
 mod verdict;
 
-pub use analysis::{Analysis, AnalysisOptions, OPERATING_LIMIT};
+pub(crate) use analysis::OPERATING_LIMIT;
+pub use analysis::{Analysis, AnalysisOptions};
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::LADDER;

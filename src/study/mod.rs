@@ -45,20 +45,30 @@ mod sum;
 mod table;
 mod tally;
 
+#[doc(hidden)]
 pub use csv::CsvTable;
 pub use file::{DistributionFile, ParameterFile, StudyError, StudyFile, json_schema};
+#[doc(hidden)]
 pub use inputs::Inputs;
+#[doc(hidden)]
 pub use log::{Log, LogError, read_inputs, rows_of};
+#[doc(hidden)]
 #[cfg(feature = "parquet")]
 pub use parquet::ParquetTable;
-pub use plan::{Shard, Study};
+#[doc(hidden)]
+pub use plan::Shard;
+pub use plan::Study;
+#[doc(hidden)]
 pub use processor::processor;
 pub use report::{
     CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, Reliability,
     ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
 };
+#[doc(hidden)]
 pub use rows::Rows;
 pub use run::run;
 pub use saw::{Found, Outcome, Saw};
+#[doc(hidden)]
 pub use sum::sum_up;
+#[doc(hidden)]
 pub use table::Table;

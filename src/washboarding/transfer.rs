@@ -37,7 +37,8 @@ impl Transfer {
             order: 2 * order,
             rpm: rpm(speed_rad_per_s),
         };
-        let (poles, states) = states(system, speed_rad_per_s, scale)?.ok_or_else(failed)?;
+        let States { poles, states } =
+            States::new(system, speed_rad_per_s, scale)?.ok_or_else(failed)?;
         let mut force = Mat::<c64>::zeros(2 * order, size);
         for k in 0..size {
             for i in 0..order {
@@ -109,31 +110,40 @@ impl Transfer {
     }
 }
 
-/// Every eigenvalue, each complex one followed by its conjugate, and the states (q, λq/s) of all by
-/// columns, s the scale of time. `None` where the solver finds fewer or more than there are.
-fn states(
-    system: &GyroscopicSystem,
-    speed_rad_per_s: f64,
-    scale: f64,
-) -> Result<Option<(Vec<c64>, Mat<c64>)>, SpectrumError> {
-    let order = system.order();
-    let mut poles = Vec::with_capacity(2 * order);
-    let mut states = Mat::<c64>::zeros(2 * order, 2 * order);
-    for (lambda, q) in companion_eigenpairs(system, speed_rad_per_s)? {
-        let conjugate = (lambda.im != 0.0).then(|| (lambda.conj(), true));
-        for (value, mirrored) in [Some((lambda, false)), conjugate].into_iter().flatten() {
-            let k = poles.len();
-            if k < 2 * order {
-                for i in 0..order {
-                    let q = if mirrored { q[i].conj() } else { q[i] };
-                    states[(i, k)] = q;
-                    states[(order + i, k)] = q * value / scale;
+/// Every eigenvalue of a system, and its state.
+struct States {
+    /// Each complex one followed by its conjugate.
+    poles: Vec<c64>,
+    /// (q, λq/s) of all by columns, s the scale of time.
+    states: Mat<c64>,
+}
+
+impl States {
+    /// `None` where the solver finds fewer or more than there are.
+    fn new(
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        scale: f64,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let order = system.order();
+        let mut poles = Vec::with_capacity(2 * order);
+        let mut states = Mat::<c64>::zeros(2 * order, 2 * order);
+        for (lambda, q) in companion_eigenpairs(system, speed_rad_per_s)? {
+            let conjugate = (lambda.im != 0.0).then(|| (lambda.conj(), true));
+            for (value, mirrored) in [Some((lambda, false)), conjugate].into_iter().flatten() {
+                let k = poles.len();
+                if k < 2 * order {
+                    for i in 0..order {
+                        let q = if mirrored { q[i].conj() } else { q[i] };
+                        states[(i, k)] = q;
+                        states[(order + i, k)] = q * value / scale;
+                    }
                 }
+                poles.push(value);
             }
-            poles.push(value);
         }
+        Ok((poles.len() == 2 * order).then_some(States { poles, states }))
     }
-    Ok((poles.len() == 2 * order).then_some((poles, states)))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! for rotating shafts and disks.)
 
 use nalgebra::DMatrix;
-use sawflutter::analytical::free_wave::{LightDamping, damped_onset_rad_per_s};
+use sawflutter::analytical::free_wave::{FreeWave, LightDamping};
 use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
 use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -93,8 +93,12 @@ fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64, shar
             material_to_air: eta * bending / air_per_mass,
             air_rotation_share: share,
         };
-        let (rest, stiffening) = (bending.sqrt(), quotient(&tension));
-        damped_onset_rad_per_s(block.diameters, rest, stiffening, damping).unwrap()
+        let wave = FreeWave {
+            nodal_diameters: block.diameters,
+            rest_frequency_rad_per_s: bending.sqrt(),
+            spin_stiffening: quotient(&tension),
+        };
+        wave.damped_onset_rad_per_s(damping).unwrap()
     };
     let mut speed = rad_per_s(1500.0);
     for _ in 0..20 {

@@ -7,10 +7,8 @@
 //! each n; which of them meet, and what they then do, is computed here.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use sawflutter::analytical::point_springs::{BodyWave, EvenSprings, eigenvalue_near};
-use sawflutter::analytical::wave_coupling::{
-    Meeting, SpaceWave, coupling_per_s, diverges, frequency_shift_rad_per_s, meeting,
-};
+use sawflutter::analytical::point_springs::{BodyWave, EvenSprings};
+use sawflutter::analytical::wave_coupling::{Meeting, SpaceWave};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{GuideFile, Scene};
 use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
@@ -150,13 +148,13 @@ fn meetings_of(pair: [Seen; 2], plate: &Plate, top: f64) -> Vec<Met> {
 
 impl Met {
     fn what(&self, springs: EvenSprings) -> Meeting {
-        meeting(springs, self.pair[0].wave, self.pair[1].wave)
+        springs.meeting(self.pair[0].wave, self.pair[1].wave)
     }
 
     /// Speed of the meeting on springs, to first order.
     fn shifted(&self, plate: &Plate, springs: EvenSprings) -> f64 {
         let shift = |s: &Seen| {
-            frequency_shift_rad_per_s(springs, s.body(plate, self.speed), s.wave.reflected)
+            springs.frequency_shift_rad_per_s(s.body(plate, self.speed), s.wave.reflected)
         };
         let [first, second] = &self.pair;
         let gap = |speed: f64| first.frequency(plate, speed) - second.frequency(plate, speed);
@@ -167,7 +165,7 @@ impl Met {
 
     fn coupling_per_s(&self, plate: &Plate, springs: EvenSprings) -> f64 {
         let [first, second] = self.pair.map(|s| s.body(plate, self.speed));
-        coupling_per_s(springs, first, second)
+        springs.coupling_per_s(first, second)
     }
 }
 
@@ -181,7 +179,7 @@ fn off_the_exact_equation(
 ) -> [f64; 2] {
     let waves = all_waves(plate, band.peak_rad_per_s);
     let start = [band.peak_growth_per_s, band.frequency_rad_per_s];
-    let growth = match eigenvalue_near(springs, class, &waves, band.peak_rad_per_s, start) {
+    let growth = match springs.eigenvalue_near(class, &waves, band.peak_rad_per_s, start) {
         Some([growth, _]) => growth,
         None => f64::NAN,
     };
@@ -283,7 +281,7 @@ impl Compared {
         critical: &[(usize, f64)],
         bands: &[Instability],
     ) {
-        let split = critical.iter().filter(|(n, _)| diverges(springs, *n));
+        let split = critical.iter().filter(|(n, _)| springs.diverges(*n));
         let split: Vec<_> = split.collect();
         assert_eq!(bands.len(), split.len(), "{} springs", springs.count);
         for (band, &&(n, speed)) in bands.iter().zip(&split) {
@@ -291,7 +289,7 @@ impl Compared {
             let edge = relative_error(band.from_rad_per_s, speed);
             assert!(edge < 1e-9, "{springs:?}, {n} diameters: {edge:e}");
             let wave = waves_of(free, n, speed)[0];
-            let growth = coupling_per_s(springs, wave, wave);
+            let growth = springs.coupling_per_s(wave, wave);
             self.add_band(free, springs, n as i64, (band, growth));
         }
     }

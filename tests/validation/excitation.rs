@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, DMatrix};
-use sawflutter::analytical::free_wave::critical_speed_rad_per_s;
+use sawflutter::analytical::free_wave::FreeWave;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{ExcitationFile, Scene, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, crossings};
@@ -110,8 +110,12 @@ fn lines_of_a_free_blade_cross_at_the_closed_form() {
     // The backward wave of two diameters, as one of three that would stand still.
     let mut speed = rad_per_s(900.0);
     for _ in 0..30 {
-        let rest = quotient(&block.bending, speed).sqrt();
-        speed = critical_speed_rad_per_s(3, rest, quotient(&tension, speed)).unwrap();
+        let wave = FreeWave {
+            nodal_diameters: 3,
+            rest_frequency_rad_per_s: quotient(&block.bending, speed).sqrt(),
+            spin_stiffening: quotient(&tension, speed),
+        };
+        speed = wave.critical_speed_rad_per_s().unwrap();
     }
     let near =
         |c: &&sawflutter::stability::Crossing| (c.speed_rad_per_s / speed - 1.0).abs() < 1e-8;

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from .._entry import BoolArray, FloatArray, IntArray
-from .._report_types import Branch, Direction, Instability
+from .._report_types import Branch, CampbellReport, Direction, Instability
 from .chart import CURVE, STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
-
-if TYPE_CHECKING:
-    from ..results import CampbellResults
 
 # Smaller growth rates are rounding of the eigenvalues, as in the program's figures.
 NEGLIGIBLE_PER_S = 1e-3
@@ -21,7 +16,7 @@ HEADROOM = 1.1
 NARROW = 0.004
 
 
-def campbell(r: CampbellResults) -> Chart:
+def campbell(r: CampbellReport, facts: str) -> Chart:
     """Frequencies over speed, growth rates below."""
     speeds = (r.campbell.from_rpm, r.campbell.to_rpm)
     marks: list[Item] = [*bands(r, speeds), *_uprights(r)]
@@ -44,7 +39,7 @@ def campbell(r: CampbellResults) -> Chart:
     )
     # Where a line leaves the panel above, there is no room for its name.
     lines = [line.name for line in r.excitation.lines] if r.excitation else []
-    facts = "; ".join([r._facts(), *([f"lines {', '.join(lines)}"] if lines else [])])
+    facts = "; ".join([facts, *([f"lines {', '.join(lines)}"] if lines else [])])
     return Chart(r.scene["name"], facts, (upper, lower))
 
 
@@ -53,10 +48,10 @@ def colour_of(direction: Direction) -> str:
     return colours()["backward" if direction == "reflected" else direction]
 
 
-def bands(r: CampbellResults, speeds: tuple[float, float]) -> list[Shade]:
+def bands(r: CampbellReport, speeds: tuple[float, float]) -> list[Shade]:
     """Bands of instability, narrow ones in a stronger colour and on top."""
     found = []
-    for band in r.bands:
+    for band in r.instabilities:
         narrow = band.to_rpm - band.from_rpm < NARROW * (speeds[1] - speeds[0])
         colour = colours()[f"{band.kind}_{'streak' if narrow else 'shade'}"]
         name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
@@ -64,12 +59,13 @@ def bands(r: CampbellResults, speeds: tuple[float, float]) -> list[Shade]:
     return [shade for _, shade in sorted(found, key=lambda pair: pair[0])]
 
 
-def highest_shown_hz(r: CampbellResults) -> float:
+def highest_shown_hz(r: CampbellReport) -> float:
     """High enough for the lowest branches, reflected waves, bands and measured points."""
     first = r.campbell.from_rpm
-    starts = sorted(b.frequency_hz[0] for b in r.branches if len(b.rpm) and b.rpm[0] == first)
-    wanted = [*starts[:LOWEST_BRANCHES], *(band.frequency_hz for band in r.bands)]
-    for branch in r.branches:
+    at_first = (b for b in r.campbell.branches if len(b.rpm) and b.rpm[0] == first)
+    starts = sorted(branch.frequency_hz[0] for branch in at_first)
+    wanted = [*starts[:LOWEST_BRANCHES], *(band.frequency_hz for band in r.instabilities)]
+    for branch in r.campbell.branches:
         wanted += branch.frequency_hz[branch.krein_sign < 0].tolist()
     measured = r.scene.get("measured")
     for row in measured["rows"] if measured else []:
@@ -80,7 +76,7 @@ def highest_shown_hz(r: CampbellResults) -> float:
     return top if top > 0.0 else 1.0
 
 
-def _uprights(r: CampbellResults) -> list[Upright]:
+def _uprights(r: CampbellReport) -> list[Upright]:
     quiet = colours()["divergence"]
     lines = [Upright(c.rpm, quiet, name=f"critical {c.rpm:.0f} rpm") for c in r.critical_speeds]
     if r.operating is not None:
@@ -99,12 +95,12 @@ def _hover(branch: Branch) -> list[str]:
     ]
 
 
-def _branches(r: CampbellResults) -> list[Item]:
+def _branches(r: CampbellReport) -> list[Item]:
     """Solid where a wave has positive energy, dashed where reflected, thick where unstable."""
     items: list[Item] = []
     last = r.campbell.to_rpm
     # From the highest down, so that the lowest branches lie on top.
-    for branch in reversed(r.branches):
+    for branch in reversed(r.campbell.branches):
         hover = _hover(branch)
         if len(branch.rpm) == 1:
             colour = colour_of(branch.direction[0])
@@ -123,13 +119,13 @@ def _branches(r: CampbellResults) -> list[Item]:
     return items
 
 
-def _looks(r: CampbellResults, branch: Branch) -> list[tuple[str, str]]:
+def _looks(r: CampbellReport, branch: Branch) -> list[tuple[str, str]]:
     """What each segment of a branch looks like: what it is, and its colour."""
     grows = branch.growth_per_s > NEGLIGIBLE_PER_S
     reflected = branch.krein_sign == -1
     middle = (branch.rpm[:-1] + branch.rpm[1:]) / 2.0
     within = np.zeros(len(middle), bool)
-    for band in r.bands:
+    for band in r.instabilities:
         within |= (band.from_rpm <= middle) & (middle <= band.to_rpm)
     unstable = within & (grows[:-1] | grows[1:])
     dashed = reflected[:-1] | reflected[1:]
@@ -159,7 +155,7 @@ def _picked(
     return np.where(places >= 0, values[np.maximum(places, 0)], np.nan)
 
 
-def _excitation(r: CampbellResults) -> list[Item]:
+def _excitation(r: CampbellReport) -> list[Item]:
     """Lines at multiples of the rotation speed, and where they cross the branches."""
     if r.excitation is None:
         return []
@@ -186,7 +182,7 @@ def _excitation(r: CampbellResults) -> list[Item]:
     return [*items, Points(x, y, quiet, "crossing", hollow=True, size=5.0, hover=hover)]
 
 
-def _measured(r: CampbellResults) -> list[Item]:
+def _measured(r: CampbellReport) -> list[Item]:
     measured = r.scene.get("measured")
     if not measured:
         return []
@@ -196,22 +192,22 @@ def _measured(r: CampbellResults) -> list[Item]:
     return [Points(x, y, colours()["ink"], measured["source"], hollow=True, hover=hover)]
 
 
-def _critical(r: CampbellResults) -> Points:
-    speeds = r.critical_rpm
+def _critical(r: CampbellReport) -> Points:
+    speeds = np.array([critical.rpm for critical in r.critical_speeds])
     hover = [f"critical speed {rpm:.1f} rpm" for rpm in speeds]
     return Points(speeds, np.zeros(len(speeds)), colours()["ink"], "critical speed", hover=hover)
 
 
-def _growth(r: CampbellResults) -> tuple[list[Item], tuple[float, float]]:
+def _growth(r: CampbellReport) -> tuple[list[Item], tuple[float, float]]:
     """Growth rates; of an undamped saw within the bands alone, for each has a mirror image."""
     damped = any("damping" in term for term in r.terms)
     items: list[Item] = []
     if damped:
-        for branch in r.branches:
+        for branch in r.campbell.branches:
             colour = colour_of(branch.direction[-1])
             hover = _hover(branch)
             items.append(Line(branch.rpm, branch.growth_per_s, colour, branch.name, hover=hover))
-    for band in r.bands:
+    for band in r.instabilities:
         colour = colours()[band.kind]
         x, y = _band_growth(r, band)
         hover = [f"{band.kind}<br>{rpm:.1f} rpm<br>{growth:.3g} 1/s" for rpm, growth in zip(x, y)]
@@ -223,19 +219,19 @@ def _growth(r: CampbellResults) -> tuple[list[Item], tuple[float, float]]:
         )
         at = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))
         items.append(Points(*at, colour, band.kind, hover=[peak]))
-    top = max([band.peak_growth_per_s for band in r.bands], default=NEGLIGIBLE_PER_S)
+    top = max([band.peak_growth_per_s for band in r.instabilities], default=NEGLIGIBLE_PER_S)
     top = max(top, NEGLIGIBLE_PER_S)
-    decay = [float(-np.min(b.growth_per_s)) for b in r.branches if len(b.rpm)]
+    decay = [float(-np.min(b.growth_per_s)) for b in r.campbell.branches if len(b.rpm)]
     low = -min(max(decay, default=0.0), 4.0 * top) if damped else 0.0
     return items, (1.15 * low, 1.15 * top)
 
 
-def _band_growth(r: CampbellResults, band: Instability) -> tuple[FloatArray, FloatArray]:
+def _band_growth(r: CampbellReport, band: Instability) -> tuple[FloatArray, FloatArray]:
     """Growth within a band: from zero at its edges, through the growing branch and the peak."""
     first, last = r.campbell.from_rpm, r.campbell.to_rpm
     points = {band.peak_rpm: band.peak_growth_per_s}
     for number in band.branches:
-        branch = r.branches[number - 1]
+        branch = r.campbell.branches[number - 1]
         inside = (band.from_rpm < branch.rpm) & (branch.rpm < band.to_rpm)
         for rpm, growth in zip(branch.rpm[inside], branch.growth_per_s[inside]):
             if growth > 0.0:
@@ -247,7 +243,7 @@ def _band_growth(r: CampbellResults, band: Instability) -> tuple[FloatArray, Flo
     return rows[:, 0], rows[:, 1]
 
 
-def root_loci(r: CampbellResults) -> Chart:
+def root_loci(r: CampbellReport) -> Chart:
     """The two modes that meet at the flutter speed, in the complex plane."""
     loci = r.root_loci
     if loci is None:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from .._report_types import Speed
+from .._report_types import CheckReport, FitReport, PlaceReport, Setting, Speed, StudyReport
 from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
-
-if TYPE_CHECKING:
-    from ..results import CheckResults, FitResults, PlaceResults, StudyResults, TradeoffResults
 
 UNITS = {
     "_n_s_per_m": "N·s/m",
@@ -36,7 +34,7 @@ def named(path: str) -> str:
     return path.replace("_", " ")
 
 
-def check(r: CheckResults) -> Chart:
+def check(r: CheckReport, facts: str) -> Chart:
     """Of each limit the speed asked for (line) and the one found (dot)."""
     items: list[Item] = []
     for band in r.instabilities:
@@ -60,10 +58,10 @@ def check(r: CheckResults) -> Chart:
             items.append(Line(ends, np.full(2, float(place)), colour, criterion.name))
             items.append(Points(found, level, colour, criterion.name, hover=said))
     panel = Panel("rotation speed [rpm]", "limits", items, y_range=(0.0, len(r.criteria) + 1.0))
-    return Chart(r.scene["name"], r._facts(), (panel,))
+    return Chart(r.scene["name"], facts, (panel,))
 
 
-def fit(r: FitResults) -> Chart:
+def fit(r: FitReport, facts: str) -> Chart:
     """Measured frequencies over the computed ones, before and after; what is left below."""
     items: list[Item] = []
     for values, colour, dashed, name in (
@@ -96,16 +94,14 @@ def fit(r: FitResults) -> Chart:
     ]
     name = "rotation speed Ω [rpm]"
     upper = Panel(name, "frequency [Hz]", items, share=2.0)
-    return Chart(
-        r.scene["name"], r._facts(), (upper, Panel(name, "computed − measured [Hz]", left))
-    )
+    return Chart(r.scene["name"], facts, (upper, Panel(name, "computed − measured [Hz]", left)))
 
 
-def place(r: PlaceResults) -> Chart:
+def place(r: PlaceReport, facts: str) -> Chart:
     """The goal over one or two numbers, the best saw marked."""
     found = r.map
     if found is None:
-        return Chart(r.scene["name"], f"{r._facts()}; no map was asked for")
+        return Chart(r.scene["name"], f"{facts}; no map was asked for")
     goal = "flutter speed [rpm]" if r.goal == "flutter_speed" else "stable window [rpm]"
     values = {parameter.path: parameter.value for parameter in r.parameters}
     kept = np.where(found.kept, found.goal_rpm, np.nan)
@@ -121,15 +117,15 @@ def place(r: PlaceResults) -> Chart:
         panel = Panel(
             named(found.x_path), named(found.y_path), [Heat(found.x, found.y, kept, goal), best]
         )
-    return Chart(r.scene["name"], r._facts(), (panel,))
+    return Chart(r.scene["name"], facts, (panel,))
 
 
-def tradeoff(r: TradeoffResults) -> Chart:
+def tradeoff(settings: Sequence[Setting], name: str) -> Chart:
     """Computing time against true error."""
     shades = {"reduced": "forward", "dense": "backward", "critical_speeds": "divergence"}
     items: list[Item] = []
-    for method in dict.fromkeys(setting.method for setting in r.settings):
-        own = sorted((s for s in r.settings if s.method == method), key=lambda s: s.error)
+    for method in dict.fromkeys(setting.method for setting in settings):
+        own = sorted((s for s in settings if s.method == method), key=lambda s: s.error)
         x, y = np.array([s.error for s in own]), np.array([s.seconds for s in own])
         said = [
             f"{method.replace('_', ' ')}<br>{s.functions} functions, {s.speeds} speeds<br>{1e3 * s.seconds:.1f} ms<br>error {s.error:.2g}"
@@ -137,16 +133,16 @@ def tradeoff(r: TradeoffResults) -> Chart:
         ]
         colour = colours()[shades.get(method, "standing")]
         items.append(Points(x, y, colour, method.replace("_", " "), hover=said))
-    front = sorted((s for s in r.settings if s.on_front), key=lambda s: s.error)
+    front = sorted((s for s in settings if s.on_front), key=lambda s: s.error)
     x, y = np.array([s.error for s in front]), np.array([s.seconds for s in front])
     items.append(Line(x, y, colours()["forward"], "best at their price", width=1.0))
     panel = Panel("true relative error", "time [s]", items, x_log=True, y_log=True)
     return Chart(
-        r.name or "Time against accuracy", "true error of critical speeds and onsets", (panel,)
+        name or "Time against accuracy", "true error of critical speeds and onsets", (panel,)
     )
 
 
-def study(r: StudyResults) -> Chart:
+def study(r: StudyReport, facts: str) -> Chart:
     """Saws by their lowest critical and their flutter speed."""
     asked = {} if r.all.passing is None else {c.key: c.asked_rpm for c in r.all.passing.criteria}
     panels = []
@@ -171,7 +167,7 @@ def study(r: StudyResults) -> Chart:
         name = f"up to {r.reliability.margin:g} of the lowest critical speed, and no flutter"
         line = Line(x, 1e2 * y, colours()["forward"], name)
         panels.append(Panel("operating speed [rpm]", "saws that can be run [%]", [line]))
-    return Chart(r.study["name"], r._facts(), tuple(panels))
+    return Chart(r.study["name"], facts, tuple(panels))
 
 
 def _histogram(speed: Speed, colour: str) -> list[Any]:

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from .._report_types import CutReport, RunUpReport
 from .campbell import colour_of
 from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
 
-if TYPE_CHECKING:
-    from ..results import CutResults, RunUpResults
 
-
-def cut(r: CutResults) -> Chart:
+def cut(r: CutReport, facts: str) -> Chart:
     """Deflection at the probe over time, one panel a speed."""
     panels = []
     for run in r.runs:
@@ -26,10 +22,10 @@ def cut(r: CutResults) -> Chart:
         ]
         title = f"{run.rpm:.0f} rpm: {run.verdict}, {run.growth_per_s:.3g} 1/s{frequency}"
         panels.append(Panel("time [s]", "deflection [mm]", items, title=title))
-    return Chart(r.scene["name"], r._facts(), tuple(panels))
+    return Chart(r.scene["name"], facts, tuple(panels))
 
 
-def cut_map(r: CutResults, run: int) -> Chart:
+def cut_map(r: CutReport, run: int) -> Chart:
     """Growth over guide angle and load."""
     of = r.runs[run]
     growth = np.maximum(of.map.growth_per_s, 0.0)
@@ -39,7 +35,7 @@ def cut_map(r: CutResults, run: int) -> Chart:
     return Chart(r.scene["name"], f"growth at {of.rpm:.0f} rpm", (panel,))
 
 
-def run_up(r: RunUpResults) -> Chart:
+def run_up(r: RunUpReport, facts: str) -> Chart:
     """Deflection at the probe over speed, on a scale of signed roots."""
     shades: list[Item] = []
     for entry in r.bands:
@@ -61,10 +57,10 @@ def run_up(r: RunUpResults) -> Chart:
         y_range=(-1.1 * top, 1.1 * top),
         y_root=True,
     )
-    return Chart(r.scene["name"], r._facts(), (panel,))
+    return Chart(r.scene["name"], facts, (panel,))
 
 
-def response(r: RunUpResults) -> Chart:
+def response(r: RunUpReport) -> Chart:
     """Deflection per newton over speed and frequency, with the branches on top."""
     of = r.response
     micrometres = 1e6 * of.receptance_m_per_n.T

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
 from .._entry import FloatArray
 from .._report_types import Mode
+from .._scene_types import SceneDict
 from .chart import colours
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from plotly.graph_objects import Figure
-
-    from ..scene import Scene
 
     Animation: TypeAlias = Figure | FuncAnimation
 else:
@@ -28,8 +27,16 @@ HEIGHT = 0.25
 INTERVAL_MS = 50
 
 
+class Saw(Protocol):
+    """What is drawn of a :class:`sawflutter.Scene`: its guides."""
+
+    def to_dict(self) -> SceneDict:
+        """The scene as a dict."""
+        ...
+
+
 def animate(
-    saw: Scene, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
+    saw: Saw, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
 ) -> Animation:
     """One period of a mode; growth is left out. See :meth:`sawflutter.Scene.animate`."""
     if backend not in ("plotly", "matplotlib"):
@@ -68,7 +75,7 @@ def _scale() -> list[str]:
 
 
 def _plotly(
-    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    saw: Saw, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> Figure:
     import plotly.graph_objects as go
 
@@ -116,7 +123,7 @@ def _plotly(
 
 
 def _matplotlib(
-    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    saw: Saw, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> FuncAnimation:
     import matplotlib.pyplot as plt
     from matplotlib.animation import FuncAnimation
@@ -139,7 +146,7 @@ def _matplotlib(
     return FuncAnimation(figure, show, frames=len(pictures), interval=INTERVAL_MS, blit=False)
 
 
-def _pads(saw: Scene) -> list[tuple[FloatArray, FloatArray]]:
+def _pads(saw: Saw) -> list[tuple[FloatArray, FloatArray]]:
     """Outlines of the guides."""
     outlines = []
     for guide in saw.to_dict().get("guides", []):

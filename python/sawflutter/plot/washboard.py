@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from .._report_types import WashboardReport
 from .chart import Chart, Item, Line, Panel, Points, colours
 
-if TYPE_CHECKING:
-    from ..results import WashboardResults
 
-
-def lobes(r: WashboardResults) -> Chart:
+def lobes(r: WashboardReport, facts: str) -> Chart:
     """Least cutting stiffness at which a motion grows, and its frequency, over the speed."""
     of = r.lobes
     # Zero has no logarithm: there a motion grows without the delayed force.
@@ -37,4 +33,4 @@ def lobes(r: WashboardResults) -> Chart:
         Panel(speed, "cutting stiffness [N/m]", boundary, speeds, y_log=True),
         Panel(speed, "frequency [Hz]", [*teeth, onset], speeds),
     )
-    return Chart(r.scene["name"], r._facts(), panels)
+    return Chart(r.scene["name"], facts, panels)
