@@ -20,7 +20,7 @@ use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError
 pub(crate) use matching::{Sighted, match_modes};
 pub(crate) use refine::{Closeness, refined};
 
-/// Told how many of how many speeds are done.
+/// Progress callback: how many of how many speeds are done.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
 /// Why a chart could not be sampled.

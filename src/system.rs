@@ -213,7 +213,7 @@ impl GyroscopicSystem {
     ///
     /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until
     /// the other's momentum vanishes.
-    pub fn standing_spin(&self) -> Mat<f64> {
+    pub(crate) fn standing_spin(&self) -> Mat<f64> {
         match &self.drift {
             Some(drift) => &self.spin + drift,
             None => self.spin.clone(),
@@ -284,7 +284,7 @@ impl GyroscopicSystem {
     }
 
     /// Vᵀ times [`GyroscopicSystem::times`].
-    pub fn onto(&self, basis: MatRef<'_, f64>) -> Self {
+    pub(crate) fn onto(&self, basis: MatRef<'_, f64>) -> Self {
         let onto = |product: &Mat<f64>| basis.transpose() * product;
         GyroscopicSystem {
             stiffness: symmetric(onto(&self.stiffness)),
@@ -303,7 +303,7 @@ impl GyroscopicSystem {
     }
 
     /// Σ weight · system, term by term: for differences of systems.
-    pub fn combination(terms: &[(f64, GyroscopicSystem)]) -> Option<Self> {
+    pub(crate) fn combination(terms: &[(f64, GyroscopicSystem)]) -> Option<Self> {
         let (_, first) = terms.first()?;
         let order = first.order();
         let sum = |matrix: fn(&GyroscopicSystem) -> Option<&Mat<f64>>| {

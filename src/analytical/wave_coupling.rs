@@ -9,7 +9,7 @@
 //! Sources: J.-S. Chen, *Vibration and stability of a spinning disk in contact with evenly-spaced
 //! stationary load systems*; J.-S. Chen & D. B. Bogy, *Mathematical structure of modal
 //! interactions in a spinning disk–stationary load system*, J. Appl. Mech. 59 (1992), 390–397. The
-//! first orders follow from the two terms of [`super::point_springs::characteristic`] that are
+//! first orders follow from the two terms of [`EvenSprings::characteristic`] that are
 //! large near a meeting.
 
 use super::point_springs::{BodyWave, EvenSprings};

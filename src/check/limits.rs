@@ -52,7 +52,7 @@ impl LimitsFile {
     }
 }
 
-/// What a saw has to keep.
+/// What a saw has to keep, speeds in rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Speed at which it is run.

@@ -47,7 +47,7 @@ pub enum CheckError {
 /// One limit and what was found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// The same in a word, for tables.
+    /// Which limit, in one word, for tables.
     pub key: &'static str,
     /// What is compared, in words.
     pub name: String,

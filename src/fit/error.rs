@@ -7,7 +7,7 @@ use crate::stability::AnalysisError;
 /// Why nothing could be fitted.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
-    /// A line of the table is none.
+    /// A line of the table that is not a row of numbers.
     #[error("line {line} of the measured frequencies: {problem}")]
     Table {
         /// Line, from 1.

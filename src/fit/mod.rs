@@ -48,7 +48,7 @@ use solve::{Found, at_bound, statistics};
 pub use starts::Start;
 use starts::{refined, search};
 
-/// How to fit.
+/// Confidence, starts and range of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Probability with which the intervals cover the truth.
@@ -121,7 +121,7 @@ pub struct FittedParameter {
     pub at_bound: bool,
 }
 
-/// A calibrated saw.
+/// A scene fitted to measured frequencies.
 #[derive(Debug, Clone)]
 pub struct Fit {
     /// The saw.
@@ -139,7 +139,7 @@ pub struct Fit {
     /// Freed numbers that move no measured frequency, or none that the others do not move
     /// as well: of angles that may all turn, one. They stay as they were.
     pub without_effect: Vec<Freed>,
-    /// Correlation of the parameters.
+    /// Correlation of the parameters, without a unit: one row and one column each.
     pub correlation: Vec<Vec<f64>>,
     /// Measured numbers less free ones.
     pub degrees_of_freedom: usize,
@@ -163,10 +163,13 @@ const IDLE_HZ: f64 = 1e-5;
 const COARSE_TOLERANCE: f64 = 1e-2;
 
 impl Fit {
-    /// Fits the freed numbers of a scene to what was measured.
+    /// Fits the freed numbers p of a scene to what was measured: the least Σ (f_k(p) − f̂_k)², f_k
+    /// the k-th lowest computed frequency of a row in Hz, f̂_k the measured one. Intervals are those
+    /// of the linearised problem with Student's t, (JᵀJ)⁻¹ times the variance of the residuals.
     ///
     /// # Errors
-    /// [`FitError`].
+    /// [`FitError`] where the measurement does not determine the freed numbers, or no start between
+    /// the bounds can be analysed.
     pub fn new(
         scene: &Scene,
         measured: &Measurement,

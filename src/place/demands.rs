@@ -26,12 +26,12 @@ impl Goal {
     }
 }
 
-/// What is wanted.
+/// The goal of a placement, and the limit that it has to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demands {
     /// What is to be made large.
     pub goal: Goal,
-    /// Least lowest critical speed.
+    /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ impl Default for Demands {
     }
 }
 
-/// How hard to look.
+/// How many saws are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Saws spread over the bounds at first.

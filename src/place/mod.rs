@@ -2,8 +2,9 @@
 //! flutter speed, or the widest stable window around the operating speed, under a limit on the
 //! lowest critical speed.
 //!
-//! The flutter speed jumps where a band passes the threshold, so the best place may stand at the
-//! edge of a cliff: what happens next door is part of the answer. Bands are searched without
+//! The flutter speed is not continuous in the numbers: it jumps where the peak of a band passes the
+//! threshold. The best saw may stand right beside such a jump, so the answer includes what saws
+//! with slightly different numbers are worth ([`Neighbours`]). Bands are searched without
 //! the forces of a cut. One angle of guides that may all turn is held, since nothing else
 //! stands in space: a single pad may be anywhere around the blade.
 //!
@@ -106,7 +107,7 @@ pub struct Placement {
     pub neighbours: Neighbours,
     /// The goal over two of the numbers.
     pub map: Option<Map>,
-    /// Sweep, the same for every saw.
+    /// Sweep in rad/s, the same for every saw.
     pub range: (f64, f64),
     /// The basis of the best saw.
     pub resolution: Resolution,
@@ -114,7 +115,7 @@ pub struct Placement {
     pub evaluations: usize,
 }
 
-/// Told what is being done, how many of it are done, and of how many.
+/// Progress callback: which step, how many of its saws are done, and of how many.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
 /// The search may be this far off; the best that it finds are held against each other, and
@@ -139,10 +140,11 @@ const LOOKED_AT: [f64; 2] = [0.23, 0.71];
 const IDLE: f64 = 1e-7;
 
 impl Placement {
-    /// Looks for the best saw.
+    /// Looks for the best saw: even samples of the bounds, direct search (MADS) from the best of
+    /// them, a map through the result, and refinement on the basis that the tolerance asks for.
     ///
     /// # Errors
-    /// [`PlaceError`].
+    /// [`PlaceError`] where no freed number has an effect, or no saw tried can be analysed.
     pub fn new(
         scene: &Scene,
         freed: &[Freed],

@@ -79,7 +79,7 @@ impl Question {
 
 impl Outcome {
     /// What a minimizer makes small: first the limit is kept, then the value grows.
-    pub fn cost(&self) -> f64 {
+    pub(crate) fn cost(&self) -> f64 {
         if self.short_rad_per_s > 0.0 {
             0.5 * REFUSED + self.short_rad_per_s
         } else {

@@ -186,7 +186,7 @@ impl Plate {
     }
 
     /// The same plate with a given K_e, in 1/s², N × N.
-    pub fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
+    pub(crate) fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
         Plate {
             edge_stiffness: Some(edge_stiffness),
             ..self.clone()
@@ -194,7 +194,7 @@ impl Plate {
     }
 
     /// The same plate without stress of heat, roll tension or manufacture.
-    pub fn without_membrane(&self) -> Self {
+    pub(crate) fn without_membrane(&self) -> Self {
         let mut plate = Plate {
             membrane: None,
             ..self.clone()

@@ -98,13 +98,13 @@ impl RadialBasis {
     }
 
     /// Whether rigid heave and tilt are part of the motion.
-    pub fn has_rigid_motions(&self) -> bool {
+    pub(crate) fn has_rigid_motions(&self) -> bool {
         !self.clamped
     }
 
     /// A rule that integrates products of two radial functions with r dr, r⁻¹ dr
     /// and r⁻³ dr to rounding; the weights do not contain r.
-    pub fn rule(&self) -> &Rule {
+    pub(crate) fn rule(&self) -> &Rule {
         &self.rule
     }
 
@@ -290,7 +290,7 @@ impl RadialBasis {
 impl RadialBasis {
     /// A J × J block between n and m diameters, from the functions shared by all
     /// harmonics to those of n (rows) and m (columns).
-    pub fn turned(
+    pub(crate) fn turned(
         &self,
         n: usize,
         m: usize,

@@ -44,7 +44,8 @@ pub struct HeatEntry {
     pub critical_speeds: Vec<HeatCurveEntry>,
 }
 
-/// A temperature that the blade does not bear.
+/// A temperature rise at which the blade buckles, or its lowest critical speed falls to the
+/// operating speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatLimitEntry {

@@ -50,7 +50,7 @@ pub struct DescribedMode {
     pub shape: Col<c64>,
     /// Its name.
     pub name: ModeName,
-    /// Residual on the whole basis.
+    /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖)‖q‖) of the full model.
     pub backward_error: f64,
 }
 
@@ -83,7 +83,7 @@ const STRUCTURED: usize = 200;
 pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
-    /// Prepares the modes for speeds from `from` to `to`.
+    /// Prepares the modes for a range of speeds, (from, to) in rad/s.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -188,7 +188,7 @@ impl SpectralModel {
         Ok(1.02 * twelfth.map_or(0.0, Mode::frequency_rad_per_s))
     }
 
-    /// Every mode of the projected system, ordered by |Im λ|; those above
+    /// Every mode of the reduced model, ordered by |Im λ|; those above
     /// `complete_to` are not to be trusted.
     ///
     /// # Errors
@@ -259,7 +259,7 @@ impl SpectralModel {
     }
 
     /// dλ/dΩ of a mode at a speed.
-    pub fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
+    pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
         let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
@@ -268,7 +268,7 @@ impl SpectralModel {
     /// solver changes ω² by ε times the largest one. The inverse that gives the waves of a free
     /// blade keeps low ones accurate to their own size; there the numbers of the matrix are
     /// rounded, each by ε of itself.
-    pub fn relative_rounding(&self, mode: &Mode) -> f64 {
+    pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
         let component = &self.components[mode.component];
         let stiffness = &component.at(0.0).reduced.stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
@@ -328,7 +328,7 @@ impl SpectralModel {
     }
 
     /// The same on the whole basis, by which a projection that lacks something is made good.
-    pub fn whole_reflected_model(&self) -> Option<ReflectedModel<'_>> {
+    pub(crate) fn whole_reflected_model(&self) -> Option<ReflectedModel<'_>> {
         let [component] = self.components.as_slice() else {
             return None;
         };
@@ -362,7 +362,7 @@ impl SpectralModel {
     /// Negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite
     /// and K(Ω) = K₀ − Ω²(N − K_σ), so by Sylvester's law of inertia they are the
     /// critical speeds below Ω: no factorization is needed.
-    pub fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
+    pub(crate) fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
         self.critical
             .partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)
     }

@@ -86,7 +86,7 @@ pub struct Analysis {
     /// Flutter speed: the lowest speed at which flutter counts, in rad/s, see
     /// [`Instability::counted`].
     pub flutter_speed_rad_per_s: Option<f64>,
-    /// Onset of the first flutter band of all, in rad/s.
+    /// Onset of the first flutter band, weak ones included, in rad/s.
     pub first_merge_rad_per_s: Option<f64>,
     /// The eigenvalues of the band at the flutter speed, or of the first of all.
     pub root_loci: Option<RootLoci>,

@@ -75,8 +75,9 @@ pub struct CurvePoint {
 }
 
 impl Instability {
-    /// Whether it counts as an instability of the saw: flutter slower than the threshold drowns
-    /// in damping that no scene names; a blade that leans over does not come back.
+    /// Whether it counts as an instability of the saw. Flutter that grows more slowly than the
+    /// threshold (1/s) is suppressed by damping that the scene does not name; divergence always
+    /// counts.
     pub fn counts(&self, threshold_per_s: f64) -> bool {
         self.kind == InstabilityKind::Divergence || self.peak_growth_per_s >= threshold_per_s
     }

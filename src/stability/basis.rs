@@ -52,7 +52,7 @@ const LARGEST_STRETCH: Tuned = Tuned::new("stability/basis::LARGEST_STRETCH", 0.
 /// Differences below this are the rounding of the eigenproblem.
 const ROUNDING: f64 = 1e-10;
 
-/// A basis and what it gives.
+/// The smallest basis that meets a tolerance, its critical speeds and estimated errors.
 #[derive(Debug)]
 pub struct ChosenBasis {
     /// The plate in this basis.

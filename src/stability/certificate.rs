@@ -4,7 +4,8 @@ use super::band::{Instability, InstabilityKind};
 use super::full_basis::Miscount;
 use super::signature::Signature;
 
-/// Checks of a list of bands.
+/// Checks of a list of bands: the Krein index against the spectrum, counts of modes on the whole
+/// basis, and what of the range is proven free of bands that are not listed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.

@@ -12,7 +12,7 @@ use crate::spectrum::SpectralModel;
 /// Speeds of a chart, before those that its events add.
 pub(super) const CHART_SPEEDS: usize = 51;
 
-/// Everything about the stability of a saw over a range of speeds.
+/// Campbell diagram, bands of instability and certificate of a range of speeds.
 #[derive(Debug, Clone)]
 pub struct StabilityChart {
     /// Modes and branches.

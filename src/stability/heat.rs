@@ -20,7 +20,8 @@ use crate::spectrum::{
 };
 use crate::system::spread;
 
-/// A rise that the blade does not bear, and the shape that gives way.
+/// A temperature rise at which the blade buckles or loses the speed asked for, and the shape of the
+/// mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeatLimit {
     /// Peak of the temperature profile.
@@ -44,7 +45,7 @@ pub struct HeatCurve {
     pub speed_rad_per_s: Vec<f64>,
 }
 
-/// What the temperature profile of a scene does to its blade, scaled to other peaks.
+/// Which temperature rises the blade tolerates: the profile of the scene, scaled to other peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimits {
     /// Where the lowest critical speed falls to the operating speed, if the scene gives one and

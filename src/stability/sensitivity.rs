@@ -16,7 +16,8 @@ use crate::system::GyroscopicSystem;
 /// truncation (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
 const STEP: f64 = 0.1;
 
-/// Effect of one change of the scene.
+/// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, a rise of
+/// temperature by 1 K.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
     /// JSON path of the number.
@@ -27,7 +28,7 @@ pub struct Sensitivity {
     pub critical_speeds: Vec<f64>,
     /// Relative change of the onset of each band; `None` where the range begins in it.
     pub onsets: Vec<Option<f64>>,
-    /// Change of λ of each mode at `modes_at`, in 1/s.
+    /// Change of λ of each mode at the speed asked for, in 1/s.
     pub eigenvalues: Vec<c64>,
 }
 
@@ -60,7 +61,13 @@ struct Variation {
     by: By,
 }
 
-/// Sensitivities of an analysis, most influential on the lowest critical speed first.
+/// Effects of each number of a scene on its critical speeds, on the onsets of its bands, and on the
+/// eigenvalues at one speed; most influential on the lowest critical speed first.
+///
+/// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω).
+/// Critical speeds and the onsets of undamped bands move by dΩ = −xᴴ(dL)x / xᴴ(∂L/∂Ω)x, at λ = 0 and
+/// at the λ = iω where two modes coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*,
+/// 1966).
 ///
 /// # Errors
 /// [`SensitivityError`].

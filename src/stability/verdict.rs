@@ -14,21 +14,21 @@ use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
 
-/// What becomes of a saw at one speed.
+/// The answer to whether a saw is stable at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StabilityState {
     /// Nothing that counts grows.
     Stable,
-    /// The blade leans over.
+    /// A deflection grows exponentially without oscillating: λ is real and positive.
     Divergence,
-    /// The blade flutters.
+    /// A vibration grows exponentially: Re λ > 0 with a frequency.
     Flutter,
     /// Nothing was computed there.
     OutsideSweep,
 }
 
-/// What becomes of a saw at one speed, and why.
+/// Whether a saw is stable at one speed, and which band decides it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// The answer.
@@ -39,7 +39,8 @@ pub struct Verdict {
     pub stretch: Option<(f64, f64)>,
 }
 
-/// The verdict on a saw at a speed, from its bands within a range of speeds.
+/// The verdict on a saw at a speed, from its bands within a range of speeds in rad/s. Flutter
+/// counts from a growth rate of `threshold_per_s` on; divergence always counts.
 pub fn verdict(
     bands: &[Instability],
     threshold_per_s: f64,

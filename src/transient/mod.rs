@@ -2,9 +2,12 @@
 //! give on its stability.
 //!
 //! At a constant speed a step is the exponential of the state matrix, exact for loads that
-//! change linearly ([`Propagator`]); while the speed changes it is Newmark's average
-//! acceleration ([`Newmark`]). Both work on the blade's lowest modes and its static
-//! answers to the loads.
+//! change linearly; while the speed changes it is Newmark's average acceleration (N. M. Newmark, J. Eng. Mech. Div.
+//! ASCE 85 (1959), 67–94). Both work on the blade's lowest modes and its static
+//! deflections under the loads.
+//!
+//! In goes a scene with its `cut` or `runup`; out comes a [`Cutting`] or a [`RunningUp`]: times in
+//! s, speeds in rad/s, deflections in m, growth rates in 1/s.
 
 mod cut;
 mod linear;
