@@ -572,7 +572,8 @@ class RootLoci(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HeatLimit(Entry):
-    """A temperature that the blade does not bear."""
+    """A temperature rise at which the blade buckles, or its lowest critical speed falls to the
+    operating speed."""
 
     rise_k: float
     """Peak of the profile."""
@@ -1750,7 +1751,7 @@ class StudyReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Setting(Entry):
-    """One way, one size, and what it took."""
+    """One method with one size of the basis: its run time and its error."""
 
     method: Method
     """The way."""
