@@ -125,6 +125,19 @@ fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64
     (to > from).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
 }
 
+impl MiscountEntry {
+    /// "1 missing between 10.0 and 12.0 Hz".
+    pub(super) fn in_words(&self) -> String {
+        let what = if self.missing > 0 {
+            "missing"
+        } else {
+            "too many"
+        };
+        let (count, from, to) = (self.missing.unsigned_abs(), self.from_hz, self.to_hz);
+        format!("{count} {what} between {from:.1} and {to:.1} Hz")
+    }
+}
+
 impl From<&Miscount> for MiscountEntry {
     fn from(miscount: &Miscount) -> Self {
         MiscountEntry {
@@ -215,17 +228,12 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
             .iter()
             .map(|m| m.speed_rad_per_s)
             .collect();
-        let what = if first.missing > 0 {
-            "missing"
-        } else {
-            "too many"
-        };
-        let [from, to] = [first.from_rad_per_s, first.to_rad_per_s].map(|f| f / TAU);
+        let first = MiscountEntry::from(first);
         wrong.push(format!(
-            "modes are miscounted on the whole basis at {}: {} {what} between {from:.1} and {to:.1} Hz at {:.1} rpm",
+            "modes are miscounted on the whole basis at {}: {} at {:.1} rpm",
             span(&speeds),
-            first.missing.unsigned_abs(),
-            rpm(first.speed_rad_per_s)
+            first.in_words(),
+            first.rpm
         ));
     }
     if certificate.gave_up {

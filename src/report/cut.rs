@@ -1,5 +1,6 @@
 //! `cut.json`: what the saw does in the cut.
 
+mod certificate;
 mod criteria;
 mod warnings;
 
@@ -8,6 +9,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::certificate::CutCertificateEntry;
 pub use self::criteria::{CutCriterion, CutCriterionEntry, Verdict};
 use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
@@ -74,6 +76,8 @@ pub struct CutRunEntry {
     pub idle_verdict: Verdict,
     /// Largest Re λ without the forces.
     pub idle_growth_per_s: f64,
+    /// Growing modes held against counts on the whole basis.
+    pub certificate: CutCertificateEntry,
     /// The same cut with the tangential force that the power allows, when it is given.
     pub by_power: Option<ByPowerEntry>,
     /// Loads that pass with the teeth against loads that stand still.
@@ -227,6 +231,7 @@ impl CutRunEntry {
             dominant_frequency_hz: dominant.map(hertz),
             idle_verdict: of(history.idle.growth_per_s),
             idle_growth_per_s: history.idle.growth_per_s,
+            certificate: CutCertificateEntry::new(history),
             by_power: run.tangential_of_power_n.zip(history.in_cut_by_power).map(
                 |(tangential_n_per_tooth, growth)| ByPowerEntry {
                     tangential_n_per_tooth,

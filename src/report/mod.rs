@@ -33,8 +33,8 @@ pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::cut::{
-    ByPowerEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, ToothPassingEntry,
-    Verdict, VerdictMapEntry,
+    ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
+    ToothPassingEntry, Verdict, VerdictMapEntry,
 };
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};

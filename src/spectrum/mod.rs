@@ -64,6 +64,7 @@ pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
 pub use growth::fastest_growing_of;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
+pub(crate) use hermitian::negative_eigenvalues;
 pub(crate) use inertia::{AtSpeed, DampedBasis, WholeBasis};
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]

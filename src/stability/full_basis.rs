@@ -208,37 +208,53 @@ impl<'a> FullBasis<'a> {
 
     /// Holds ascending claims of a speed against the counts; what is not certain contradicts nothing.
     pub fn of_claims(&self, speed_rad_per_s: f64, claims: &[Claim]) -> Vec<Miscount> {
-        let at = self.at(speed_rad_per_s);
-        let count = |claim: &Claim| {
-            let count = self
-                .basis
-                .count_along([&at; 2], [claim.frequency_rad_per_s; 2]);
-            self.counted
-                .fetch_add(usize::from(count.is_some()), Ordering::Relaxed);
-            count
-        };
         let negative = self.negative_stiffness(speed_rad_per_s) as isize;
-        let differences = claims.iter().filter_map(|claim| {
-            let difference = count(claim)? as isize - negative - claim.net;
-            Some((claim.frequency_rad_per_s, difference))
-        });
-        let mut before = (0.0, 0);
-        let mut found = Vec::new();
-        for (k, (frequency, difference)) in differences.enumerate() {
-            if k == 0 && self.has_free_motions() {
-                before = (frequency, difference);
-                continue;
-            }
-            if difference != before.1 {
-                found.push(Miscount {
-                    speed_rad_per_s,
-                    from_rad_per_s: before.0,
-                    to_rad_per_s: frequency,
-                    missing: difference - before.1,
-                });
-            }
-            before = (frequency, difference);
-        }
-        found
+        let begins = (!self.has_free_motions()).then_some(negative);
+        let counted = of_claims(self.basis, speed_rad_per_s, claims, begins);
+        self.counted.fetch_add(counted.certain, Ordering::Relaxed);
+        counted.miscounts
     }
+}
+
+/// Claims of a speed held against counts.
+pub(super) struct Counted {
+    /// Counts that were certain.
+    pub certain: usize,
+    /// Where they contradict the claims.
+    pub miscounts: Vec<Miscount>,
+}
+
+/// Holds ascending claims against counts; what is not certain contradicts nothing. `begins` is n₋(K), with which the
+/// counts begin at ω = 0; where it is not known, the first of them is taken for right.
+pub(super) fn of_claims(
+    basis: &WholeBasis,
+    speed_rad_per_s: f64,
+    claims: &[Claim],
+    begins: Option<isize>,
+) -> Counted {
+    let at = basis.at(speed_rad_per_s);
+    let differences = claims.iter().filter_map(|claim| {
+        let frequency = claim.frequency_rad_per_s;
+        let count = basis.count_along([&at; 2], [frequency; 2])?;
+        Some((frequency, count as isize - claim.net))
+    });
+    let mut counted = Counted {
+        certain: 0,
+        miscounts: Vec::new(),
+    };
+    let mut before = begins.map(|count| (0.0, count));
+    for (frequency, difference) in differences {
+        counted.certain += 1;
+        let (from, last) = before.unwrap_or((frequency, difference));
+        if difference != last {
+            counted.miscounts.push(Miscount {
+                speed_rad_per_s,
+                from_rad_per_s: from,
+                to_rad_per_s: frequency,
+                missing: difference - last,
+            });
+        }
+        before = Some((frequency, difference));
+    }
+    counted
 }

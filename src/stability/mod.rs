@@ -21,6 +21,7 @@ mod evaluator;
 mod excitation;
 mod flutter;
 mod full_basis;
+mod growing;
 mod heat;
 mod hidden_growth;
 mod interpolation;
@@ -55,6 +56,7 @@ pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
 pub use full_basis::Miscount;
+pub use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use onsets::Onsets;
 #[doc(hidden)]

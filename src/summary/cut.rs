@@ -72,7 +72,9 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
             remark(run, entry.criterion)
         )?;
     }
-    writeln!(text, "  {}", deflections(run))
+    writeln!(text, "  {}", deflections(run))?;
+    let statement = format!("  certificate: {}", run.certificate.statement);
+    writeln!(text, "{}", wrapped(&statement))
 }
 
 fn in_capitals(verdict: Verdict) -> &'static str {

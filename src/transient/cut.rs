@@ -7,6 +7,7 @@ use faer::{Col, c64};
 use crate::plate::Plate;
 use crate::scene::{CutRun, Probe};
 use crate::spectrum::{companion_eigenpairs, fastest_growing_of};
+use crate::stability::GrowingModes;
 use crate::system::GyroscopicSystem;
 
 use super::linear::Gauge;
@@ -58,6 +59,8 @@ pub struct CutHistory {
     pub idle: Growth,
     /// Eigenvalues in the cut.
     pub in_cut: Growth,
+    /// What counts on the whole basis say of the growing modes without the forces, and in the cut.
+    pub growing: [GrowingModes; 2],
     /// Eigenvalues in a cut with the tangential force that the power allows.
     pub in_cut_by_power: Option<Growth>,
     /// Growth fitted on the deflection in the cut, `None` without a lateral force.
@@ -100,6 +103,10 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
     });
     let idle = Growth::of_plate(plate, speed)?;
     let in_cut = Growth::of_plate(&saw.cutting, speed)?;
+    let growing = [
+        GrowingModes::of_plate(plate, speed)?,
+        GrowingModes::of_plate(&saw.cutting, speed)?,
+    ];
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let record = record(saw, &gauge, [idle, in_cut])?;
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
@@ -107,6 +114,7 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         run: **run,
         idle,
         in_cut,
+        growing,
         in_cut_by_power: by_power.transpose()?,
         fitted: fitted_growth(&sinusoids).map(Growth::from),
         dominant_rad_per_s: sinusoids.iter().map(|s| s.lambda.im).find(|im| *im > 0.0),

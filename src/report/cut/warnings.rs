@@ -15,8 +15,19 @@ pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
         without_lateral_force(run),
         moving_loads_alone(run),
         large_deflection(run, thickness_m),
+        contradicted(run),
     ];
     all.into_iter().flatten().collect()
+}
+
+fn contradicted(run: &CutRunEntry) -> Option<String> {
+    let certificate = &run.certificate;
+    (!certificate.is_clean()).then(|| {
+        format!(
+            "at {:.0} rpm the growing modes are contradicted: {}",
+            run.rpm, certificate.statement
+        )
+    })
 }
 
 fn against_power(run: &CutRunEntry) -> Option<String> {

@@ -82,15 +82,25 @@ fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
     speeds
 }
 
-/// `None` where nothing is certain, for an eigenvalue lies on the path.
 fn counted(basis: &DampedBasis, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
     let listed: Vec<c64> = spectrum.values.iter().map(|value| value.lambda).collect();
-    let top = window(&listed, highest)?;
-    let unlisted = basis.unlisted(spectrum.speed, &listed, [top, top])?;
+    counted_in_window(basis, spectrum.speed, &listed, highest)
+}
+
+/// Growing eigenvalues that a list lacks or has too many, below the highest frequency up to which it is complete.
+/// `None` where nothing is certain, for an eigenvalue lies on the path.
+pub fn counted_in_window(
+    basis: &DampedBasis,
+    speed_rad_per_s: f64,
+    listed: &[c64],
+    highest_rad_per_s: f64,
+) -> Option<Option<Miscount>> {
+    let top = window(listed, highest_rad_per_s)?;
+    let unlisted = basis.unlisted(speed_rad_per_s, listed, [top, top])?;
     // A complex pair is one mode.
     let modes = (unlisted + unlisted.signum()) / 2;
     Some((unlisted != 0).then_some(Miscount {
-        speed_rad_per_s: spectrum.speed,
+        speed_rad_per_s,
         from_rad_per_s: 0.0,
         to_rad_per_s: top,
         missing: modes,

@@ -23,6 +23,7 @@ use crate::campbell::{self, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
 use crate::tuned::Tuned;
 use counts::Counts;
+pub(super) use counts::counted_in_window;
 use spectrum::{Solver, Spectrum};
 
 /// Points of a band's curve that a straight line misses by more than this share of its peak

@@ -1,0 +1,205 @@
+//! Growing modes of one speed, held against counts on the whole basis: for a saw that is looked at once, as in a cut.
+//!
+//! The lowest modes come from an iteration, which might pass over one. Of an undamped saw the Krein index, n₋(K) by a
+//! factorization, and the counts between modes of opposite sign tell; of a damped one the argument principle.
+
+use faer::c64;
+
+use super::damped::counted_in_window;
+use super::full_basis::{Miscount, claims, of_claims};
+use super::signature::Signature;
+use crate::plate::Plate;
+use crate::spectrum::{
+    DampedBasis, LowestModes, Mode, SpectrumError, WholeBasis, negative_eigenvalues,
+};
+
+/// Growing modes of a plate at a speed, and what was checked of them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GrowingModes {
+    /// How many modes grow; a pair of conjugate eigenvalues is one.
+    pub modes: usize,
+    /// Re λ of the fastest of them, in 1/s.
+    pub growth_per_s: Option<f64>,
+    /// n₋(K) and the Krein index of the modes, of an undamped saw.
+    pub krein: Option<[usize; 2]>,
+    /// Counts of modes on the whole basis that were certain.
+    pub full_basis_counts: usize,
+    /// Where they contradict the modes.
+    pub miscounts: Vec<Miscount>,
+}
+
+/// Modes looked at first: a saw run past more critical speeds has more that matter.
+const LOOKED_AT: usize = 16;
+
+impl GrowingModes {
+    /// Of a plate at a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, SpectrumError> {
+        let lowest = LowestModes::new(plate);
+        let is_undamped = lowest.components.iter().all(|c| c.full.is_conservative());
+        let mut count = LOOKED_AT;
+        loop {
+            let modes = lowest.at(speed_rad_per_s, count)?;
+            let checked = match is_undamped {
+                true => Self::undamped(plate, &lowest, speed_rad_per_s, &modes),
+                false => Self::damped(plate, &lowest, speed_rad_per_s, &modes),
+            };
+            let is_whole = modes.len() < count;
+            if checked.is_clean() || is_whole {
+                return Ok(checked);
+            }
+            count *= 2;
+        }
+    }
+
+    /// Whether every check agrees.
+    pub fn is_clean(&self) -> bool {
+        self.miscounts.is_empty() && self.matches_krein()
+    }
+
+    /// Whether the Krein index of an undamped saw matches.
+    pub fn matches_krein(&self) -> bool {
+        self.krein
+            .is_none_or(|[stiffness, modes]| stiffness == modes)
+    }
+
+    fn of_modes(modes: &[Mode]) -> Self {
+        let growth = modes.iter().map(Mode::growth_per_s).filter(|g| *g > 0.0);
+        GrowingModes {
+            modes: growth.clone().count(),
+            growth_per_s: growth.max_by(f64::total_cmp),
+            ..GrowingModes::default()
+        }
+    }
+
+    fn undamped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
+        let mut found = Self::of_modes(modes);
+        if has_free_motions(lowest) {
+            return found;
+        }
+        let systems = lowest.components.iter().map(|component| &component.full);
+        let negative: Option<usize> = systems
+            .map(|system| negative_eigenvalues(&system.stiffness_at(speed)))
+            .sum();
+        let Some(negative) = negative else {
+            return found;
+        };
+        let signature = Signature::new(speed, modes.iter());
+        found.krein = Some([negative, signature.krein_index()]);
+        if !plate.is_axisymmetric() {
+            let highest = modes
+                .iter()
+                .fold(0.0, |top: f64, mode| top.max(mode.lambda.im));
+            let claims = claims(&signature, highest);
+            let counted = of_claims(
+                &WholeBasis::new(plate),
+                speed,
+                &claims,
+                Some(negative as isize),
+            );
+            found.full_basis_counts = counted.certain;
+            found.miscounts = counted.miscounts;
+        }
+        found
+    }
+
+    fn damped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
+        let mut found = Self::of_modes(modes);
+        let basis = DampedBasis::new(plate);
+        let Some(basis) = basis.filter(|_| !plate.is_axisymmetric() && !has_free_motions(lowest))
+        else {
+            return found;
+        };
+        let listed: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
+        let highest = listed.iter().fold(0.0, |top: f64, value| top.max(value.im));
+        if let Some(miscount) = counted_in_window(&basis, speed, &listed, highest) {
+            found.full_basis_counts = 1;
+            found.miscounts = miscount.into_iter().collect();
+        }
+        found
+    }
+}
+
+fn has_free_motions(lowest: &LowestModes) -> bool {
+    let mut components = lowest.components.iter();
+    components.any(|component| !component.full.free_rigid.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Resolution, RimForce};
+    use crate::scene::{Accuracy, Scene, rad_per_s};
+    use crate::spectrum::{ModeKind, companion_eigenpairs};
+    use crate::system::GyroscopicSystem;
+
+    /// The paper's saw pushed at its rim, idle, and with a damper.
+    fn plates() -> [Plate; 3] {
+        let resolution = Resolution::of(Accuracy::Draft);
+        let idle = Plate::new(&Scene::paper(), resolution);
+        let pushed = idle.with_edge_loads(&[RimForce {
+            angle_rad: 0.1,
+            radial_n: -300.0,
+            tangential_n: -4500.0,
+        }]);
+        let damped = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
+        [pushed, idle, Plate::new(&damped.unwrap(), resolution)]
+    }
+
+    /// Against every eigenvalue of the whole basis.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn growing_modes_of_a_speed_are_those_of_all_eigenvalues() {
+        let mut growing = 0;
+        for plate in plates() {
+            for rpm in [600.0, 1540.0, 1800.0, 2110.0, 2262.0, 2800.0] {
+                let speed = rad_per_s(rpm);
+                let found = GrowingModes::of_plate(&plate, speed).unwrap();
+                let all = companion_eigenpairs(&GyroscopicSystem::of_plate(&plate), speed).unwrap();
+                let grows = all
+                    .iter()
+                    .map(|(lambda, _)| lambda.re)
+                    .filter(|re| *re > 1e-4);
+                let fastest = grows.clone().fold(0.0, f64::max);
+                assert_eq!(found.modes, grows.clone().count(), "{rpm}: {found:?}");
+                let off = (found.growth_per_s.unwrap_or(0.0) - fastest).abs();
+                assert!(off <= 1e-6 * (1.0 + fastest), "{rpm}: {off:e}");
+                assert!(found.is_clean(), "{rpm}: {found:?}");
+                assert!(found.full_basis_counts > 0, "{rpm}: {found:?}");
+                growing += found.modes;
+            }
+        }
+        assert!(growing > 6, "{growing}");
+    }
+
+    /// A growing mode that is left out is missed by the index of an undamped saw and by the count of a damped one;
+    /// a wave left out by the counts between the others.
+    #[test]
+    fn a_mode_that_is_left_out_is_noticed() {
+        let speed = rad_per_s(1540.0);
+        let [pushed, idle, damped] = plates();
+        for plate in [&pushed, &idle] {
+            let lowest = LowestModes::new(plate);
+            let modes = lowest.at(speed, LOOKED_AT).unwrap();
+            let without = |gone: usize| {
+                let mut fewer = modes.clone();
+                fewer.remove(gone);
+                GrowingModes::undamped(plate, &lowest, speed, &fewer)
+            };
+            let last = modes.iter().rposition(|m| m.kind == ModeKind::Negative);
+            for gone in 0..=last.expect("a reflected wave") {
+                let found = without(gone);
+                assert!(!found.is_clean(), "{:?}: {found:?}", modes[gone].kind);
+            }
+        }
+        let lowest = LowestModes::new(&damped);
+        let mut modes = lowest.at(speed, LOOKED_AT).unwrap();
+        assert!(GrowingModes::damped(&damped, &lowest, speed, &modes).is_clean());
+        let growing = modes.iter().position(|mode| mode.growth_per_s() > 0.0);
+        modes.remove(growing.expect("a growing mode"));
+        let found = GrowingModes::damped(&damped, &lowest, speed, &modes);
+        assert_eq!(found.miscounts[0].missing, 1);
+    }
+}
