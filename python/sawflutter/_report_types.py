@@ -463,7 +463,7 @@ class Certificate(Entry):
     """The rest, which was searched and not proven: from and to."""
 
     max_backward_error: float
-    """Largest backward error of any mode shown."""
+    """Largest backward error, on the whole basis, of any mode of the chart."""
 
     proven_share: float | None = field(default=None)
     """Share of the sweep that is proven to have no instability which is not listed, rounded
@@ -472,6 +472,12 @@ class Certificate(Entry):
     unproven_growth_per_s: float | None = field(default=None)
     """Estimate, not proof, of the largest growth that a band hidden in the rest could have;
     absent where no proof was tried."""
+
+    max_listed_backward_error: float | None = field(default=None)
+    """Largest backward error, on the whole basis, of the eigenvalues listed: those of the modes
+    at rest, at the peaks of the bands and at the operating speed. At reference accuracy these
+    are refined on the whole basis; absent otherwise, and where one could not be, as with loads
+    at the rim."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -855,6 +861,35 @@ class CutCriterionEntry(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class CutCertificate(Entry):
+    """How many modes grow in the cut and without its forces, and what counts on the whole basis
+    say of that."""
+
+    statement: str
+    """What was found, in a sentence."""
+
+    growing_modes: int
+    """Modes that grow in the cut; a pair of conjugate eigenvalues is one."""
+
+    idle_growing_modes: int
+    """Modes that grow without the forces."""
+
+    full_basis_counts: int
+    """Counts on the whole basis that the modes were held against, in the cut and without the
+    forces."""
+
+    krein_violations: int
+    """In how many of the two the Krein index of an undamped saw does not match; expected 0."""
+
+    miscounted_modes: tuple[Miscount, ...]
+    """Modes that the counts say are missing, or too many; expected none."""
+
+    differing_growths: int
+    """In how many of the two the fastest of these modes does not grow as the criteria say;
+    expected 0."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class ByPower(Entry):
     """A cut with the force that its power allows."""
 
@@ -1011,6 +1046,9 @@ class CutRun(Entry):
 
     idle_growth_per_s: float
     """Largest Re λ without the forces."""
+
+    certificate: CutCertificate
+    """Growing modes held against counts on the whole basis."""
 
     by_power: ByPower | None
     """The same cut with the tangential force that the power allows, when it is given."""

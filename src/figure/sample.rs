@@ -82,6 +82,7 @@ pub fn empty_report(name: &str) -> Report {
             unproven_growth_per_s: None,
             mismatches: Vec::new(),
             max_backward_error: 0.0,
+            max_listed_backward_error: None,
         },
         campbell: CampbellEntry {
             from_rpm: 0.0,

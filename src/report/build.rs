@@ -36,6 +36,7 @@ impl Analysis {
             model.is_conservative(),
             analysis.range_rad_per_s,
             errors.fold(0.0, f64::max),
+            self.listed_backward_error,
         );
         let branches = Numbered::new(analysis);
         let resolution = model.plate.resolution;

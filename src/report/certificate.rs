@@ -42,8 +42,13 @@ pub struct CertificateEntry {
     /// where no proof was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unproven_growth_per_s: Option<f64>,
-    /// Largest backward error of any mode shown.
+    /// Largest backward error, on the whole basis, of any mode of the chart.
     pub max_backward_error: f64,
+    /// Largest backward error, on the whole basis, of the eigenvalues listed: those of the modes at rest, at the peaks
+    /// of the bands and at the operating speed. At reference accuracy these are refined on the whole basis; absent
+    /// otherwise, and where one could not be, as with loads at the rim.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_listed_backward_error: Option<f64>,
 }
 
 /// Modes of a speed that a count on the whole basis does not find, or finds besides.
@@ -86,6 +91,7 @@ impl CertificateEntry {
         is_undamped: bool,
         range: (f64, f64),
         max_backward_error: f64,
+        max_listed_backward_error: Option<f64>,
     ) -> Self {
         let certificate = &chart.certificate;
         let violations = certificate.violations_rad_per_s.iter();
@@ -105,6 +111,7 @@ impl CertificateEntry {
             unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
             unproven_growth_per_s: chart.unproven_growth_per_s(),
             max_backward_error,
+            max_listed_backward_error,
         }
     }
 

@@ -82,7 +82,7 @@ fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
 }
 
 /// (∂L/∂λ)x = (2λ + D)x.
-fn with_lambda(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
+pub fn with_lambda(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
     Scale(2.0 * lambda) * x + real_times(&system.velocity_at(speed), x)
 }
 

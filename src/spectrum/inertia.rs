@@ -20,6 +20,7 @@
 mod coupling;
 mod damped;
 mod jacobi;
+mod solved;
 mod waves;
 
 use std::ops::Range;

@@ -39,6 +39,7 @@ mod mode_pair;
 mod model;
 mod projection;
 mod real_eigen;
+mod refined;
 mod reflected;
 mod residual;
 mod vectors;
@@ -76,6 +77,7 @@ pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};
 pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
+pub(crate) use refined::RefinedPair;
 pub(crate) use reflected::{KnownStates, ReflectedModel};
 #[doc(hidden)]
 pub use vectors::{orthonormal, split};

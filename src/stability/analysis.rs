@@ -10,11 +10,12 @@ use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::heat::HeatLimits;
+use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
-use crate::scene::{Scene, rpm};
+use crate::scene::{Accuracy, Scene, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
@@ -100,6 +101,9 @@ pub struct Analysis {
     /// λ of the mode that grows fastest at the operating speed, or decays most slowly, where
     /// the scene gives one within the sweep.
     pub fastest_operating: Option<c64>,
+    /// Largest backward error of the eigenvalues listed, of reference accuracy: those at rest, at the peaks of bands
+    /// and at the operating speed.
+    pub listed_backward_error: Option<f64>,
     /// How hot the blade may become, of a scene with temperature.
     pub heat: Option<HeatLimits>,
     /// The same saw without the forces of the cut, where the scene has them on the chart.
@@ -137,11 +141,17 @@ impl Analysis {
             larger,
         } = ChosenBasis::new(scene, scene.tolerance())?;
         let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
-        let chart = match (model.plate.is_axisymmetric(), detail) {
+        let mut chart = match (model.plate.is_axisymmetric(), detail) {
             (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
             (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
             (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, detail, progress)?,
         };
+        let modes_at_rest = modes_at_rest(&model, &chart)?;
+        let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
+        let mut listed = is_refined.then(|| Listed::new(&model, &modes_at_rest));
+        if let Some(listed) = &mut listed {
+            listed.refine_peaks(&model, &mut chart.instabilities)?;
+        }
         let estimates = Estimates::new(&model, range, &chart, larger, estimated_resting_error)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&chart.instabilities, threshold);
@@ -151,7 +161,6 @@ impl Analysis {
         let root_loci = drawn_onset.map(|onset| root_loci(&model, &chart, onset, range));
         let root_loci = root_loci.transpose()?.flatten();
         let heat = HeatLimits::new(scene, &model)?;
-        let modes_at_rest = modes_at_rest(&model, &chart)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;
         let idling = match scene.cut().and_then(|cut| cut.chart) {
             Some(_) if detail == Detail::Full => Some(Onsets::idling(scene, range)?),
@@ -169,6 +178,7 @@ impl Analysis {
             root_loci,
             modes_at_rest,
             fastest_operating: None,
+            listed_backward_error: None,
             heat,
             idling,
             crossings,
@@ -176,7 +186,20 @@ impl Analysis {
         if let Some(speed) = scene.operating_rad_per_s() {
             analysis.fastest_operating = analysis.fastest(speed)?;
         }
+        if let Some(listed) = listed {
+            analysis.close_list(listed)?;
+        }
         Ok(analysis)
+    }
+
+    /// Refines the mode at the operating speed, the last eigenvalue listed.
+    fn close_list(&mut self, mut listed: Listed) -> Result<(), SpectrumError> {
+        let operating = self.scene.operating_rad_per_s();
+        if let Some((speed, lambda)) = operating.zip(self.fastest_operating) {
+            self.fastest_operating = Some(listed.refine(&self.model, speed, lambda)?);
+        }
+        self.listed_backward_error = listed.largest_error();
+        Ok(())
     }
 
     /// λ of the mode that grows fastest at a speed, or decays most slowly; `None` outside the

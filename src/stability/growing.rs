@@ -153,7 +153,7 @@ mod tests {
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn growing_modes_of_a_speed_are_those_of_all_eigenvalues() {
         let mut growing = 0;
-        for plate in plates() {
+        for (plate, noise) in plates().into_iter().zip([1e-4, 1e-4, 1e-8]) {
             for rpm in [600.0, 1540.0, 1800.0, 2110.0, 2262.0, 2800.0] {
                 let speed = rad_per_s(rpm);
                 let found = GrowingModes::of_plate(&plate, speed).unwrap();
@@ -161,7 +161,7 @@ mod tests {
                 let grows = all
                     .iter()
                     .map(|(lambda, _)| lambda.re)
-                    .filter(|re| *re > 1e-4);
+                    .filter(|re| *re > noise);
                 let fastest = grows.clone().fold(0.0, f64::max);
                 assert_eq!(found.modes, grows.clone().count(), "{rpm}: {found:?}");
                 let off = (found.growth_per_s.unwrap_or(0.0) - fastest).abs();
@@ -178,23 +178,26 @@ mod tests {
     /// a wave left out by the counts between the others.
     #[test]
     fn a_mode_that_is_left_out_is_noticed() {
-        let speed = rad_per_s(1540.0);
         let [pushed, idle, damped] = plates();
         for plate in [&pushed, &idle] {
             let lowest = LowestModes::new(plate);
-            let modes = lowest.at(speed, LOOKED_AT).unwrap();
+            let reflecting = (0..30).map(|k| rad_per_s(1600.0 + 40.0 * f64::from(k)));
+            let (speed, modes) = reflecting
+                .map(|speed| (speed, lowest.at(speed, LOOKED_AT).unwrap()))
+                .find(|(_, modes)| modes.iter().any(|m| m.kind == ModeKind::Negative))
+                .expect("a reflected wave");
             let without = |gone: usize| {
                 let mut fewer = modes.clone();
                 fewer.remove(gone);
                 GrowingModes::undamped(plate, &lowest, speed, &fewer)
             };
             let last = modes.iter().rposition(|m| m.kind == ModeKind::Negative);
-            for gone in 0..=last.expect("a reflected wave") {
+            for (gone, mode) in modes[..=last.unwrap()].iter().enumerate() {
                 let found = without(gone);
-                assert!(!found.is_clean(), "{:?}: {found:?}", modes[gone].kind);
+                assert!(!found.is_clean(), "{:?}: {found:?}", mode.kind);
             }
         }
-        let lowest = LowestModes::new(&damped);
+        let (lowest, speed) = (LowestModes::new(&damped), rad_per_s(1540.0));
         let mut modes = lowest.at(speed, LOOKED_AT).unwrap();
         assert!(GrowingModes::damped(&damped, &lowest, speed, &modes).is_clean());
         let growing = modes.iter().position(|mode| mode.growth_per_s() > 0.0);

@@ -25,6 +25,7 @@ mod growing;
 mod heat;
 mod hidden_growth;
 mod interpolation;
+mod listed;
 mod loci;
 mod matching;
 mod maximum;

@@ -144,7 +144,15 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
         writeln!(text, "{}", wrapped(&line))?;
     }
     let error = certificate.max_backward_error;
-    writeln!(text, "Largest backward error of a mode: {error:.0e}")?;
+    let listed = certificate
+        .max_listed_backward_error
+        .map_or(String::new(), |error| {
+            format!("; of an eigenvalue listed: {error:.0e}")
+        });
+    writeln!(
+        text,
+        "Largest backward error of a mode: {error:.0e}{listed}"
+    )?;
     if let Some(error) = report.accuracy.estimated_relative_error {
         writeln!(
             text,

@@ -75,6 +75,7 @@ pub fn dense_analysis(
         estimates: None,
         modes_at_rest: Vec::new(),
         fastest_operating: None,
+        listed_backward_error: None,
         heat: None,
         crossings: Vec::new(),
         idling: None,

@@ -11,7 +11,7 @@
 //! wrong sign would show.
 
 use faer::{Mat, c64};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Dyn, LU};
 
 use super::super::argument::turn_along;
 use super::coupling::Columns;
@@ -113,12 +113,24 @@ impl DampedBasis {
     }
 
     fn determinant_angle(&self, speed: f64, lambda: c64) -> Option<f64> {
-        let spring = self
-            .springs
-            .iter()
-            .map(|columns| (columns, lambda * self.guide_retardation_s + 1.0));
-        let damper = self.dampers.iter().map(|columns| (columns, lambda));
-        let parts: Vec<(&Columns, c64)> = spring.chain(damper).collect();
+        let eliminated = self.eliminated(speed, lambda)?;
+        let blocks = eliminated.blocks.iter();
+        let mut angle: f64 = blocks.map(|block| block.determinant().arg()).sum();
+        let factors = eliminated.core.partial_piv_lu();
+        let swaps = factors.P().arrays().0;
+        angle += if is_odd(swaps) {
+            std::f64::consts::PI
+        } else {
+            0.0
+        };
+        let upper = factors.U();
+        angle += (0..upper.nrows()).map(|i| upper[(i, i)].arg()).sum::<f64>();
+        angle.is_finite().then_some(angle)
+    }
+
+    /// L(λ) with its blocks factored. `None` where one is singular.
+    pub(super) fn eliminated(&self, speed: f64, lambda: c64) -> Option<Eliminated> {
+        let parts = self.parts(lambda);
         let count: usize = parts
             .iter()
             .map(|(columns, _)| columns.cosine.ncols())
@@ -128,9 +140,9 @@ impl DampedBasis {
             .iter()
             .map(|h| h.radial() * h.signs().count())
             .sum();
-        let mut left = Mat::<c64>::zeros(rows, count);
-        let mut right = Mat::<c64>::zeros(rows, count);
-        let mut angle = 0.0;
+        let mut adjoint = Mat::<c64>::zeros(count, rows);
+        let mut solved_columns = Mat::<c64>::zeros(rows, count);
+        let mut blocks = Vec::new();
         let (mut own, mut wave) = (0, 0);
         for (k, harmonic) in self.harmonics.iter().enumerate() {
             let radial = harmonic.radial();
@@ -138,7 +150,6 @@ impl DampedBasis {
                 let turned = [1.0, -1.0][sign];
                 let n = turned * harmonic.diameters as f64;
                 let factors = self.block(k, speed, lambda, n).lu();
-                angle += factors.determinant().arg();
                 let p = DMatrix::from_fn(radial, count, |j, column| {
                     let (cosine, sine) = entry(&parts, own + j, column);
                     c64::new(cosine, -turned * sine)
@@ -146,16 +157,39 @@ impl DampedBasis {
                 let solved = factors.solve(&p)?;
                 for column in 0..count {
                     for j in 0..radial {
-                        left[(wave + j, column)] = p[(j, column)].conj();
-                        right[(wave + j, column)] = solved[(j, column)];
+                        adjoint[(column, wave + j)] = p[(j, column)].conj();
+                        solved_columns[(wave + j, column)] = solved[(j, column)];
                     }
                 }
+                blocks.push(factors);
                 wave += radial;
             }
             own += radial;
         }
-        angle += core_angle(left.transpose() * &right, &parts);
-        angle.is_finite().then_some(angle)
+        let mut core = &adjoint * &solved_columns;
+        weigh(&parts, &mut core);
+        (0..count).for_each(|i| core[(i, i)] += 1.0);
+        Some(Eliminated {
+            blocks,
+            adjoint,
+            solved_columns,
+            core,
+        })
+    }
+
+    /// The columns of springs and of dampers, each with its W(λ).
+    pub(super) fn parts(&self, lambda: c64) -> Vec<(&Columns, c64)> {
+        let spring = self
+            .springs
+            .iter()
+            .map(|columns| (columns, lambda * self.guide_retardation_s + 1.0));
+        let damper = self.dampers.iter().map(|columns| (columns, lambda));
+        spring.chain(damper).collect()
+    }
+
+    /// The harmonics.
+    pub(super) fn harmonics(&self) -> impl Iterator<Item = &Harmonic> {
+        self.harmonics.iter()
     }
 
     /// B_n + μ² + ηK_b μ + c(λ + insΩ), μ = λ + inΩ.
@@ -177,26 +211,29 @@ impl DampedBasis {
     }
 }
 
-/// Argument of det(1 + WPᵀB⁻¹P), W the weights of what touches the blade, of PᵀB⁻¹P.
-fn core_angle(mut core: Mat<c64>, parts: &[(&Columns, c64)]) -> f64 {
-    let count = core.ncols();
+/// L(λ) = A + PWPᴴ in waves, with A factored.
+pub(super) struct Eliminated {
+    /// The blocks of A.
+    pub blocks: Vec<LU<c64, Dyn, Dyn>>,
+    /// Pᴴ.
+    pub adjoint: Mat<c64>,
+    /// A⁻¹P.
+    pub solved_columns: Mat<c64>,
+    /// 1 + W PᴴA⁻¹P.
+    pub core: Mat<c64>,
+}
+
+/// W times the rows of a matrix.
+pub(super) fn weigh(parts: &[(&Columns, c64)], matrix: &mut Mat<c64>) {
     let mut row = 0;
     for (columns, weight) in parts {
         for i in row..row + columns.cosine.ncols() {
-            for k in 0..count {
-                core[(i, k)] *= weight;
+            for k in 0..matrix.ncols() {
+                matrix[(i, k)] *= weight;
             }
-            core[(i, i)] += 1.0;
         }
         row += columns.cosine.ncols();
     }
-    let factors = core.partial_piv_lu();
-    let swaps = match is_odd(factors.P().arrays().0) {
-        true => std::f64::consts::PI,
-        false => 0.0,
-    };
-    let upper = factors.U();
-    swaps + (0..count).map(|i| upper[(i, i)].arg()).sum::<f64>()
 }
 
 /// τ where C = τK.

@@ -1,0 +1,109 @@
+//! Eigenpairs of a reduced model, made right on the whole basis.
+//!
+//! Newton's method on L(λ)q = 0, qᴴδq = 0: δq = −L⁻¹r − δλ L⁻¹L′q, r = L(λ)q being the residual with the matrices of the
+//! whole basis. The solves by blocks and columns leave out what the guides' columns leave out, which slows the
+//! convergence and does not limit it.
+
+use faer::{Col, c64};
+
+use super::derivative::with_lambda;
+use super::error::SpectrumError;
+use super::inertia::DampedBasis;
+use super::mode::Mode;
+use super::model::SpectralModel;
+use super::residual::Lifted;
+use super::vectors::{real_times, unit};
+use crate::system::GyroscopicSystem;
+
+/// An eigenvalue and how right it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RefinedPair {
+    /// λ, in 1/s.
+    pub lambda: c64,
+    /// Backward error on the whole basis.
+    pub backward_error: f64,
+}
+
+/// Steps at most: the first is mostly enough.
+const STEPS: usize = 5;
+/// Backward error that is rounding.
+const ROUNDING: f64 = 1e-15;
+/// An eigenvalue found further away than this, relatively, is another one.
+const SAME: f64 = 1e-4;
+
+impl SpectralModel {
+    /// The eigenvalue next to an expected one, refined on the whole basis. `None` where the reduced model has none
+    /// there, and where the iteration leaves it.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn refined(
+        &self,
+        basis: &DampedBasis,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Result<Option<RefinedPair>, SpectrumError> {
+        let modes = self.all_modes(speed_rad_per_s)?;
+        let distance = |lambda: c64| (lambda - expected).norm();
+        let nearest = |x: &&Mode, y: &&Mode| distance(x.lambda).total_cmp(&distance(y.lambda));
+        let Some(mode) = modes.iter().min_by(nearest) else {
+            return Ok(None);
+        };
+        let component = &self.components[mode.component];
+        let mut best: Option<RefinedPair> = None;
+        let mut lambda = mode.lambda;
+        let mut shape = unit(
+            component
+                .lifted(speed_rad_per_s, &mode.coordinates)
+                .as_ref(),
+        );
+        for step in 0..=STEPS {
+            let residual = residual(&component.full, speed_rad_per_s, lambda, &shape);
+            let lifted = Lifted { shape, residual };
+            let norms = component.norms();
+            let backward_error = norms.backward_error(speed_rad_per_s, lambda, &lifted);
+            if best.is_none_or(|best| backward_error < best.backward_error) {
+                best = Some(RefinedPair {
+                    lambda,
+                    backward_error,
+                });
+            }
+            if backward_error <= ROUNDING || step == STEPS {
+                break;
+            }
+            let corrected = corrected(&component.full, basis, speed_rad_per_s, lambda, &lifted);
+            let Some(next) = corrected else { break };
+            (lambda, shape) = next;
+        }
+        // A real eigenvalue stays real.
+        if let (Some(best), true) = (&mut best, mode.lambda.im == 0.0) {
+            best.lambda.im = 0.0;
+        }
+        Ok(best.filter(|best| distance(best.lambda) <= SAME * expected.norm()))
+    }
+}
+
+/// (λ² + λD + K) q.
+fn residual(system: &GyroscopicSystem, speed: f64, lambda: c64, q: &Col<c64>) -> Col<c64> {
+    let stiffness = real_times(&system.stiffness_at(speed), q);
+    let velocity = real_times(&system.velocity_at(speed), q);
+    Col::from_fn(q.nrows(), |i| {
+        lambda * lambda * q[i] + lambda * velocity[i] + stiffness[i]
+    })
+}
+
+/// One step.
+fn corrected(
+    system: &GyroscopicSystem,
+    basis: &DampedBasis,
+    speed: f64,
+    lambda: c64,
+    Lifted { shape, residual }: &Lifted,
+) -> Option<(c64, Col<c64>)> {
+    let slope = with_lambda(system, speed, lambda, shape);
+    let [u, v] = basis.solved(speed, lambda, [residual, &slope])?;
+    let change = -(shape.adjoint() * &u) / (shape.adjoint() * &v);
+    let next = Col::from_fn(shape.nrows(), |i| shape[i] - u[i] - change * v[i]);
+    let lambda = lambda + change;
+    (lambda.is_finite() && next.is_all_finite()).then(|| (lambda, unit(next.as_ref())))
+}

@@ -1,0 +1,182 @@
+//! The eigenvalues that a report lists besides those at rest, refined on the whole basis: peaks of bands, and the
+//! fastest growing or slowest decaying mode at the operating speed.
+
+use faer::c64;
+use rayon::prelude::*;
+
+use super::band::Instability;
+use crate::spectrum::{DampedBasis, DescribedMode, RefinedPair, SpectralModel, SpectrumError};
+
+/// Eigenvalues refined on the whole basis, and the largest backward error among them.
+pub(super) struct Listed {
+    basis: Option<DampedBasis>,
+    /// `None` where one could not be refined.
+    largest_error: Option<f64>,
+}
+
+impl Listed {
+    /// Begins with the modes at rest, which are those of the whole basis.
+    pub fn new(model: &SpectralModel, modes_at_rest: &[DescribedMode]) -> Self {
+        let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
+        let is_guided = !model.plate.is_axisymmetric();
+        Listed {
+            basis: is_guided.then(|| DampedBasis::new(&model.plate)).flatten(),
+            largest_error: Some(errors.fold(0.0, f64::max)),
+        }
+    }
+
+    /// Refines growth and frequency at the peaks of bands.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn refine_peaks(
+        &mut self,
+        model: &SpectralModel,
+        bands: &mut [Instability],
+    ) -> Result<(), SpectrumError> {
+        let refined: Result<Vec<Option<RefinedPair>>, SpectrumError> = bands
+            .par_iter()
+            .map(|band| {
+                let expected = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+                self.refined(model, band.peak_rad_per_s, expected)
+            })
+            .collect();
+        for (band, refined) in bands.iter_mut().zip(refined?) {
+            self.note(refined);
+            if let Some(RefinedPair { lambda, .. }) = refined {
+                band.peak_growth_per_s = lambda.re;
+                band.frequency_rad_per_s = lambda.im.abs();
+            }
+        }
+        Ok(())
+    }
+
+    /// Refines an eigenvalue of a speed; one that neither grows nor decays stays so.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn refine(
+        &mut self,
+        model: &SpectralModel,
+        speed_rad_per_s: f64,
+        lambda: c64,
+    ) -> Result<c64, SpectrumError> {
+        let refined = self.refined(model, speed_rad_per_s, lambda)?;
+        self.note(refined);
+        let re = |refined: RefinedPair| match lambda.re == 0.0 {
+            true => 0.0,
+            false => refined.lambda.re,
+        };
+        Ok(refined.map_or(lambda, |refined| c64::new(re(refined), refined.lambda.im)))
+    }
+
+    /// Largest backward error of what is listed; `None` where one could not be refined.
+    pub fn largest_error(&self) -> Option<f64> {
+        self.largest_error
+    }
+
+    fn refined(
+        &self,
+        model: &SpectralModel,
+        speed: f64,
+        expected: c64,
+    ) -> Result<Option<RefinedPair>, SpectrumError> {
+        match &self.basis {
+            Some(basis) => model.refined(basis, speed, expected),
+            None => Ok(None),
+        }
+    }
+
+    fn note(&mut self, refined: Option<RefinedPair>) {
+        let errors = self.largest_error.zip(refined);
+        self.largest_error = errors.map(|(largest, pair)| largest.max(pair.backward_error));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::linalg::solvers::Solve;
+    use faer::{Col, Mat};
+
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Accuracy, Scene, rad_per_s};
+    use crate::spectrum::{Strategy, companion_eigenpairs};
+    use crate::stability::{InstabilityKind, chart};
+    use crate::system::GyroscopicSystem;
+
+    /// Inverse iteration with factorizations of the whole matrix, from the dense eigenvalue next to one.
+    fn exact(system: &GyroscopicSystem, speed: f64, near: c64) -> c64 {
+        let distance = |lambda: c64| (lambda - near).norm();
+        let pairs = companion_eigenpairs(system, speed).unwrap();
+        let nearest = pairs
+            .into_iter()
+            .min_by(|x, y| distance(x.0).total_cmp(&distance(y.0)));
+        let (mut lambda, mut q) = nearest.unwrap();
+        let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
+        let order = system.order();
+        for _ in 0..3 {
+            let whole = Mat::from_fn(order, order, |i, k| {
+                let unit = if i == k {
+                    lambda * lambda
+                } else {
+                    c64::new(0.0, 0.0)
+                };
+                unit + lambda * velocity[(i, k)] + stiffness[(i, k)]
+            });
+            let slope = Mat::from_fn(order, 1, |i, _| {
+                let carried: c64 = (0..order).map(|k| q[k] * velocity[(i, k)]).sum();
+                lambda * q[i] * 2.0 + carried
+            });
+            let solved = whole.partial_piv_lu().solve(&slope);
+            let share = q.adjoint() * solved.col(0);
+            lambda -= 1.0 / share * q.norm_l2().powi(2);
+            let norm = solved.norm_l2();
+            q = Col::from_fn(order, |i| solved[(i, 0)] / norm);
+        }
+        lambda
+    }
+
+    /// Growth and frequency at the peaks of bands, and at a speed, of an undamped and of a damped saw, against dense
+    /// solves with the whole matrix.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn listed_eigenvalues_are_those_of_the_whole_basis() {
+        let damped = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
+        for (scene, least) in [(Scene::paper(), 6), (damped.unwrap(), 2)] {
+            let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
+            let range = (0.0, rad_per_s(2600.0));
+            let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+            let mut bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
+            let mut listed = Listed::new(&model, &[]);
+            listed.refine_peaks(&model, &mut bands).unwrap();
+            assert!(bands.len() >= least, "{}", bands.len());
+            let system = &model.components[0].full;
+            let lowest = model.modes(0.0).unwrap()[0].frequency_rad_per_s();
+            for band in &bands {
+                let is_real = band.kind == InstabilityKind::Divergence;
+                assert_eq!(band.frequency_rad_per_s == 0.0, is_real);
+                let found = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+                let exact = exact(system, band.peak_rad_per_s, found);
+                // Of divergence rounding is that of λ², beside the lowest frequency's.
+                let error = (found - exact).norm() / exact.norm().max(lowest);
+                println!(
+                    "{:.3} rpm {found}: {error:e}",
+                    crate::scene::rpm(band.peak_rad_per_s)
+                );
+                assert!(error < 1e-12, "{found}: {error:e}");
+            }
+            let speed = rad_per_s(1000.0);
+            let modes = model.modes(speed).unwrap();
+            for mode in modes.iter().take(6) {
+                let found = listed.refine(&model, speed, mode.lambda).unwrap();
+                let exact = exact(system, speed, found);
+                let error = (found - exact).norm() / exact.norm();
+                assert!(error < 1e-12, "{found}: {error:e}");
+            }
+            let largest = listed.largest_error().unwrap();
+            println!("largest backward error {largest:e}");
+            assert!(largest < 1e-13, "{largest:e}");
+        }
+    }
+}
