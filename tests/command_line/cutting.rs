@@ -44,6 +44,16 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
         (2800.0, Verdict::Unstable, Some(true)),
     ];
     assert_eq!(verdicts, expected);
+    // The certificate of each speed, in both faces, with as many growing modes as the verdict says.
+    let in_one_line = summary.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (run, growing) in report.runs.iter().zip([0, 1]) {
+        let certificate = &run.certificate;
+        assert!(certificate.is_clean(), "{certificate:?}");
+        let modes = [certificate.growing_modes, certificate.idle_growing_modes];
+        assert_eq!(modes, [growing, 0]);
+        assert!(certificate.full_basis_counts > 2, "{certificate:?}");
+        assert!(in_one_line.contains(&certificate.statement), "{summary}");
+    }
     // The JSON is for programs in other languages too: no number in it is not one.
     assert!(!text(&json).contains("NaN"));
 }

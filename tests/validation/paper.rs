@@ -46,6 +46,14 @@ fn guided_modes_at_rest() {
     worst.assert_at_most("paper's saw, modes at rest", 1e-3);
 }
 
+/// At reference accuracy what the report lists is right to rounding on the whole basis.
+#[test]
+fn listed_eigenvalues_have_a_backward_error_of_rounding() {
+    let certificate = guided().report().certificate;
+    let error = certificate.max_listed_backward_error;
+    assert!(error.is_some_and(|error| error < 1e-12), "{error:?}");
+}
+
 /// The pad splits each pair of waves.
 #[test]
 fn guided_critical_speeds() {
