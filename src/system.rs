@@ -213,7 +213,7 @@ impl GyroscopicSystem {
     ///
     /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until
     /// the other's momentum vanishes.
-    pub(crate) fn standing_spin(&self) -> Mat<f64> {
+    pub fn standing_spin(&self) -> Mat<f64> {
         match &self.drift {
             Some(drift) => &self.spin + drift,
             None => self.spin.clone(),
