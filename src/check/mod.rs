@@ -26,6 +26,7 @@ use crate::stability::AnalysisError;
 use crate::stability::{Analysis, Instability, verdict};
 use crate::system::GyroscopicSystem;
 
+#[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 use static_deflection::{StaticDeflection, point};

@@ -50,7 +50,10 @@ pub use membrane::{
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
-pub(crate) use quantity::{QUANTITIES, Quantity, unusual, unusual_number};
+#[cfg(feature = "explore")]
+pub(crate) use quantity::{QUANTITIES, Quantity};
+pub(crate) use quantity::{unusual, unusual_number};
+#[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use refused::RefusedValue;

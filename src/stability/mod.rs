@@ -64,6 +64,7 @@ pub use onsets::Onsets;
 pub use onsets::search_bands;
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
+#[cfg(feature = "cli")]
 pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]

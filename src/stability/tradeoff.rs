@@ -126,6 +126,7 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
 }
 
 /// The cheapest chart that is within an error.
+#[cfg(any(feature = "cli", test))]
 pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
     settings
         .iter()

@@ -10,6 +10,7 @@ mod problem;
 mod token;
 
 pub(crate) use fault::KeyedError;
+#[cfg(feature = "cli")]
 pub(crate) use file::read_stream;
 pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
