@@ -13,6 +13,8 @@ pub struct Closeness {
     pub chord: f64,
     /// How far below the top of the chart a line may end, as a share of its height.
     pub end: f64,
+    /// Likeness of two shapes from which they are surely the same mode.
+    pub alike: f64,
     /// Times that a step may be halved.
     pub halvings: usize,
 }
@@ -22,6 +24,7 @@ impl Closeness {
     pub const FIGURE: Closeness = Closeness {
         chord: 0.003,
         end: 0.01,
+        alike: 0.7,
         halvings: 6,
     };
     /// Of a sketch that is looked at for a moment: the branches are followed, but drawn with
@@ -29,12 +32,11 @@ impl Closeness {
     pub const SKETCH: Closeness = Closeness {
         chord: 0.02,
         end: 0.1,
+        alike: 0.3,
         halvings: 3,
     };
 }
 
-/// Shapes less alike are not surely the same mode.
-const SURELY_ALIKE: f64 = 0.7;
 /// How far a square of a growth rate may be from the line between its neighbours, as a share
 /// of the larger one: a parabola that is known at five of its points is left as it is.
 const GROWTH_CHORD: f64 = 0.13;
@@ -94,7 +96,7 @@ fn is_doubtful(
     };
     let doubtful = |m: &Match| {
         let ends = [&before.modes[m.before], &after.modes[m.after]];
-        m.likeness < SURELY_ALIKE
+        m.likeness < closeness.alike
             || bend(ends, step) > closeness.chord * height
             || growth_bends(model, ends, [before.speed_rad_per_s, after.speed_rad_per_s])
     };

@@ -10,10 +10,10 @@ use faer::{Col, Mat, Scale};
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
-use super::companion::companion_eigenpairs;
 use super::component::ReflectedProjection;
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
+use super::half_order;
 use super::inertia::WholeBasis;
 use super::mode::{ModeKind, classify};
 use super::projection::Projection;
@@ -349,7 +349,7 @@ impl<'a> Builder<'a> {
 
     fn pairs(&self, projection: &Projection, speed: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        companion_eigenpairs(&projection.reduced, speed)
+        half_order::eigenpairs(&projection.reduced, speed)
     }
 }
 

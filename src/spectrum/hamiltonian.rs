@@ -13,8 +13,10 @@ use faer::{Col, Mat, Scale, c64};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
+use super::canonical::{canonical_basis, turned};
 use super::error::SpectrumError;
-use super::real_eigen::RealEigen;
+use super::half_order::{hamiltonian_eigenpairs, upper_eigenpairs};
+use super::real_eigen::NoConvergence;
 use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
@@ -43,16 +45,21 @@ impl State {
 /// A system projected on few states.
 #[derive(Debug, Clone)]
 pub struct HamiltonianReduction {
+    /// q of the states W that it is projected on.
     deflections: Mat<f64>,
     /// (WᵀJᵀW)⁻¹ Wᵀ S_k W in units of `scale`.
     terms: [Mat<f64>; 3],
     scale: f64,
+    /// Whether WᵀJᵀW is Jᵀ again.
+    is_canonical: bool,
 }
 
 /// States closer than this to the span of the others are left out.
 const SPAN_TOLERANCE: f64 = 1e-9;
 /// Smallest pivot of the symplectic form that can be divided by.
 const LEAST_PIVOT: f64 = 1e-9;
+/// Order of the projection on two modes.
+const ORDER_OF_TWO_MODES: usize = 4;
 
 impl HamiltonianReduction {
     /// Projects a system on the real and imaginary parts of states; `scale`, in 1/s, makes
@@ -86,20 +93,31 @@ impl HamiltonianReduction {
         let cross = gq.transpose() * p;
         let linear = Scale(-scale) * (&cross + cross.transpose());
         let square = q.transpose() * &system.spin * q + gq.transpose() * &gq;
+        let terms = [rest, linear, square].map(|term| Scale(scale.powi(-2)) * term);
+        // Two modes are asked for their invariants alone.
+        let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
+            true => canonical_basis(form.clone()),
+            false => None,
+        };
+        if let Some(canonical) = canonical {
+            return Some(HamiltonianReduction {
+                deflections: q * &canonical,
+                terms: terms.map(|term| turned(canonical.transpose() * term * &canonical)),
+                scale,
+                is_canonical: true,
+            });
+        }
         let factors = form.partial_piv_lu();
         let upper = factors.U();
         let singular = (0..form.nrows()).any(|i| {
             let pivot: f64 = upper[(i, i)];
             pivot.is_nan() || pivot.abs() < LEAST_PIVOT
         });
-        if singular {
-            return None;
-        }
-        let over_form = |term: Mat<f64>| factors.solve(Scale(scale.powi(-2)) * term);
-        Some(HamiltonianReduction {
+        (!singular).then(|| HamiltonianReduction {
             deflections: q.to_owned(),
-            terms: [rest, linear, square].map(over_form),
+            terms: terms.map(|term| factors.solve(term)),
             scale,
+            is_canonical: false,
         })
     }
 
@@ -120,16 +138,19 @@ impl HamiltonianReduction {
     /// [`SpectrumError::NoConvergence`].
     pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
         let matrix = self.matrix(speed_rad_per_s);
-        let failed = |_| SpectrumError::NoConvergence {
+        let failed = |_: NoConvergence| SpectrumError::NoConvergence {
             order: matrix.nrows(),
             rpm: rpm(speed_rad_per_s),
         };
-        let eigen = RealEigen::new(matrix.as_ref()).map_err(failed)?;
-        let upper = eigen.upper();
-        let shapes = &self.deflections * eigen.halves_of(&upper);
-        let pairs = upper.iter().enumerate().map(|(k, &i)| {
+        let found = match self.is_canonical {
+            true => hamiltonian_eigenpairs(matrix.as_ref()),
+            false => upper_eigenpairs(matrix.as_ref()),
+        };
+        let found = found.map_err(failed)?;
+        let shapes = &self.deflections * found.halves;
+        let pairs = found.lambdas.into_iter().enumerate().map(|(k, lambda)| {
             let q = joined(&shapes, k);
-            (eigen.values[i] * self.scale, unit(q.as_ref()))
+            (lambda * self.scale, unit(q.as_ref()))
         });
         Ok(by_magnitude(pairs.collect()))
     }
