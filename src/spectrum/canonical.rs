@@ -70,7 +70,7 @@ mod tests {
     #[test]
     fn a_skew_form_becomes_the_canonical_one() {
         let form = |order: usize| {
-            let wave = |i: usize, k: usize| ((3 * i * i + 7 * k) as f64).sin();
+            let wave = |i: usize, k: usize| ((3 * i * i + 5 * i * k * k + 7 * k) as f64).sin();
             Mat::from_fn(order, order, |i, k| wave(i, k) - wave(k, i))
         };
         for half in [1, 2, 7, 20] {

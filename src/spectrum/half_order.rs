@@ -15,6 +15,7 @@ use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, unit};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
+use crate::tuned::Tuned;
 
 /// Share of a vector that is left beside the span of the others, below which it is rounding.
 const BREAKDOWN: f64 = 1e-14;
@@ -61,19 +62,28 @@ fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f
     (matrix, scale)
 }
 
+/// Share of the square's norm from which it tells squares from zero and from one another. Rounding takes
+/// 1e-15 of the norm, and its root where two coalesce.
+const LEAST_APART: Tuned = Tuned::new("spectrum/half_order::LEAST_APART", 1e-8);
+
 /// λ with Im λ ≥ 0, and the real and imaginary parts of their vectors side by side, two columns each.
 pub struct UpperPairs {
     pub lambdas: Vec<c64>,
     pub halves: Mat<f64>,
 }
 
-/// Eigenpairs of a Hamiltonian matrix.
+/// Eigenpairs of a Hamiltonian matrix. Where squares are next to zero or to one another, at critical
+/// speeds and where waves coalesce, those of an eigenproblem of its order.
 ///
 /// # Errors
-/// [`NoConvergence`] where the eigenproblem of half the order does not converge.
+/// [`NoConvergence`] where the eigenproblem does not converge.
 pub fn hamiltonian_eigenpairs(matrix: MatRef<'_, f64>) -> Result<UpperPairs, NoConvergence> {
-    let (span, compressed) = isotropic(&(matrix * matrix));
+    let square = matrix * matrix;
+    let (span, compressed) = isotropic(&square);
     let eigen = RealEigen::new(compressed.as_ref())?;
+    if !are_apart(&eigen.values, LEAST_APART.get() * square.norm_l2()) {
+        return upper_eigenpairs(matrix);
+    }
     let all: Vec<usize> = (0..compressed.nrows()).collect();
     let of_square = &span * eigen.halves_of(&all);
     let turned = matrix * &of_square;
@@ -105,6 +115,14 @@ pub fn upper_eigenpairs(matrix: MatRef<'_, f64>) -> Result<UpperPairs, NoConverg
     Ok(UpperPairs {
         lambdas: upper.iter().map(|&i| eigen.values[i]).collect(),
         halves: eigen.halves_of(&upper),
+    })
+}
+
+/// Whether no square is nearer than `least` to zero or to another.
+fn are_apart(squares: &[c64], least: f64) -> bool {
+    squares.iter().enumerate().all(|(k, square)| {
+        let mut above = squares[k + 1..].iter();
+        square.norm() > least && above.all(|other| (square - other).norm() > least)
     })
 }
 

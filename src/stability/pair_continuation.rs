@@ -175,27 +175,34 @@ impl<'a> PairContinuation<'a> {
         (slopes, bend)
     }
 
-    /// The speed next to which σ² or ω² is zero, on the way to `end`.
-    fn root(&self, end: f64) -> Option<Edge> {
-        let (slopes, _) = self.derivatives(NEWTON_DIFFERENCE.get());
-        let direction = (end - self.speed).signum();
-        let squares = self.squares();
+    /// What is known of σ² and ω² here.
+    fn looked(&self) -> Looked {
+        Looked {
+            speed: self.speed,
+            squares: self.squares(),
+            slopes: self.derivatives(NEWTON_DIFFERENCE.get()).0,
+        }
+    }
+
+    /// The speed next to which σ² or ω² is zero, on the way to `end`: that of the cubic through the
+    /// speed looked at before and this one, or of the tangent.
+    fn root(here: &Looked, before: Option<&Looked>, end: f64) -> Option<Edge> {
+        let direction = (end - here.speed).signum();
         let of = |k: usize, coalescence| {
-            // Past its root Newton's method comes back.
-            let falls = slopes[k] * direction < 0.0;
-            let speed_rad_per_s = self.speed - squares[k] / slopes[k];
-            let left = speed_rad_per_s - self.speed;
-            let at_root = [0, 1].map(|k| squares[k] + slopes[k] * left);
-            falls.then_some(Edge {
-                speed_rad_per_s,
+            let left = before
+                .and_then(|before| here.root_of_cubic(before, k, direction))
+                .or_else(|| here.root_of_tangent(k, direction))?;
+            let at_root = [0, 1].map(|k| here.squares[k] + here.slopes[k] * left);
+            Some(Edge {
+                speed_rad_per_s: here.speed + left,
                 coalescence,
                 frequency_rad_per_s: at_root[1].max(0.0).sqrt(),
                 growth_square: at_root[0].max(0.0),
-                growth_square_slope: slopes[0],
+                growth_square_slope: here.slopes[0],
             })
         };
         let edges = [of(0, Coalescence::Waves), of(1, Coalescence::Real)];
-        let away = |edge: &Edge| (edge.speed_rad_per_s - self.speed) * direction;
+        let away = |edge: &Edge| (edge.speed_rad_per_s - here.speed) * direction;
         let edges = edges.into_iter().flatten();
         edges.min_by(|x, y| away(x).total_cmp(&away(y)))
     }
@@ -208,8 +215,10 @@ impl<'a> PairContinuation<'a> {
         // an end, a coarser model may have seen it on the other side.
         let margin = direction * VICINITY.get() * self.speed;
         let (mut inside, mut outside) = (start - margin, end + margin);
+        let mut before: Option<Looked> = None;
         for _ in 0..MAX_STEPS {
-            let found = self.root(end);
+            let here = self.looked();
+            let found = Self::root(&here, before.as_ref(), end);
             let distance = |edge: &Edge| (edge.speed_rad_per_s - self.speed).abs();
             if let Some(edge) = found.filter(|e| distance(e) <= NEWTON_TOLERANCE * self.speed) {
                 let from_start = (edge.speed_rad_per_s - start + margin) * direction;
@@ -225,6 +234,7 @@ impl<'a> PairContinuation<'a> {
                 (guess - inside) * direction > 0.0 && (outside - guess) * direction > 0.0
             };
             let next = guess.filter(between).unwrap_or(0.5 * (inside + outside));
+            before = Some(here);
             self = self.to(next)?;
             let [growth, frequency] = self.squares();
             if growth > 0.0 && frequency > 0.0 {
@@ -283,6 +293,48 @@ impl<'a> PairContinuation<'a> {
         None
     }
 }
+
+/// σ² and ω² of a pair at a speed.
+struct Looked {
+    speed: f64,
+    squares: [f64; 2],
+    slopes: [f64; 2],
+}
+
+impl Looked {
+    /// How far the tangent's root is, where it falls that way. Past its root Newton's method comes back.
+    fn root_of_tangent(&self, k: usize, direction: f64) -> Option<f64> {
+        let falls = self.slopes[k] * direction < 0.0;
+        falls.then(|| -self.squares[k] / self.slopes[k])
+    }
+
+    /// The same of the cubic through both speeds, ahead while the square is positive and behind past
+    /// its root. σ² over a band is nearly a parabola, which a tangent misses by far.
+    fn root_of_cubic(&self, other: &Looked, k: usize, direction: f64) -> Option<f64> {
+        let width = other.speed - self.speed;
+        let (value, slope) = (self.squares[k], self.slopes[k] * width);
+        let (rise, end_slope) = (other.squares[k] - value, other.slopes[k] * width);
+        let square = 3.0 * rise - 2.0 * slope - end_slope;
+        let cube = slope + end_slope - 2.0 * rise;
+        let is_ahead = |t: &f64| (t * width * direction > 0.0) == (value > 0.0);
+        // The parabola's roots, in the form that does not cancel, and then those of the cubic.
+        let discriminant = slope * slope - 4.0 * square * value;
+        let q = -0.5 * (slope + slope.signum() * discriminant.sqrt());
+        let roots = [q / square, value / q].into_iter();
+        let nearest = roots
+            .filter(|t| t.is_finite() && is_ahead(t))
+            .min_by(|x, y| x.abs().total_cmp(&y.abs()))?;
+        let newton = |t: f64| {
+            let tangent = slope + t * (2.0 * square + 3.0 * t * cube);
+            t - (value + t * (slope + t * (square + t * cube))) / tangent
+        };
+        let root = (0..CUBIC_STEPS).fold(nearest, |t, _| newton(t));
+        (root.is_finite() && is_ahead(&root)).then_some(root * width)
+    }
+}
+
+/// Newton's steps from the root of a parabola to that of a cubic next to it.
+const CUBIC_STEPS: usize = 4;
 
 /// What the two waves do whose crossing is expected at a speed and a frequency, between two
 /// speeds at which they stand in opposite order. `None` where they cannot be followed.
