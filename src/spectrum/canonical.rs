@@ -4,10 +4,9 @@ use faer::Mat;
 
 use crate::tuned::Tuned;
 
-/// Smallest pivot of the form in units of its states. Canonical states are longer by the root of what it
-/// falls short of 1, and squares of the matrix lose the square of that: on a blade that 100 N/m
-/// hold, with pivots of 1e-6, waves next to zero turned into quadruples. Of the paper's
-/// saw the smallest is 0.018.
+/// Smallest pivot of the form between states of unit length. Canonical states are longer by the root of what it
+/// falls short of 1, and the square of their matrix loses the square of that. Of 23 projections of the paper's saw
+/// the smallest pivots are 0.018 to 0.7.
 const WELL_PAIRED: Tuned = Tuned::new("spectrum/canonical::WELL_PAIRED", 5e-3);
 
 /// T with TᵀFT = [0 −I; I 0] for a skew F, by Gram and Schmidt's method with the largest entry of F as

@@ -15,8 +15,8 @@ use crate::system::GyroscopicSystem;
 
 use super::canonical::{canonical_basis, turned};
 use super::error::SpectrumError;
-use super::half_order::{hamiltonian_eigenpairs, upper_eigenpairs};
-use super::real_eigen::NoConvergence;
+use super::half_order::hamiltonian_eigenpairs;
+use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
@@ -45,13 +45,28 @@ impl State {
 /// A system projected on few states.
 #[derive(Debug, Clone)]
 pub struct HamiltonianReduction {
-    /// q of the states W that it is projected on.
-    deflections: Mat<f64>,
-    /// (WᵀJᵀW)⁻¹ Wᵀ S_k W in units of `scale`.
-    terms: [Mat<f64>; 3],
+    /// In orthonormal states.
+    own: Coordinates,
+    /// In states W with WᵀJᵀW = Jᵀ, where they are good for an eigenproblem of half the order.
+    canonical: Option<Coordinates>,
     scale: f64,
-    /// Whether WᵀJᵀW is Jᵀ again.
-    is_canonical: bool,
+}
+
+/// A basis W of states.
+#[derive(Debug, Clone)]
+struct Coordinates {
+    /// q of the states.
+    deflections: Mat<f64>,
+    /// (WᵀJᵀW)⁻¹ Wᵀ S_k W in units of the scale.
+    terms: [Mat<f64>; 3],
+}
+
+impl Coordinates {
+    /// A with ż = Az, in units of the scale.
+    fn matrix(&self, speed: f64) -> Mat<f64> {
+        let [rest, linear, square] = &self.terms;
+        rest + Scale(speed) * linear + Scale(speed * speed) * square
+    }
 }
 
 /// States closer than this to the span of the others are left out.
@@ -99,14 +114,6 @@ impl HamiltonianReduction {
             true => canonical_basis(form.clone()),
             false => None,
         };
-        if let Some(canonical) = canonical {
-            return Some(HamiltonianReduction {
-                deflections: q * &canonical,
-                terms: terms.map(|term| turned(canonical.transpose() * term * &canonical)),
-                scale,
-                is_canonical: true,
-            });
-        }
         let factors = form.partial_piv_lu();
         let upper = factors.U();
         let singular = (0..form.nrows()).any(|i| {
@@ -114,22 +121,21 @@ impl HamiltonianReduction {
             pivot.is_nan() || pivot.abs() < LEAST_PIVOT
         });
         (!singular).then(|| HamiltonianReduction {
-            deflections: q.to_owned(),
-            terms: terms.map(|term| factors.solve(term)),
+            canonical: canonical.map(|basis| Coordinates {
+                deflections: q * &basis,
+                terms: [0, 1, 2].map(|k| turned(basis.transpose() * &terms[k] * &basis)),
+            }),
+            own: Coordinates {
+                deflections: q.to_owned(),
+                terms: terms.map(|term| factors.solve(term)),
+            },
             scale,
-            is_canonical: false,
         })
     }
 
     /// Number of states.
     pub fn order(&self) -> usize {
-        self.deflections.ncols()
-    }
-
-    /// A with ż = Az, in units of the scale.
-    fn matrix(&self, speed: f64) -> Mat<f64> {
-        let [rest, linear, square] = &self.terms;
-        rest + Scale(speed) * linear + Scale(speed * speed) * square
+        self.own.deflections.ncols()
     }
 
     /// Eigenpairs (λ, q) with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|.
@@ -137,28 +143,40 @@ impl HamiltonianReduction {
     /// # Errors
     /// [`SpectrumError::NoConvergence`].
     pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let matrix = self.matrix(speed_rad_per_s);
         let failed = |_: NoConvergence| SpectrumError::NoConvergence {
-            order: matrix.nrows(),
+            order: self.order(),
             rpm: rpm(speed_rad_per_s),
         };
-        let found = match self.is_canonical {
-            true => hamiltonian_eigenpairs(matrix.as_ref()),
-            false => upper_eigenpairs(matrix.as_ref()),
+        let mut found = None;
+        if let Some(canonical) = &self.canonical {
+            let matrix = canonical.matrix(speed_rad_per_s);
+            let pairs = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed)?;
+            found = pairs.map(|pairs| (pairs.lambdas, &canonical.deflections * pairs.halves));
+        }
+        let (lambdas, shapes) = match found {
+            Some(found) => found,
+            None => {
+                let matrix = self.own.matrix(speed_rad_per_s);
+                let eigen = RealEigen::new(matrix.as_ref()).map_err(failed)?;
+                let upper = eigen.upper();
+                let lambdas = upper.iter().map(|&i| eigen.values[i]).collect();
+                (lambdas, &self.own.deflections * eigen.halves_of(&upper))
+            }
         };
-        let found = found.map_err(failed)?;
-        let shapes = &self.deflections * found.halves;
-        let pairs = found.lambdas.into_iter().enumerate().map(|(k, lambda)| {
-            let q = joined(&shapes, k);
-            (lambda * self.scale, unit(q.as_ref()))
-        });
+        let pairs = lambdas
+            .into_iter()
+            .enumerate()
+            .map(|(k, lambda): (_, c64)| {
+                let q = joined(&shapes, k);
+                (lambda * self.scale, unit(q.as_ref()))
+            });
         Ok(by_magnitude(pairs.collect()))
     }
 
     /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth
     /// through a merging, where the eigenvalues themselves are not.
     pub fn pair_invariants(&self, speed_rad_per_s: f64) -> (f64, f64) {
-        let matrix = self.matrix(speed_rad_per_s);
+        let matrix = self.own.matrix(speed_rad_per_s);
         let square = &matrix * &matrix;
         let trace = |m: &Mat<f64>| (0..m.nrows()).map(|i| m[(i, i)]).sum::<f64>();
         let fourth: f64 = trace(&(&square * &square));

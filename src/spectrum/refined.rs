@@ -28,8 +28,8 @@ pub struct RefinedPair {
 const STEPS: usize = 5;
 /// Backward error that is rounding.
 const ROUNDING: f64 = 1e-15;
-/// An eigenvalue found further away than this, relatively, is another one.
-const SAME: f64 = 1e-4;
+/// An eigenvalue found further away than this share of the distance to the next one is another one.
+const SAME: f64 = 0.1;
 
 impl SpectralModel {
     /// The eigenvalue next to an expected one, refined on the whole basis. `None` where the reduced model has none
@@ -79,7 +79,11 @@ impl SpectralModel {
         if let (Some(best), true) = (&mut best, mode.lambda.im == 0.0) {
             best.lambda.im = 0.0;
         }
-        Ok(best.filter(|best| distance(best.lambda) <= SAME * expected.norm()))
+        let others = modes.iter().filter(|other| !std::ptr::eq(*other, mode));
+        // The mirror image of a real eigenvalue is not among the modes.
+        let mirror = 2.0 * mode.lambda.norm();
+        let next = others.fold(mirror, |next, other| distance(other.lambda).min(next));
+        Ok(best.filter(|best| distance(best.lambda) <= SAME * next))
     }
 }
 

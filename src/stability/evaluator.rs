@@ -181,9 +181,6 @@ impl<'a> SignatureEvaluator<'a> {
                 return Ok(coarse);
             }
         }
-        if self.is_next_to_critical(speed_rad_per_s) {
-            return Ok(signature);
-        }
         if let Ok(mut violations) = self.tally.violations.lock() {
             violations.push(speed_rad_per_s);
         }
@@ -243,13 +240,6 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn spans_critical(&self, from_rad_per_s: f64, to_rad_per_s: f64) -> bool {
         let below = |speed| self.model.negative_stiffness_directions(speed);
         below(from_rad_per_s) != below(to_rad_per_s)
-    }
-
-    /// Whether a critical speed is so near that the signs of λ² are rounding: the search keeps away from there,
-    /// but a band may lie there as a whole, and be looked at for its peak.
-    fn is_next_to_critical(&self, speed_rad_per_s: f64) -> bool {
-        let away = CRITICAL_GAP.get() * speed_rad_per_s;
-        self.spans_critical(speed_rad_per_s - away, speed_rad_per_s + away)
     }
 
     /// Holds the spectrum against the inertia of the stiffness, which comes from

@@ -209,18 +209,30 @@ impl<'a> PairContinuation<'a> {
 
     /// Where the quadruple ends on the way from here to `end`, a speed at which it is not any
     /// more. `None` where it is lost on the way.
-    pub fn edge(mut self, end: f64) -> Option<Edge> {
+    pub fn edge(&self, end: f64) -> Option<Edge> {
+        let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, end));
+        by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, end)))
+    }
+
+    /// The same by a guess of the edge from what is known here and at the speed looked at before.
+    fn edge_by(
+        &self,
+        end: f64,
+        root: impl Fn(&Looked, Option<&Looked>) -> Option<Edge>,
+    ) -> Option<Edge> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
         // The last speed known inside, and the first known outside. Where the edge is next to
         // an end, a coarser model may have seen it on the other side.
-        let margin = direction * VICINITY.get() * self.speed;
+        let margin = direction * VICINITY.get() * start;
         let (mut inside, mut outside) = (start - margin, end + margin);
+        let mut followed: Option<Self> = None;
         let mut before: Option<Looked> = None;
         for _ in 0..MAX_STEPS {
-            let here = self.looked();
-            let found = Self::root(&here, before.as_ref(), end);
-            let distance = |edge: &Edge| (edge.speed_rad_per_s - self.speed).abs();
-            if let Some(edge) = found.filter(|e| distance(e) <= NEWTON_TOLERANCE * self.speed) {
+            let current = followed.as_ref().unwrap_or(self);
+            let (here, speed) = (current.looked(), current.speed);
+            let found = root(&here, before.as_ref());
+            let distance = |edge: &Edge| (edge.speed_rad_per_s - speed).abs();
+            if let Some(edge) = found.filter(|e| distance(e) <= NEWTON_TOLERANCE * speed) {
                 let from_start = (edge.speed_rad_per_s - start + margin) * direction;
                 let to_end = (end + margin - edge.speed_rad_per_s) * direction;
                 return (from_start >= 0.0 && to_end >= 0.0).then_some(edge);
@@ -229,19 +241,20 @@ impl<'a> PairContinuation<'a> {
                 Some(Coalescence::Real) => SHORT_OF_REAL,
                 _ => 1.0,
             };
-            let guess = found.map(|e| self.speed + share * (e.speed_rad_per_s - self.speed));
+            let guess = found.map(|e| speed + share * (e.speed_rad_per_s - speed));
             let between = |guess: &f64| {
                 (guess - inside) * direction > 0.0 && (outside - guess) * direction > 0.0
             };
             let next = guess.filter(between).unwrap_or(0.5 * (inside + outside));
             before = Some(here);
-            self = self.to(next)?;
-            let [growth, frequency] = self.squares();
+            let moved = current.to(next)?;
+            let [growth, frequency] = moved.squares();
             if growth > 0.0 && frequency > 0.0 {
                 inside = next;
             } else {
                 outside = next;
             }
+            followed = Some(moved);
         }
         None
     }
@@ -329,12 +342,15 @@ impl Looked {
             t - (value + t * (slope + t * (square + t * cube))) / tangent
         };
         let root = (0..CUBIC_STEPS).fold(nearest, |t, _| newton(t));
-        (root.is_finite() && is_ahead(&root)).then_some(root * width)
+        let is_near = root.abs() <= FARTHEST;
+        (is_near && is_ahead(&root)).then_some(root * width)
     }
 }
 
 /// Newton's steps from the root of a parabola to that of a cubic next to it.
 const CUBIC_STEPS: usize = 4;
+/// Distance of a root, in those between the two speeds, beyond which their cubic says less than the tangent.
+const FARTHEST: f64 = 4.0;
 
 /// What the two waves do whose crossing is expected at a speed and a frequency, between two
 /// speeds at which they stand in opposite order. `None` where they cannot be followed.
