@@ -5,8 +5,11 @@
 //! opposite Krein sign, and ω² where it goes on as two real λ. These roots are well conditioned;
 //! the root of the growth rate itself, which starts like a square root, is not.
 
+mod looked;
+
 use faer::c64;
 
+use self::looked::Looked;
 use super::evaluator::SignatureEvaluator;
 use super::maximum::{Sample, maximise};
 use super::signature::SignedMode;
@@ -306,51 +309,6 @@ impl<'a> PairContinuation<'a> {
         None
     }
 }
-
-/// σ² and ω² of a pair at a speed.
-struct Looked {
-    speed: f64,
-    squares: [f64; 2],
-    slopes: [f64; 2],
-}
-
-impl Looked {
-    /// How far the tangent's root is, where it falls that way. Past its root Newton's method comes back.
-    fn root_of_tangent(&self, k: usize, direction: f64) -> Option<f64> {
-        let falls = self.slopes[k] * direction < 0.0;
-        falls.then(|| -self.squares[k] / self.slopes[k])
-    }
-
-    /// The same of the cubic through both speeds, ahead while the square is positive and behind past
-    /// its root. σ² over a band is nearly a parabola, which a tangent misses by far.
-    fn root_of_cubic(&self, other: &Looked, k: usize, direction: f64) -> Option<f64> {
-        let width = other.speed - self.speed;
-        let (value, slope) = (self.squares[k], self.slopes[k] * width);
-        let (rise, end_slope) = (other.squares[k] - value, other.slopes[k] * width);
-        let square = 3.0 * rise - 2.0 * slope - end_slope;
-        let cube = slope + end_slope - 2.0 * rise;
-        let is_ahead = |t: &f64| (t * width * direction > 0.0) == (value > 0.0);
-        // The parabola's roots, in the form that does not cancel, and then those of the cubic.
-        let discriminant = slope * slope - 4.0 * square * value;
-        let q = -0.5 * (slope + slope.signum() * discriminant.sqrt());
-        let roots = [q / square, value / q].into_iter();
-        let nearest = roots
-            .filter(|t| t.is_finite() && is_ahead(t))
-            .min_by(|x, y| x.abs().total_cmp(&y.abs()))?;
-        let newton = |t: f64| {
-            let tangent = slope + t * (2.0 * square + 3.0 * t * cube);
-            t - (value + t * (slope + t * (square + t * cube))) / tangent
-        };
-        let root = (0..CUBIC_STEPS).fold(nearest, |t, _| newton(t));
-        let is_near = root.abs() <= FARTHEST;
-        (is_near && is_ahead(&root)).then_some(root * width)
-    }
-}
-
-/// Newton's steps from the root of a parabola to that of a cubic next to it.
-const CUBIC_STEPS: usize = 4;
-/// Distance of a root, in those between the two speeds, beyond which their cubic says less than the tangent.
-const FARTHEST: f64 = 4.0;
 
 /// What the two waves do whose crossing is expected at a speed and a frequency, between two
 /// speeds at which they stand in opposite order. `None` where they cannot be followed.

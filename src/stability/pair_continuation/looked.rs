@@ -1,0 +1,74 @@
+//! Where a square of a pair is zero, as far as one or two speeds tell.
+
+/// σ² and ω² of a pair at a speed.
+pub struct Looked {
+    /// Ω.
+    pub speed: f64,
+    /// σ² and ω², in 1/s².
+    pub squares: [f64; 2],
+    /// Their slopes, in 1/s.
+    pub slopes: [f64; 2],
+}
+
+impl Looked {
+    /// How far the tangent's root is, where it falls that way. Past its root Newton's method comes back.
+    pub fn root_of_tangent(&self, k: usize, direction: f64) -> Option<f64> {
+        let falls = self.slopes[k] * direction < 0.0;
+        falls.then(|| -self.squares[k] / self.slopes[k])
+    }
+
+    /// The same of the cubic through both speeds, ahead while the square is positive and behind past
+    /// its root. σ² over a band is nearly a parabola, which a tangent misses by far.
+    pub fn root_of_cubic(&self, other: &Looked, k: usize, direction: f64) -> Option<f64> {
+        let width = other.speed - self.speed;
+        let (value, slope) = (self.squares[k], self.slopes[k] * width);
+        let (rise, end_slope) = (other.squares[k] - value, other.slopes[k] * width);
+        let square = 3.0 * rise - 2.0 * slope - end_slope;
+        let cube = slope + end_slope - 2.0 * rise;
+        let is_ahead = |t: &f64| (t * width * direction > 0.0) == (value > 0.0);
+        // The parabola's roots, in the form that does not cancel, and then those of the cubic.
+        let discriminant = slope * slope - 4.0 * square * value;
+        let q = -0.5 * (slope + slope.signum() * discriminant.sqrt());
+        let roots = [q / square, value / q].into_iter();
+        let nearest = roots
+            .filter(|t| t.is_finite() && is_ahead(t))
+            .min_by(|x, y| x.abs().total_cmp(&y.abs()))?;
+        let newton = |t: f64| {
+            let tangent = slope + t * (2.0 * square + 3.0 * t * cube);
+            t - (value + t * (slope + t * (square + t * cube))) / tangent
+        };
+        let root = (0..CUBIC_STEPS).fold(nearest, |t, _| newton(t));
+        let is_near = root.abs() <= FARTHEST;
+        (is_near && is_ahead(&root)).then_some(root * width)
+    }
+}
+
+/// Newton's steps from the root of a parabola to that of a cubic next to it.
+const CUBIC_STEPS: usize = 4;
+/// Distance of a root, in those between the two speeds, beyond which their cubic says less than the tangent.
+const FARTHEST: f64 = 4.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// σ² = (Ω − 2)(7 − Ω), ω² far from zero: the parabola is known after two speeds, ahead from within and behind
+    /// from beyond.
+    #[test]
+    fn two_speeds_tell_where_a_parabola_ends() {
+        let at = |speed: f64| Looked {
+            speed,
+            squares: [(speed - 2.0) * (7.0 - speed), 100.0],
+            slopes: [9.0 - 2.0 * speed, 0.0],
+        };
+        for (before, here) in [(3.0, 4.0), (4.0, 6.0), (6.0, 7.5), (8.0, 6.5)] {
+            let left = at(here).root_of_cubic(&at(before), 0, 1.0).unwrap();
+            assert!((here + left - 7.0).abs() < 1e-12, "{before} {here}: {left}");
+        }
+        let left = at(4.0).root_of_cubic(&at(5.0), 0, -1.0).unwrap();
+        assert!((4.0 + left - 2.0).abs() < 1e-12, "{left}");
+        assert!(at(4.0).root_of_tangent(0, 1.0).is_none());
+        let left = at(5.0).root_of_tangent(0, 1.0).unwrap();
+        assert_eq!(left, 6.0);
+    }
+}
