@@ -15,9 +15,19 @@
 //! *Strongly stable gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for the signs
 //! that symmetry and skewness give.
 
-use faer::{Col, Mat, MatRef, Scale};
+use faer::{Col, Mat, MatRef, Scale, c64};
 
 use crate::plate::{HarmonicBlock, Plate};
+
+/// L(λ) = λ² + λD + K, of K(Ω) and D = 2ΩG + C.
+pub fn dynamic_stiffness(stiffness: &Mat<f64>, velocity: &Mat<f64>, lambda: c64) -> Mat<c64> {
+    let order = stiffness.nrows();
+    let mut dynamic = Mat::from_fn(order, order, |i, k| {
+        lambda * velocity[(i, k)] + stiffness[(i, k)]
+    });
+    (0..order).for_each(|i| dynamic[(i, i)] += lambda * lambda);
+    dynamic
+}
 
 /// Matrices of the gyroscopic system, N × N; projecting them on fewer vectors
 /// gives a system of the same kind.

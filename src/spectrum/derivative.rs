@@ -4,7 +4,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use crate::system::GyroscopicSystem;
+use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::vectors::real_times;
 
@@ -16,8 +16,7 @@ pub fn with_speed(
     x: &Col<c64>,
 ) -> c64 {
     let change = speed_slope(system, speed_rad_per_s, lambda, x);
-    let y = left_vector(system, speed_rad_per_s, lambda, x);
-    -(y.adjoint() * change) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+    along(system, speed_rad_per_s, (lambda, x), &change)
 }
 
 /// dλ for a small change of the matrices.
@@ -29,8 +28,19 @@ pub fn with_change(
     change: &GyroscopicSystem,
 ) -> c64 {
     let changed = change_of_residual(change, speed_rad_per_s, lambda, x);
-    let y = left_vector(system, speed_rad_per_s, lambda, x);
-    -(y.adjoint() * changed) / (y.adjoint() * with_lambda(system, speed_rad_per_s, lambda, x))
+    along(system, speed_rad_per_s, (lambda, x), &changed)
+}
+
+/// −yᴴ(dL)x / yᴴ(∂L/∂λ)x for a known (dL)x.
+fn along(
+    system: &GyroscopicSystem,
+    speed: f64,
+    (lambda, x): (c64, &Col<c64>),
+    changed: &Col<c64>,
+) -> c64 {
+    let y = left_vector(system, speed, lambda, x);
+    let slope = with_lambda(&system.velocity_at(speed), lambda, x);
+    -(y.adjoint() * changed) / (y.adjoint() * slope)
 }
 
 /// dΩ of the speed at which two modes merge, λ = iω with ∂(xᴴLx)/∂ω = 0 there, for a small
@@ -82,8 +92,8 @@ fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
 }
 
 /// (∂L/∂λ)x = (2λ + D)x.
-pub fn with_lambda(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
-    Scale(2.0 * lambda) * x + real_times(&system.velocity_at(speed), x)
+pub fn with_lambda(velocity: &Mat<f64>, lambda: c64, x: &Col<c64>) -> Col<c64> {
+    Scale(2.0 * lambda) * x + real_times(velocity, x)
 }
 
 /// y by inverse iteration on L(λ)ᴴ. An undamped oscillation needs none: there L is
@@ -96,15 +106,7 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
     let velocity = system.velocity_at(speed);
     // A hair off the eigenvalue, so that L is not singular to the last bit.
     let shifted = lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0);
-    let dynamic: Mat<c64> = Mat::from_fn(system.order(), system.order(), |i, k| {
-        let inertia = if i == k {
-            shifted * shifted
-        } else {
-            c64::new(0.0, 0.0)
-        };
-        inertia + shifted * velocity[(i, k)] + stiffness[(i, k)]
-    });
-    let factors = dynamic.partial_piv_lu();
+    let factors = dynamic_stiffness(&stiffness, &velocity, shifted).partial_piv_lu();
     let mut y = x.clone();
     for _ in 0..3 {
         let solved: Col<c64> = factors.solve_adjoint(&y);

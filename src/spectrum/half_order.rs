@@ -56,7 +56,7 @@ fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f
     let turning = Scale(-0.5 / scale) * system.velocity_at(speed_rad_per_s);
     let force = &turning * &turning - Scale(scale.powi(-2)) * stiffness;
     let size = system.order();
-    let mut matrix = Mat::identity(2 * size, 2 * size);
+    let mut matrix = Mat::zeros(2 * size, 2 * size);
     matrix.get_mut(..size, ..size).copy_from(&turning);
     matrix.get_mut(size.., size..).copy_from(&turning);
     matrix.get_mut(size.., ..size).copy_from(&force);

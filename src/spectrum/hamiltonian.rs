@@ -109,18 +109,21 @@ impl HamiltonianReduction {
         let linear = Scale(-scale) * (&cross + cross.transpose());
         let square = q.transpose() * &system.spin * q + gq.transpose() * &gq;
         let terms = [rest, linear, square].map(|term| Scale(scale.powi(-2)) * term);
-        // Two modes are asked for their invariants alone.
-        let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
-            true => canonical_basis(form.clone()),
-            false => None,
-        };
         let factors = form.partial_piv_lu();
         let upper = factors.U();
         let singular = (0..form.nrows()).any(|i| {
             let pivot: f64 = upper[(i, i)];
             pivot.is_nan() || pivot.abs() < LEAST_PIVOT
         });
-        (!singular).then(|| HamiltonianReduction {
+        if singular {
+            return None;
+        }
+        // Two modes are asked for their invariants alone.
+        let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
+            true => canonical_basis(form),
+            false => None,
+        };
+        Some(HamiltonianReduction {
             canonical: canonical.map(|basis| Coordinates {
                 deflections: q * &basis,
                 terms: [0, 1, 2].map(|k| turned(basis.transpose() * &terms[k] * &basis)),

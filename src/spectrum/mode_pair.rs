@@ -3,7 +3,7 @@
 use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::{Col, Mat, Scale, c64};
 
-use crate::system::GyroscopicSystem;
+use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::vectors::Eigenpair;
@@ -78,13 +78,7 @@ impl ModePair {
         let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
         // A hair off, so that L is not singular to the last bit.
         let shifts = lambdas.map(|lambda| lambda * (1.0 + 1e-9));
-        let factors = |shift: c64| {
-            let mut dynamic = Mat::from_fn(order, order, |i, k| {
-                shift * velocity[(i, k)] + stiffness[(i, k)]
-            });
-            (0..order).for_each(|i| dynamic[(i, i)] += shift * shift);
-            dynamic.partial_piv_lu()
-        };
+        let factors = |shift: c64| dynamic_stiffness(&stiffness, &velocity, shift).partial_piv_lu();
         let first = factors(shifts[0]);
         // Undamped, L(−λ̄) is L(λ)ᴴ.
         let are_mirrored = system.is_conservative() && shifts[1] == -shifts[0].conj();

@@ -4,7 +4,7 @@
 //! whole basis. The solves by blocks and columns leave out what the guides' columns leave out, which slows the
 //! convergence and does not limit it.
 
-use faer::{Col, c64};
+use faer::{Col, Mat, c64};
 
 use super::derivative::with_lambda;
 use super::error::SpectrumError;
@@ -13,7 +13,6 @@ use super::mode::Mode;
 use super::model::SpectralModel;
 use super::residual::Lifted;
 use super::vectors::{real_times, unit};
-use crate::system::GyroscopicSystem;
 
 /// An eigenvalue and how right it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,8 +56,12 @@ impl SpectralModel {
                 .lifted(speed_rad_per_s, &mode.coordinates)
                 .as_ref(),
         );
+        let matrices = [
+            component.full.stiffness_at(speed_rad_per_s),
+            component.full.velocity_at(speed_rad_per_s),
+        ];
         for step in 0..=STEPS {
-            let residual = residual(&component.full, speed_rad_per_s, lambda, &shape);
+            let residual = residual(&matrices, lambda, &shape);
             let lifted = Lifted { shape, residual };
             let norms = component.norms();
             let backward_error = norms.backward_error(speed_rad_per_s, lambda, &lifted);
@@ -71,7 +74,7 @@ impl SpectralModel {
             if backward_error <= ROUNDING || step == STEPS {
                 break;
             }
-            let corrected = corrected(&component.full, basis, speed_rad_per_s, lambda, &lifted);
+            let corrected = corrected(&matrices, basis, speed_rad_per_s, lambda, &lifted);
             let Some(next) = corrected else { break };
             (lambda, shape) = next;
         }
@@ -88,9 +91,8 @@ impl SpectralModel {
 }
 
 /// (λ² + λD + K) q.
-fn residual(system: &GyroscopicSystem, speed: f64, lambda: c64, q: &Col<c64>) -> Col<c64> {
-    let stiffness = real_times(&system.stiffness_at(speed), q);
-    let velocity = real_times(&system.velocity_at(speed), q);
+fn residual([stiffness, velocity]: &[Mat<f64>; 2], lambda: c64, q: &Col<c64>) -> Col<c64> {
+    let (stiffness, velocity) = (real_times(stiffness, q), real_times(velocity, q));
     Col::from_fn(q.nrows(), |i| {
         lambda * lambda * q[i] + lambda * velocity[i] + stiffness[i]
     })
@@ -98,13 +100,13 @@ fn residual(system: &GyroscopicSystem, speed: f64, lambda: c64, q: &Col<c64>) ->
 
 /// One step.
 fn corrected(
-    system: &GyroscopicSystem,
+    [_, velocity]: &[Mat<f64>; 2],
     basis: &DampedBasis,
     speed: f64,
     lambda: c64,
     Lifted { shape, residual }: &Lifted,
 ) -> Option<(c64, Col<c64>)> {
-    let slope = with_lambda(system, speed, lambda, shape);
+    let slope = with_lambda(velocity, lambda, shape);
     let [u, v] = basis.solved(speed, lambda, [residual, &slope])?;
     let change = -(shape.adjoint() * &u) / (shape.adjoint() * &v);
     let next = Col::from_fn(shape.nrows(), |i| shape[i] - u[i] - change * v[i]);

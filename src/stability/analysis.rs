@@ -45,6 +45,18 @@ impl Default for AnalysisOptions<'_> {
     }
 }
 
+fn charted(
+    model: &SpectralModel,
+    range: (f64, f64),
+    AnalysisOptions { detail, progress }: AnalysisOptions<'_>,
+) -> Result<StabilityChart, AnalysisError> {
+    match (model.plate.is_axisymmetric(), detail) {
+        (true, _) => chart(model, range, FREE_CHART_SPEEDS, progress),
+        (false, Detail::Full) => chart(model, range, CHART_SPEEDS, progress),
+        (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, detail, progress),
+    }
+}
+
 /// The eigenvalues of the flutter band that begins at a speed; `None` with damping, where no pair
 /// coalesces.
 fn root_loci(
@@ -131,7 +143,7 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
-        let AnalysisOptions { detail, progress } = options;
+        let detail = options.detail;
         let ChosenBasis {
             plate,
             critical,
@@ -141,11 +153,7 @@ impl Analysis {
             larger,
         } = ChosenBasis::new(scene, scene.tolerance())?;
         let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
-        let mut chart = match (model.plate.is_axisymmetric(), detail) {
-            (true, _) => chart(&model, range, FREE_CHART_SPEEDS, progress)?,
-            (false, Detail::Full) => chart(&model, range, CHART_SPEEDS, progress)?,
-            (false, Detail::Sketch) => drawn(&model, range, SKETCH_SPEEDS, detail, progress)?,
-        };
+        let mut chart = charted(&model, range, options)?;
         let modes_at_rest = modes_at_rest(&model, &chart)?;
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
         let mut listed = is_refined.then(|| Listed::new(&model, &modes_at_rest));

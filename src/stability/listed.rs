@@ -103,7 +103,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
-    use crate::system::GyroscopicSystem;
+    use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
     /// Inverse iteration with factorizations of the whole matrix, from the dense eigenvalue next to one.
     fn exact(system: &GyroscopicSystem, speed: f64, near: c64) -> c64 {
@@ -116,14 +116,7 @@ mod tests {
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
         let order = system.order();
         for _ in 0..3 {
-            let whole = Mat::from_fn(order, order, |i, k| {
-                let unit = if i == k {
-                    lambda * lambda
-                } else {
-                    c64::new(0.0, 0.0)
-                };
-                unit + lambda * velocity[(i, k)] + stiffness[(i, k)]
-            });
+            let whole = dynamic_stiffness(&stiffness, &velocity, lambda);
             let slope = Mat::from_fn(order, 1, |i, _| {
                 let carried: c64 = (0..order).map(|k| q[k] * velocity[(i, k)]).sum();
                 lambda * q[i] * 2.0 + carried

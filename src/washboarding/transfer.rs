@@ -151,6 +151,7 @@ mod tests {
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{DampingFile, Scene, rad_per_s};
+    use crate::system::dynamic_stiffness;
 
     /// Against one factorization of L(λ) at each place.
     #[test]
@@ -174,14 +175,7 @@ mod tests {
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
         for lambda in [(0.0, 70.0), (3.0, 900.0), (-20.0, 5000.0), (50.0, 0.0)] {
             let lambda = c64::new(lambda.0, lambda.1);
-            let dynamic = Mat::from_fn(order, order, |i, k| {
-                let unit = if i == k {
-                    lambda * lambda
-                } else {
-                    c64::new(0.0, 0.0)
-                };
-                unit + lambda * velocity[(i, k)] + stiffness[(i, k)]
-            });
+            let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
             let force = Mat::from_fn(order, 2, |i, k| c64::new(columns[(i, k)], 0.0));
             let exact = force.transpose() * dynamic.partial_piv_lu().solve(&force);
             let [found, slope] = transfer.with_slope(lambda);

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{DampingFile, Scene, rad_per_s};
-    use crate::system::GyroscopicSystem;
+    use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
     /// Against a factorization of the whole matrix, of an undamped and of a damped saw.
     #[test]
@@ -122,14 +122,7 @@ mod tests {
             let (speed, lambda) = (rad_per_s(2000.0), c64::new(3.0, 200.0));
             let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
             let order = system.order();
-            let whole = Mat::from_fn(order, order, |i, k| {
-                let unit = if i == k {
-                    lambda * lambda
-                } else {
-                    c64::new(0.0, 0.0)
-                };
-                unit + lambda * velocity[(i, k)] + stiffness[(i, k)]
-            });
+            let whole = dynamic_stiffness(&stiffness, &velocity, lambda);
             let load = Mat::from_fn(order, 1, |i, _| {
                 c64::new((0.7 * i as f64 + 0.3).sin(), (1.3 * i as f64).cos())
             });
