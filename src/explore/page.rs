@@ -22,6 +22,8 @@ files! {
     "scene.js": SCRIPT, "page/scene.js";
     "kept.js": SCRIPT, "page/kept.js";
     "beginnings.js": SCRIPT, "page/beginnings.js";
+    "live.js": SCRIPT, "page/live.js";
+    "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";
     "dom.js": SCRIPT, "page/dom.js";
     "form.js": SCRIPT, "page/form.js";

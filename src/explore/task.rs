@@ -7,12 +7,14 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::reply::Refusal;
-use crate::figure::Figures;
+use crate::figure::{Figure, Figures, growing_map};
 use crate::fit::{self, Compared, Fit, FitError, Measurement};
-use crate::place::{self, Demands, Goal, PlaceError, Placement};
-use crate::report::{CutReport, FitReport, PlaceReport, RunUpReport, WashboardReport};
+use crate::place::{self, Demands, Goal, GrowingMap, PlaceError, Placement};
+use crate::report::{
+    CutReport, FitReport, GrowingMapEntry, PlaceReport, RunUpReport, WashboardReport,
+};
 use crate::scene::{Freed, Scene, SceneFile};
-use crate::study::{self, Study, StudyFile, StudyReport};
+use crate::study::{self, Saw, Study, StudyFile, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
@@ -52,27 +54,55 @@ pub struct Asked {
 
 /// Seen on the page before it is told again.
 const PAUSE: Duration = Duration::from_millis(100);
+/// So long between figures of what is known so far: each is drawn anew.
+const FIGURE_PAUSE: Duration = Duration::from_millis(400);
 
 /// Tells how far a task has come.
 pub struct Meter {
     tell: tokio::sync::mpsc::UnboundedSender<String>,
     told: Mutex<Option<Instant>>,
+    drawn: Mutex<Option<Instant>>,
+}
+
+/// Whether it is time again, and then from now on.
+fn is_due(last: &Mutex<Option<Instant>>, pause: Duration) -> bool {
+    let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
+    let is_due = last.is_none_or(|last| last.elapsed() >= pause);
+    if is_due {
+        *last = Some(Instant::now());
+    }
+    is_due
 }
 
 impl Meter {
     /// Tells through a channel, line by line.
     pub fn new(tell: tokio::sync::mpsc::UnboundedSender<String>) -> Self {
-        let told = Mutex::new(None);
-        Meter { tell, told }
+        Meter {
+            tell,
+            told: Mutex::default(),
+            drawn: Mutex::default(),
+        }
     }
 
     fn show(&self, what: &str, done: usize, of: usize) {
-        let mut told = self.told.lock().unwrap_or_else(|e| e.into_inner());
-        if told.is_some_and(|told| told.elapsed() < PAUSE) {
+        if is_due(&self.told, PAUSE) {
+            self.send(serde_json::json!({ "what": what, "done": done, "of": of }));
+        }
+    }
+
+    /// A figure of what is known so far. One that cannot be drawn yet is left out.
+    fn draw(&self, figure: impl FnOnce() -> Option<Figure>) {
+        if !is_due(&self.drawn, FIGURE_PAUSE) {
             return;
         }
-        *told = Some(Instant::now());
-        let line = serde_json::json!({ "what": what, "done": done, "of": of });
+        let Some(figure) = figure() else { return };
+        let [_, name] = figure.names();
+        if let Ok(svg) = figure.svg() {
+            self.send(serde_json::json!({ "so_far": [[name, svg]] }));
+        }
+    }
+
+    fn send(&self, line: serde_json::Value) {
         // Whoever has gone away is not told.
         let _ = self.tell.send(line.to_string());
     }
@@ -179,7 +209,10 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal>
     let freed = Freed::to_place(scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
-    let found = Placement::new(scene, &freed, &demands, &options, &progress);
+    let watch = |growing: &GrowingMap| {
+        meter.draw(|| Some(growing_map(&GrowingMapEntry::new(goal, growing))));
+    };
+    let found = Placement::watched(scene, &freed, &demands, &options, &progress, &watch);
     let found = found.map_err(|error: PlaceError| Refusal::of(&error))?;
     let report = PlaceReport::new(&demands, &found);
     answer(&report, report.summary(), Some(&report.scene))
@@ -189,16 +222,21 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> 
     let file = StudyFile::from_json(&asked.study.to_string());
     let file = file.map_err(|error| Refusal::of(&error))?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
-    let saws = Mutex::new(Vec::new());
-    let done = |saw| {
+    // In the order of their numbers, whichever was done first.
+    let saws = Mutex::new(Vec::<Saw>::new());
+    let done = |saw: Saw| {
         let mut saws = saws.lock().unwrap_or_else(|e| e.into_inner());
-        saws.push(saw);
+        let place = saws.partition_point(|other| other.index < saw.index);
+        saws.insert(place, saw);
         meter.show("saws", saws.len(), study.count());
+        meter.draw(|| {
+            let so_far = StudyReport::new(&study, &saws).ok()?;
+            so_far.figures().into_iter().next()
+        });
         Ok::<_, std::convert::Infallible>(())
     };
     let Ok(()) = study::run(&study, None, 0..study.count(), &done);
-    let mut saws = saws.into_inner().unwrap_or_else(|e| e.into_inner());
-    saws.sort_by_key(|saw| saw.index);
+    let saws = saws.into_inner().unwrap_or_else(|e| e.into_inner());
     let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
     answer(&report, report.summary(), None)
 }

@@ -6,7 +6,8 @@ use super::{
     root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
+    CheckReport, CutReport, FitReport, GrowingMapEntry, PlaceReport, Report, RunUpReport,
+    WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -176,6 +177,15 @@ impl Figures for StudyReport {
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(study::sheet(self))])
+    }
+}
+
+/// The map of a placement that goes on; the finished one is a figure of its report, under the same
+/// names.
+pub fn growing_map(growing: &GrowingMapEntry) -> Figure {
+    Figure {
+        names: PlaceReport::NAMES[0],
+        sheet: super::growing_map::sheet(growing),
     }
 }
 

@@ -26,6 +26,7 @@ mod drawn_tests;
 #[path = "../../tests/invariants/draws.rs"]
 mod draws;
 mod fit;
+mod growing_map;
 mod heading;
 mod heat;
 mod in_cut;
@@ -34,6 +35,7 @@ mod meeting;
 mod membrane;
 mod palette;
 mod place;
+mod place_map;
 mod render;
 mod response_map;
 mod root_loci;
@@ -48,7 +50,7 @@ mod tidy;
 mod tradeoff;
 mod washboard;
 
-pub use drawn::{Figure, Figures, tradeoff};
+pub use drawn::{Figure, Figures, growing_map, tradeoff};
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
 

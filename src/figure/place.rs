@@ -1,145 +1,24 @@
 //! The goal over two numbers of a guide, the best saw marked.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Sheet, Stroke};
 use super::fit::four_digits;
 use super::heading;
-use super::heat::{draw_grid, draw_scale, ramp};
 use super::key::Key;
-use super::style::{ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, INK, PAPER, STRONG_CURVE};
+use super::place_map::{Along, BROKEN, HEIGHT, PANEL, Shades, draw_panel, empty, goals, title};
+use super::style::{ALARM, BETWEEN_FACTS, INK, PAPER, STRONG_CURVE};
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
-
-const WIDTH: u32 = 1100;
-const HEIGHT: u32 = 760;
-const PANEL: Frame = Frame {
-    left: 104.0,
-    top: 96.0,
-    right: 950.0,
-    bottom: 650.0,
-};
-const SCALE: [f64; 2] = [984.0, 1004.0];
-/// From low to high: lightness rises evenly, so that grey prints read too.
-const LOW_TO_HIGH: [Colour; 5] = [
-    plotters::style::RGBColor(52, 24, 66),
-    plotters::style::RGBColor(58, 82, 139),
-    plotters::style::RGBColor(33, 145, 140),
-    plotters::style::RGBColor(122, 209, 81),
-    plotters::style::RGBColor(240, 236, 120),
-];
-/// Saws that break the limit, and places without a saw.
-const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
-
-/// An axis of a number that may be spread by decades.
-struct Along {
-    axis: Axis,
-    values: Vec<f64>,
-    logarithmic: bool,
-}
-
-impl Along {
-    fn new(values: &[f64], places: [f64; 2]) -> Self {
-        let ends = [
-            values.first().copied().unwrap_or(0.0),
-            values.last().copied().unwrap_or(1.0),
-        ];
-        let logarithmic = ends[0] > 0.0 && ends[1] >= 10.0 * ends[0];
-        let of = |value: f64| if logarithmic { value.log10() } else { value };
-        Along {
-            axis: Axis::new(ends.map(of), places, Spread::Linear),
-            values: values.iter().map(|v| of(*v)).collect(),
-            logarithmic,
-        }
-    }
-
-    fn at(&self, value: f64) -> f64 {
-        let value = if self.logarithmic {
-            value.log10()
-        } else {
-            value
-        };
-        self.axis.at(value)
-    }
-
-    fn name(&self, path: &str) -> String {
-        let (before, unit) = UNITS
-            .iter()
-            .find_map(|(suffix, unit)| Some((path.strip_suffix(suffix)?, *unit)))
-            .unwrap_or((path, ""));
-        let name = before.replace('_', " ");
-        match (self.logarithmic, unit) {
-            (true, unit) => format!("log₁₀ {name}\u{2003}[{unit}]"),
-            (false, "") => name,
-            (false, unit) => format!("{name}\u{2003}[{unit}]"),
-        }
-    }
-}
-
-const UNITS: [(&str, &str); 8] = [
-    ("_n_s_per_m", "N·s/m"),
-    ("_n_per_m", "N/m"),
-    ("_kg_per_m3", "kg/m³"),
-    ("_deg", "°"),
-    ("_pa", "Pa"),
-    ("_rpm", "rpm"),
-    ("_s", "s"),
-    ("_m", "m"),
-];
 
 pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
     let map = report.map.as_ref()?;
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    let title = match report.goal {
-        GoalEntry::FlutterSpeed => "Flutter speed over the place of the guide",
-        GoalEntry::StableWindow => "Stable window around the operating speed",
-    };
-    heading::draw(&mut sheet, title, &facts(report));
-    let x = Along::new(&map.x, [PANEL.left, PANEL.right]);
-    let y = Along::new(&map.y, [PANEL.bottom, PANEL.top]);
-    let [low, high] = range(map);
-    let shade = |rpm: f64| ramp(&LOW_TO_HIGH, (rpm - low) / (high - low));
-    if let Some(path) = &map.y_path {
-        draw_vertical(&mut sheet, &y.axis, &PANEL, &y.name(path));
-    }
-    draw_grid(
-        &mut sheet,
-        (&x.axis, &x.values),
-        (&y.axis, &y.values),
-        |column, row| match map.goal_rpm[row][column] {
-            Some(rpm) if map.kept[row][column] => shade(rpm),
-            _ => BROKEN,
-        },
-    );
-    draw_horizontal(&mut sheet, &x.axis, PANEL.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = (PANEL.left + PANEL.right) / 2.0;
-    sheet.text([middle, PANEL.bottom + 42.0], letters, &x.name(&map.x_path));
+    let mut sheet = empty();
+    heading::draw(&mut sheet, title(report.goal), &facts(report));
+    let shades = Shades::of(goals(map, |_, _| true));
+    let (x, y) = draw_panel(&mut sheet, map, &shades, |column, row| {
+        shades.cell(map, column, row)
+    });
     draw_marks(&mut sheet, report, map, &x, &y);
-    let scale = Frame {
-        left: SCALE[0],
-        top: PANEL.top + 20.0,
-        right: SCALE[1],
-        bottom: PANEL.bottom,
-    };
-    let axis = Axis::new([low, high], [scale.bottom, scale.top], Spread::Linear);
-    let label = |rpm: f64| Some(tick_label(rpm));
-    draw_scale(&mut sheet, &scale, &axis, "rpm", (shade, label));
     draw_key(&mut sheet, report, map);
     Some(sheet)
-}
-
-/// Least and largest of what is shaded.
-fn range(map: &MapEntry) -> [f64; 2] {
-    let rows = map.goal_rpm.iter().zip(&map.kept);
-    let cells = rows.flat_map(|(goal, kept)| goal.iter().zip(kept));
-    let shown = cells.filter_map(|(goal, kept)| goal.filter(|_| *kept));
-    let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], rpm| {
-        [low.min(rpm), high.max(rpm)]
-    });
-    match low < high {
-        true => [low, high],
-        false if low.is_finite() => [0.99 * low, 1.01 * low + 1.0],
-        false => [0.0, 1.0],
-    }
 }
 
 fn facts(report: &PlaceReport) -> String {

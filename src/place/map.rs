@@ -3,6 +3,7 @@
 use crate::campbell::even_speeds;
 
 use super::Progress;
+use super::growing::Grower;
 use super::outcome::{Outcome, REFUSED};
 use super::search::{Search, Tried};
 
@@ -47,12 +48,8 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
 }
 
 impl Map {
-    pub(super) fn new(
-        search: &Search<'_>,
-        at: &[f64],
-        points: usize,
-        progress: Progress<'_>,
-    ) -> Self {
+    /// The axes, and no saw yet.
+    pub(super) fn unknown(search: &Search<'_>, points: usize) -> Self {
         let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
         let (x, y) = axes(&paths);
         let even = even_speeds((0.0, 1.0), points);
@@ -60,9 +57,6 @@ impl Map {
             Some(_) => even.clone(),
             None => vec![0.5],
         };
-        let outcomes = search.grid(at, (x, &even), (y, &y_shares), &|done, of| {
-            progress("map", done, of);
-        });
         let values = |k: usize, shares: &[f64]| -> Vec<f64> {
             shares.iter().map(|s| search.freed[k].value(*s)).collect()
         };
@@ -71,10 +65,34 @@ impl Map {
             x: values(x, &even),
             y_path: y.map(|y| paths[y].to_owned()),
             y: y.map_or(vec![0.0], |y| values(y, &y_shares)),
-            outcomes,
+            outcomes: vec![vec![None; even.len()]; y_shares.len()],
             shares: [even, y_shares],
             axes: (x, y),
         }
+    }
+
+    /// Every saw of the map; `at` has the shares of the other numbers.
+    pub(super) fn drawn(
+        mut self,
+        search: &Search<'_>,
+        at: &[f64],
+        progress: Progress<'_>,
+        grower: &Grower<'_>,
+    ) -> Self {
+        grower.begun(&self);
+        let total = self.x.len() * self.y.len();
+        let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
+        self.outcomes = search.grid(at, (x, x_shares), (y, y_shares), &|seen| {
+            progress("map", seen.done, total);
+            grower.filled(&seen);
+        });
+        self
+    }
+
+    /// Where shares lie on the axes.
+    pub(super) fn place_of(&self, search: &Search<'_>, shares: &[f64]) -> [f64; 2] {
+        let value = |k: usize| search.freed[k].value(shares[k]);
+        [value(self.axes.0), self.axes.1.map_or(0.0, value)]
     }
 
     /// The best saw of the map; `at` has the shares of the other numbers.

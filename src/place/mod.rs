@@ -23,6 +23,7 @@
 //! ```
 
 mod demands;
+mod growing;
 mod map;
 mod neighbours;
 mod outcome;
@@ -41,6 +42,8 @@ use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
 pub use demands::{Demands, Goal, Options};
+use growing::Grower;
+pub use growing::{GrowingMap, Sample, Watch};
 pub use map::Map;
 pub use neighbours::{Neighbour, Neighbours};
 pub use outcome::Outcome;
@@ -152,6 +155,21 @@ impl Placement {
         options: &Options,
         progress: Progress<'_>,
     ) -> Result<Self, PlaceError> {
+        Self::watched(scene, freed, demands, options, progress, &|_| ())
+    }
+
+    /// The same, with the map shown while it is computed.
+    ///
+    /// # Errors
+    /// Those of [`Placement::new`].
+    pub fn watched(
+        scene: &Scene,
+        freed: &[Freed],
+        demands: &Demands,
+        options: &Options,
+        progress: Progress<'_>,
+        watch: Watch<'_>,
+    ) -> Result<Self, PlaceError> {
         let chosen = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
         let evaluations = AtomicUsize::new(0);
         let mut question = Question {
@@ -171,7 +189,7 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
+        let (candidates, map) = look_everywhere(&coarse, &own, options, (progress, watch))?;
         if options.resolution.is_none() {
             question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
         }
@@ -227,10 +245,14 @@ fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
     options: &Options,
-    progress: Progress<'_>,
+    (progress, watch): (Progress<'_>, Watch<'_>),
 ) -> Result<(Vec<Tried>, Option<Map>), PlaceError> {
     let samples = options.samples.max(1);
-    let tried = search.sample(own, samples, &|done, of| progress("samples", done, of));
+    let grower = Grower::new(search, options.map, watch);
+    let tried = search.sample(own, samples, &|seen| {
+        progress("samples", seen.done, samples);
+        grower.sampled(search, &seen);
+    });
     let places = options.places.max(1);
     let starts = Search::apart(&tried, places, APART);
     let mut candidates: Vec<Tried> = starts
@@ -243,7 +265,8 @@ fn look_everywhere(
     }
     let mut map = None;
     for _ in 0..if options.map < 2 { 0 } else { MAP_ROUNDS } {
-        let drawn = Map::new(search, &best.shares, options.map, progress);
+        let map_of = Map::unknown(search, options.map);
+        let drawn = map_of.drawn(search, &best.shares, progress, &grower);
         let on_map = drawn.cheapest(&best.shares);
         map = Some(drawn);
         match on_map {

@@ -13,7 +13,6 @@ use rayon::prelude::*;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::campbell::Progress;
 use crate::scene::{Freed, SceneFile, scene_at, spread};
 
 use super::outcome::{Outcome, Question, REFUSED};
@@ -34,6 +33,26 @@ pub struct Tried {
     pub cost: f64,
 }
 
+/// A saw of many that has just been computed.
+pub struct Seen<'a> {
+    /// How many are done with it.
+    pub done: usize,
+    /// Which one.
+    pub index: usize,
+    pub shares: &'a [f64],
+    pub outcome: Option<&'a Outcome>,
+}
+
+/// Called for every saw of many, by the thread that has computed it.
+pub type See<'a> = &'a (dyn Fn(Seen<'_>) + Sync);
+
+impl Tried {
+    fn new(shares: Vec<f64>, outcome: Option<&Outcome>) -> Self {
+        let cost = outcome.map_or(REFUSED, Outcome::cost);
+        Tried { shares, cost }
+    }
+}
+
 impl Search<'_> {
     /// What the saw at given shares is worth; `None` where it is refused or cannot be analysed.
     pub fn outcome(&self, shares: &[f64]) -> Option<Outcome> {
@@ -44,12 +63,12 @@ impl Search<'_> {
 
     /// Shares with what they cost.
     pub fn tried(&self, shares: Vec<f64>) -> Tried {
-        let cost = self.outcome(&shares).map_or(REFUSED, |o| o.cost());
-        Tried { shares, cost }
+        let outcome = self.outcome(&shares);
+        Tried::new(shares, outcome.as_ref())
     }
 
     /// `count` samples of the box, the scene's own first, best first.
-    pub fn sample(&self, own: &[f64], count: usize, progress: Progress<'_>) -> Vec<Tried> {
+    pub fn sample(&self, own: &[f64], count: usize, see: See<'_>) -> Vec<Tried> {
         let done = AtomicUsize::new(0);
         let mut tried: Vec<Tried> = (0..count)
             .into_par_iter()
@@ -58,9 +77,14 @@ impl Search<'_> {
                     None => own.to_vec(),
                     Some(index) => spread(self.freed.len(), 0, index),
                 };
-                let tried = self.tried(shares);
-                progress(done.fetch_add(1, Ordering::Relaxed) + 1, count);
-                tried
+                let outcome = self.outcome(&shares);
+                see(Seen {
+                    done: done.fetch_add(1, Ordering::Relaxed) + 1,
+                    index,
+                    shares: &shares,
+                    outcome: outcome.as_ref(),
+                });
+                Tried::new(shares, outcome.as_ref())
             })
             .collect();
         // Stable, so that equals stay in their order whatever thread was first.
@@ -112,7 +136,7 @@ impl Search<'_> {
         at: &[f64],
         (x, x_shares): (usize, &[f64]),
         (y, y_shares): (Option<usize>, &[f64]),
-        progress: Progress<'_>,
+        see: See<'_>,
     ) -> Vec<Vec<Option<Outcome>>> {
         let total = x_shares.len() * y_shares.len();
         let done = AtomicUsize::new(0);
@@ -125,7 +149,12 @@ impl Search<'_> {
                     shares[y] = y_shares[index / x_shares.len()];
                 }
                 let outcome = self.outcome(&shares);
-                progress(done.fetch_add(1, Ordering::Relaxed) + 1, total);
+                see(Seen {
+                    done: done.fetch_add(1, Ordering::Relaxed) + 1,
+                    index,
+                    shares: &shares,
+                    outcome: outcome.as_ref(),
+                });
                 outcome
             })
             .collect();

@@ -42,7 +42,7 @@ pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
-    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+    GoalEntry, GrowingMapEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
-use crate::place::{Demands, Goal, Map, Neighbours, Outcome, PlacedParameter, Placement};
+use crate::place::{
+    Demands, Goal, GrowingMap, Map, Neighbours, Outcome, PlacedParameter, Placement,
+};
 use crate::scene::{Scene, SceneFile, rpm, unusual};
 
 /// `place.json`.
@@ -147,10 +149,7 @@ impl PlaceReport {
         PlaceReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
-            goal: match demands.goal {
-                Goal::FlutterSpeed => GoalEntry::FlutterSpeed,
-                Goal::StableWindow { .. } => GoalEntry::StableWindow,
-            },
+            goal: GoalEntry::from(demands.goal),
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
             kept: found.best.is_kept(),
             improved: found.improved,
@@ -199,6 +198,45 @@ impl From<&Outcome> for OutcomeEntry {
             critical_rpm: outcome.critical_rad_per_s.map(rpm),
             window_rpm: outcome.window.map(|(from, to)| [rpm(from), rpm(to)]),
             kept: outcome.is_kept(),
+        }
+    }
+}
+
+impl From<Goal> for GoalEntry {
+    fn from(goal: Goal) -> Self {
+        match goal {
+            Goal::FlutterSpeed => GoalEntry::FlutterSpeed,
+            Goal::StableWindow { .. } => GoalEntry::StableWindow,
+        }
+    }
+}
+
+/// The map as far as it is known, of a search that goes on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GrowingMapEntry {
+    /// What is made large.
+    pub goal: GoalEntry,
+    /// The map; nothing is known yet of the other cells.
+    pub map: MapEntry,
+    /// Which cells are computed, one row for each value of y.
+    pub is_computed: Vec<Vec<bool>>,
+    /// The samples from which the search begins: place along both axes, and the goal there, or none
+    /// where there is no saw that keeps the limit.
+    pub samples: Vec<([f64; 2], Option<f64>)>,
+}
+
+impl GrowingMapEntry {
+    /// Of a search for a goal.
+    pub fn new(goal: Goal, growing: &GrowingMap) -> Self {
+        let samples = growing.samples.iter().map(|sample| {
+            let kept = sample.outcome.as_ref().filter(|outcome| outcome.is_kept());
+            (sample.at, kept.map(|outcome| rpm(outcome.value_rad_per_s)))
+        });
+        GrowingMapEntry {
+            goal: goal.into(),
+            map: MapEntry::from(&growing.map),
+            is_computed: growing.is_computed.clone(),
+            samples: samples.collect(),
         }
     }
 }

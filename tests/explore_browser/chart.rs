@@ -181,21 +181,28 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
         let computed = page
             .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
             .await;
-        let last = page.value("sawflutter.latencies.scene").await;
+        let released = page.value("sawflutter.latencies.release").await;
+        let drawing = page.value("sawflutter.drawing").await;
         println!(
             "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
-             ({} moves, {} charts of {:.0} ms median); moves still waiting at the release, to the \
-             final chart: {}; load {}",
+             ({} moves, {} charts of {:.0} ms median); release to painted chart at design \
+             accuracy: median {:.0} ms of {}; drawing: median {:.1} ms, 95th percentile {:.1} ms; \
+             load {}",
             percentile(&times, 0.5),
             percentile(&times, 0.95),
             times.as_array().unwrap().len(),
             computed.as_array().unwrap().len(),
             percentile(&computed, 0.5),
-            last.as_array().unwrap().len(),
+            percentile(&released, 0.5),
+            released,
+            percentile(&drawing, 0.5),
+            percentile(&drawing, 0.95),
             std::fs::read_to_string("/proc/loadavg")
                 .unwrap_or_default()
                 .trim(),
         );
+        assert_eq!(released.as_array().unwrap().len(), 3);
+        assert!(percentile(&drawing, 0.5) < 8.0, "{drawing}");
 
         // A design chart that a further change has made stale is stopped, not computed.
         let jobs = "fetch('jobs').then((answer) => answer.json())";
@@ -207,6 +214,58 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
         let after = page.value(jobs).await;
         let more = |key: &str| after[key].as_u64().unwrap() - before[key].as_u64().unwrap();
         assert_eq!(more("finished"), 1, "{before} {after}");
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_hand_that_rests_is_shown_the_chart_at_its_own_accuracy_before_it_lets_go() {
+    run(async {
+        let page = Page::open(&[]).await;
+        page.settle().await;
+        drag(&page, PAD, 10, (2, -1)).await;
+        // The button is still held.
+        page.settle().await;
+        let told = page.text("#computed").await;
+        assert!(told.starts_with("design accuracy"), "{told}");
+        let shown = page.value("sawflutter.report()").await;
+        let jobs = "fetch('jobs').then((answer) => answer.json())";
+        let before = page.value(jobs).await;
+        let_go(&page).await;
+        page.wait("sawflutter.latencies.release.length === 1").await;
+        assert_eq!(
+            page.value(jobs).await,
+            before,
+            "the chart was computed twice"
+        );
+        assert!(same(&page.value("sawflutter.report()").await, &shown));
+        // Moved on, it follows again.
+        drag(&page, PAD, 10, (2, -1)).await;
+        page.wait("document.querySelector('#computed').textContent.startsWith('draft')")
+            .await;
+        let_go(&page).await;
+        page.settle().await;
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
+    run(async {
+        let page = Page::open(&["--accuracy", "reference"]).await;
+        page.settle().await;
+        let marked = "document.body.classList.contains('earlier-scene')";
+        assert_eq!(page.value(marked).await, json!(false));
+        page.enter("blade.thickness_m", "3.1").await;
+        page.wait(marked).await;
+        let told = page.text("#computed").await;
+        assert!(told.contains("before the last change"), "{told}");
+        page.settle().await;
+        assert_eq!(page.value(marked).await, json!(false));
+        let told = page.text("#computed").await;
+        assert!(told.starts_with("reference accuracy"), "{told}");
         page.close().await;
     });
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use crate::browser::{Page, run};
+use crate::browser::{Page, drag, let_go, run};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
@@ -94,6 +94,66 @@ fn an_audit_finds_no_barrier() {
         page.enter("blade.thickness_m", "-1").await;
         page.wait("document.body.classList.contains('stale')").await;
         page.audit("refused").await;
+        page.close().await;
+    });
+}
+
+impl Page {
+    /// Sets the size of the screen.
+    async fn resize(&self, width: u32, height: u32) {
+        let size =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        let tools = self.driver.cdp();
+        tools
+            .send_raw("Emulation.setDeviceMetricsOverride", size)
+            .await
+            .unwrap();
+        tokio::time::sleep(Duration::from_millis(300)).await;
+    }
+
+    /// Left and upper edge of both Campbell diagrams, the pinned one first.
+    async fn diagrams(&self) -> Vec<[f64; 2]> {
+        let found = self
+            .value("[...document.querySelectorAll('.campbell canvas')].map((c) => c.getBoundingClientRect()).map((box) => [box.left, box.top])")
+            .await;
+        serde_json::from_value(found).unwrap()
+    }
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn two_saws_stand_side_by_side_on_the_same_axes_where_the_page_is_wide_enough() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.script("window.prompt = () => 'as delivered'; document.querySelector('#pin').click()")
+            .await;
+        page.enter("blade.thickness_m", "3.4").await;
+        page.settle().await;
+        page.find("#side").await.click().await.unwrap();
+        for width in [1440, 1280, 760] {
+            page.resize(width, 900).await;
+            let [pinned, present] = page.diagrams().await[..] else {
+                panic!("two diagrams")
+            };
+            assert!(pinned[0] + 300.0 < present[0] && pinned[1] == present[1]);
+            page.screenshot(&format!("{width}-side-by-side.png")).await;
+        }
+        page.resize(390, 844).await;
+        let diagrams = page.diagrams().await;
+        assert!(diagrams[0][0] == diagrams[1][0] && diagrams[0][1] + 200.0 < diagrams[1][1]);
+        // The thicker blade's modes are higher: both diagrams have room for them, and for the same
+        // stretch of speeds.
+        page.resize(1280, 900).await;
+        let ends = "[...document.querySelectorAll('.campbell')].map((place) => place.chart.scales)\
+            .map(({ x, y }) => [x.min, x.max, y.min, y.max])";
+        let all = page.value(ends).await;
+        assert_eq!(all[0], all[1]);
+        drag(&page, "#campbell .u-over", 20, (6, 0)).await;
+        let_go(&page).await;
+        let some = page.value(ends).await;
+        assert_eq!(some[0], some[1]);
+        assert_ne!(some, all);
         page.close().await;
     });
 }

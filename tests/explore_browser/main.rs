@@ -10,4 +10,5 @@ mod chart;
 mod form;
 mod kept;
 mod looks;
+mod tabs;
 mod tasks;

@@ -93,6 +93,9 @@ fn a_task_tells_how_far_it_is_and_can_be_stopped() {
             .unwrap();
         page.wait("document.querySelector('#panel-study progress').value > 0")
             .await;
+        // The saws that are known so far are drawn.
+        page.wait("document.querySelector('#panel-study .so-far img')?.naturalWidth > 0")
+            .await;
         // A chart does not wait for a task.
         page.enter("blade.thickness_m", "3").await;
         page.settle().await;
@@ -104,6 +107,64 @@ fn a_task_tells_how_far_it_is_and_can_be_stopped() {
             .value("document.querySelector('#panel-study pre')")
             .await;
         assert_eq!(shown, Value::Null);
+        let told = page.text("#panel-study .start .remark").await;
+        assert!(told.starts_with("ended early, saws: "), "{told}");
+        page.close().await;
+    });
+}
+
+/// A saw whose sweep ends soon after its first flutter is placed within seconds.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_map_grows_cell_by_cell_and_ends_as_the_figure_that_the_command_line_draws() {
+    run(async {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene: Value =
+            serde_json::from_str(include_str!("../../scenes/paper.json")).unwrap();
+        scene["accuracy"] = json!("draft");
+        scene["sweep"] = json!({ "from_rpm": 0, "to_rpm": 2300 });
+        let path = folder.path().join("short-sweep.json");
+        std::fs::write(&path, scene.to_string()).unwrap();
+        let page = Page::open(&[path.to_str().unwrap()]).await;
+        page.settle().await;
+        page.find("#tab-place").await.click().await.unwrap();
+        let start = page.find("#panel-place .start button").await;
+        start.click().await.unwrap();
+        let told = "document.querySelector('#panel-place .start .remark').textContent";
+        let picture = "document.querySelector('#panel-place .so-far img')";
+        page.wait(&format!("{told}.startsWith('samples')")).await;
+        page.wait(&format!("({picture}?.naturalWidth ?? 0) > 0"))
+            .await;
+        // White is what is not known yet: less and less of the figure.
+        let white = format!(
+            "(() => {{ const picture = {picture}; if (!picture?.naturalWidth || !{told}.startsWith('map')) return null; \
+             const context = new OffscreenCanvas(220, 152).getContext('2d'); context.drawImage(picture, 0, 0, 220, 152); \
+             const {{ data }} = context.getImageData(21, 19, 168, 110); let count = 0; \
+             for (let k = 0; k < data.length; k += 4) count += Math.min(...data.slice(k, k + 4)) > 250; return count; }})()"
+        );
+        let mut seen: Vec<u64> = Vec::new();
+        while page
+            .value("!!document.querySelector('#panel-place pre')")
+            .await
+            == json!(false)
+        {
+            seen.extend(page.value(&white).await.as_u64());
+        }
+        seen.dedup();
+        assert!(seen.len() > 3, "{seen:?}");
+        assert!(
+            seen.is_sorted_by(|earlier, later| earlier >= later),
+            "{seen:?}"
+        );
+        assert!(seen.last().unwrap() * 10 < seen[0], "{seen:?}");
+        page.screenshot("1280-place.png").await;
+        page.script(
+            "[...document.querySelectorAll('#panel-place figure button')].find((b) => b.textContent === 'Save place.svg').click()",
+        )
+        .await;
+        let shown = page.wait_for_file("place.svg").await;
+        let (out, _) = page.command(&["place"]).await;
+        assert!(shown == std::fs::read(out.join("place.svg")).unwrap());
         page.close().await;
     });
 }

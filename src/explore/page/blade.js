@@ -27,6 +27,12 @@ export class Blade {
     this.ground = element("g", {}, svg);
     this.things = element("g", {}, svg);
     this.mark = element("g", { class: "turns" }, svg);
+    // Asked for at every move, the width would cost a layout each time.
+    this.width = svg.clientWidth || 400;
+    new ResizeObserver(() => {
+      this.width = svg.clientWidth || 400;
+      this.draw(state.scene, this.refusedKey);
+    }).observe(svg);
   }
 
   // Half the width of the drawing.
@@ -36,11 +42,12 @@ export class Blade {
 
   draw(scene, refusedKey) {
     const reach = Blade.reach(scene);
+    this.refusedKey = refusedKey;
     if (!(reach > 0)) return;
-    this.svg.setAttribute("viewBox", `${-reach} ${-reach} ${2 * reach} ${2 * reach}`);
-    this.svg.style.setProperty("--pixel", `${(2 * reach) / (this.svg.clientWidth || 400)}px`);
-    this.pixel = (2 * reach) / (this.svg.clientWidth || 400);
-    this.#drawGround(scene);
+    this.pixel = (2 * reach) / this.width;
+    const ground = JSON.stringify([this.pixel, scene.blade, scene.mount]);
+    if (ground !== this.drawn) this.#drawGround(scene, reach);
+    this.drawn = ground;
     // Pads come last, on top: they are what is dragged most.
     const wanted = [
       ...(scene.cut ? [["cut", "cut", scene.cut]] : []),
@@ -55,7 +62,8 @@ export class Blade {
     }
   }
 
-  #drawGround(scene) {
+  #drawGround(scene, reach) {
+    this.svg.setAttribute("viewBox", `${-reach} ${-reach} ${2 * reach} ${2 * reach}`);
     const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
     const px = this.pixel;
     const parts = [
@@ -87,7 +95,7 @@ export class Blade {
       if (this.things.querySelector(`[data-path="${path}"]`)) continue;
       const group = element("g", { class: kind, tabindex: "0", role: "button", "data-path": path }, this.things);
       group.addEventListener("keydown", (event) => this.#key(event, kind, path));
-      group.addEventListener("keyup", () => this.state.settle());
+      group.addEventListener("keyup", (event) => this.state.settle(event.timeStamp));
       element("title", {}, group);
       element("path", { class: "body" }, group);
       this.#hold(group.querySelector(".body"), kind, path, "move");
@@ -167,9 +175,9 @@ export class Blade {
       });
       // On the window: a browser may end the capture, and the end of a drag must not be missed.
       const during = new AbortController();
-      const end = own(() => {
+      const end = own((ended) => {
         during.abort();
-        this.state.settle();
+        this.state.settle(ended.timeStamp);
       });
       const { signal } = during;
       addEventListener("pointermove", move, { signal });

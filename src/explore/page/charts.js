@@ -12,6 +12,9 @@ const LEAST_STRETCH = 1e-3;
 export class Charts {
   report = null;
   pinned = null;
+  // Another report that is shown beside this one, on the same axes.
+  #other = null;
+  width = 600;
   highlighted = null;
   #zoom = null;
 
@@ -20,11 +23,11 @@ export class Charts {
     this.onHover = onHover;
     this.onZoom = onZoom;
     this.measured = true;
-    const narrow = () => campbellPlace.clientWidth < 480;
+    const narrow = () => this.width < 480;
     const room = () => (narrow() ? 20 : 108);
     this.campbell = plot(campbellPlace, {
       height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
-      yRange: () => [0, this.report ? highestShown(this.report) : 1],
+      yRange: () => [0, Math.max(...this.#shown.map(highestShown), 0) || 1],
       draw: (u) => this.#drawCampbell(u, narrow()),
     });
     this.growth = plot(growthPlace, {
@@ -49,6 +52,7 @@ export class Charts {
   resize() {
     const width = this.places[0].clientWidth;
     if (width === 0) return;
+    this.width = width;
     const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
     this.campbell.chart.setSize({ width, height: width < 480 ? 270 : tall });
     this.growth.chart.setSize({ width, height: 165 });
@@ -70,10 +74,31 @@ export class Charts {
     this.redraw();
   }
 
+  // Drawn with the next report.
+  shareAxes(other, stretch = this.#zoom) {
+    this.#other = other;
+    this.#zoom = stretch;
+  }
+
+  // Reports that the axes have room for.
+  get #shown() {
+    return [this.report, this.#other].filter((report) => report !== null);
+  }
+
+  // From the first to the last speed that is swept.
+  get #sweep() {
+    const sweeps = this.#shown.map(({ campbell }) => campbell);
+    return [Math.min(...sweeps.map((s) => s.from_rpm)), Math.max(...sweeps.map((s) => s.to_rpm))];
+  }
+
   // The speeds that are shown.
   get speeds() {
-    const { from_rpm, to_rpm } = this.report.campbell;
-    return this.#zoom ?? [from_rpm, to_rpm];
+    return this.#zoom ?? this.#sweep;
+  }
+
+  // The stretch that is magnified, if one is.
+  get stretch() {
+    return this.#zoom;
   }
 
   redraw() {
@@ -99,13 +124,18 @@ export class Charts {
 
   // Shows a stretch of speeds within the sweep, or all of them.
   zoom(speeds) {
-    const { from_rpm, to_rpm } = this.report.campbell;
+    const [from_rpm, to_rpm] = this.#sweep;
     const ends = speeds && [Math.max(speeds[0], from_rpm), Math.min(speeds[1], to_rpm)];
     const least = LEAST_STRETCH * (to_rpm - from_rpm);
     if (ends && ends[1] - ends[0] < least) return;
-    this.#zoom = ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null;
-    this.redraw();
+    this.zoomed(ends && (ends[0] > from_rpm || ends[1] < to_rpm) ? ends : null);
     this.onZoom(this.#zoom);
+  }
+
+  // The same where the other chart was zoomed.
+  zoomed(speeds) {
+    this.#zoom = speeds;
+    this.redraw();
   }
 
   // Closer or farther about the point that is looked at, or the middle.
@@ -120,9 +150,9 @@ export class Charts {
   // the flutter beside it.
   #growthRange() {
     if (!this.report) return [0, 1];
-    const damped = this.report.terms.some((term) => term.includes("damping"));
-    const peaks = this.report.instabilities.map((band) => band.peak_growth_per_s);
-    const all = this.report.campbell.branches.flatMap((b) => b.growth_per_s);
+    const damped = this.#shown.some(({ terms }) => terms.some((term) => term.includes("damping")));
+    const peaks = this.#shown.flatMap(({ instabilities }) => instabilities.map((band) => band.peak_growth_per_s));
+    const all = this.#shown.flatMap(({ campbell }) => campbell.branches.flatMap((b) => b.growth_per_s));
     const most = [...peaks, ...all].reduce((x, y) => Math.max(x, y), 1);
     const least = damped ? all.reduce((x, y) => Math.min(x, y), 0) : 0;
     return [Math.max(rooted(least), -rooted(most)), 1.08 * rooted(most)];

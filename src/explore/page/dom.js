@@ -1,5 +1,10 @@
 // Elements of the page.
 
+// A text that is the same already is left alone: it would be laid out, and read aloud, once more.
+export function write(place, text) {
+  if (place.textContent !== text) place.textContent = text;
+}
+
 export function node(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
   made.append(...children);

@@ -34,8 +34,14 @@ export class Form {
   }
 
   // Shows the numbers of the scene, except in the field that is being typed in.
-  refresh() {
-    for (const field of this.fields.values()) field.show(get(this.state.scene, field.path));
+  // While a hand moves, only those that changed.
+  refresh(draft = false) {
+    for (const field of this.fields.values()) {
+      const value = get(this.state.scene, field.path);
+      if (draft && field.value === value) continue;
+      field.value = value;
+      field.show(value);
+    }
   }
 
   // How the speeds move with each number.
@@ -263,7 +269,7 @@ export class Form {
     });
     const slid = () => tidy(whole ? Math.round(range.value(slider.value)) : Number(range.value(slider.value).toPrecision(4)));
     slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp, run: path }));
-    slider.addEventListener("change", () => this.state.settle());
+    slider.addEventListener("change", (event) => this.state.settle(event.timeStamp));
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
     const bar = node("span", { className: "track", ariaHidden: "true" }, node("span", { className: "bar" }));
     const influence = node("p", { className: "influence", hidden: true }, node("span", { className: "words" }), bar);

@@ -6,39 +6,47 @@ import { Form } from "./form.js";
 import { Kept, carried, download, link, measured } from "./kept.js";
 import { publish } from "./marks.js";
 import { influences } from "./influence.js";
+import { Live } from "./live.js";
 import { Motion } from "./motion.js";
+import { Pinned } from "./pinned.js";
 import { SceneState, clone } from "./scene.js";
-import { Refused, Live, influence, mode, read, saved, start, stayConnected } from "./talk.js";
+import { Refused, influence, mode, read, saved, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { facts, tables, verdict } from "./verdict.js";
+import { write } from "./dom.js";
 import { krein, numbered, shown, useInches } from "./words.js";
 
 const by = (id) => document.getElementById(id);
 const begun = await start();
 let colours = publish(begun.colours);
 let latest = null;
-let pinned = null;
 let refusedKey = null;
 const kept = new Kept(begun.scene);
 // The scene as it was last saved to a file, or as the program was started with.
 let onDisk = JSON.stringify(begun.scene);
 
-// For the test in a browser: times from a move to its painted chart, and what is shown.
-const seen = (window.sawflutter = { latencies: { draft: [], scene: [] }, computed: [], painted: null });
+// For the test in a browser: times from a move, or from the release, to its painted chart, how long
+// the page worked on a chart, and what is shown.
+const seen = (window.sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], drawing: [], painted: null });
 
-const state = new SceneState(begun.scene, (scene, { draft, structure, stamp }) => {
+const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
+  live.ask(scene, { draft, stamp, released });
+  watchAge();
+  weighing?.abort();
+  by("fields").classList.add("unweighed");
   if (structure) form.build();
-  form.refresh();
+  form.refresh(draft);
   blade.draw(scene, refusedKey);
+  if (draft) return;
   buttons();
-  if (!draft) kept.keep(scene);
-  if (!draft) tasks.changed();
-  live.ask(scene, { draft, stamp });
+  kept.keep(scene);
+  tasks.changed();
 });
 const blade = new Blade(by("drawing"), state);
 const motion = new Motion(by("motion"), blade.mark, () => motionColours());
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover, onZoom });
+const pinned = new Pinned(by("beside"), charts);
 const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, { onScene: replaceScene });
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
@@ -53,6 +61,7 @@ seen.leave = () => (onDisk = JSON.stringify(state.scene));
 function onZoom(speeds) {
   by("zoomed").hidden = speeds === null;
   if (speeds) by("stretch").textContent = `${Math.round(speeds[0])} to ${Math.round(speeds[1])} rpm of the sweep`;
+  pinned.zoomed(speeds);
 }
 
 function motionColours() {
@@ -60,23 +69,41 @@ function motionColours() {
   return [numbers(colours.backward), numbers(colours.forward), colours.dark ? [44, 49, 57] : [247, 248, 249]];
 }
 
+// A chart that is of an earlier scene for longer than a blink is shown as such.
+const BLINK_MS = 400;
+let shownText = null;
+let ageing = null;
+function watchAge() {
+  ageing ??= setTimeout(() => {
+    if (shownText === JSON.stringify(state.scene) || shownText === null) return;
+    document.body.classList.add("earlier-scene");
+    by("computed").textContent = "Chart and verdict are of the scene before the last change.";
+  }, BLINK_MS);
+}
+
 function onChart(chart, request) {
+  const begun = performance.now();
+  clearTimeout(ageing);
+  ageing = null;
+  shownText = request.text;
+  document.body.classList.remove("earlier-scene");
+  if (request.text !== JSON.stringify(state.scene)) watchAge();
   latest = chart;
   refusedKey = null;
-  pinned ??= clone(chart.report);
+  pinned.begin(chart.report);
   form.refuse(null, "");
   say("");
   document.body.classList.remove("stale");
-  charts.show(chart.report, pinnedDiffers() ? pinned : null);
-  tell();
-  sideBySide();
+  compare();
   if (!request.draft) weigh(chart);
   blade.draw(state.scene, null);
   if (charts.pointed || asked) onHover(charts.pointed);
+  seen.drawing.push(performance.now() - begun);
   painted(() => {
     const now = performance.now();
     const kind = request.draft ? "draft" : "scene";
     seen.latencies[kind].push(...request.stamps.map((stamp) => now - stamp));
+    if (request.released !== undefined) seen.latencies.release.push(now - request.released);
     seen.computed.push([kind, chart.milliseconds]);
     seen.painted = request.draft ? null : request.text;
   });
@@ -89,23 +116,19 @@ async function weigh(chart) {
   weighing = new AbortController();
   try {
     const found = await influence(chart.chart, weighing.signal);
-    if (latest === chart) form.influence(influences(found, chart.report));
+    if (weighing.signal.aborted || latest !== chart) return;
+    form.influence(influences(found, chart.report));
+    by("fields").classList.remove("unweighed");
   } catch (error) {
     // No chart depends on it: where it fails, the fields are as they were.
     if (error.name !== "AbortError") form.influence([]);
   }
 }
 
-// The pinned saw in a chart of its own, above that of the present one.
-let beside = null;
-function sideBySide() {
-  const on = by("side").checked && pinnedName !== "";
-  by("beside").hidden = !on;
-  if (!on) return;
-  beside ??= new Charts(by("campbell-pinned"), by("growth-pinned"), colours, { onHover: () => {}, onZoom: () => {} });
-  by("beside").querySelector("h2").textContent = pinnedName;
-  beside.resize();
-  beside.show(pinned, null);
+// The chart, and what is held against it.
+function compare() {
+  pinned.showWith(latest.report, by("side").checked && pinned.isNamed);
+  tell();
 }
 
 // After the frame in which the chart is drawn.
@@ -116,9 +139,7 @@ function painted(then) {
 }
 
 // One line under the chart for what no field can say.
-function say(text) {
-  by("fault").textContent = text;
-}
+const say = (text) => write(by("fault"), text);
 
 function onRefused(error, request) {
   const answers = error instanceof Refused;
@@ -137,23 +158,21 @@ function onBusy(busy, draft) {
   const begun = performance.now();
   const tell = () => {
     const seconds = Math.round((performance.now() - begun) / 1000);
-    by("busy").textContent = `${draft ? "draft" : "computing"} …${seconds > 0 ? ` ${seconds} s` : ""}`;
+    write(by("busy"), `${draft ? "draft" : "computing"} …${seconds > 0 ? ` ${seconds} s` : ""}`);
   };
-  by("busy").textContent = "";
   if (busy) {
     tell();
     ticking = setInterval(tell, 1000);
+  } else {
+    write(by("busy"), "");
   }
-  document.body.classList.toggle("busy", busy && !draft);
 }
-
-const pinnedDiffers = () => JSON.stringify(pinned.scene) !== JSON.stringify(latest.report.scene);
 
 function tell() {
   const { report, milliseconds } = latest;
   verdict(by("verdict"), report);
-  facts(by("facts"), report, pinned);
-  tables(by("tables"), report);
+  facts(by("facts"), report, pinned.report);
+  if (document.querySelector(".numbers").open) tables(by("tables"), report);
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
@@ -203,30 +222,20 @@ function buttons() {
   const source = state.scene.measured?.source;
   by("points").hidden = source === undefined;
   by("source").textContent = (source ?? "").length > 36 ? `${source.slice(0, 35)}…` : source ?? "";
-  by("unpin").hidden = pinned === null || !pinnedName;
-  by("unpin").textContent = `Unpin ${pinnedName}`;
+  by("unpin").hidden = !pinned.isNamed;
+  by("unpin").textContent = `Unpin ${pinned.name}`;
   by("sides").hidden = by("unpin").hidden;
 }
 
-// The name of a saw that was pinned by hand; the first one is the saw that the page began with.
-let pinnedName = "";
-
 function pin() {
   const name = prompt("Name of the reference", state.scene.name ?? "reference");
-  if (name === null) return;
-  pinned = clone(latest.report);
-  pinnedName = name.trim() || "reference";
-  charts.show(latest.report, null);
-  tell();
-  buttons();
+  if (name !== null) hold(name.trim() || "reference");
 }
 
-function unpin() {
-  pinned = clone(latest.report);
-  pinnedName = "";
-  sideBySide();
-  charts.show(latest.report, null);
-  tell();
+// Holds later changes against the saw as it is now; without a name, until another one is pinned.
+function hold(name) {
+  pinned.pin(latest.report, name);
+  compare();
   buttons();
 }
 
@@ -343,11 +352,12 @@ function wire() {
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
   by("pin").addEventListener("click", pin);
-  by("unpin").addEventListener("click", unpin);
+  by("unpin").addEventListener("click", () => hold(""));
   by("link").addEventListener("click", copyLink);
   by("all").addEventListener("click", () => charts.zoom(null));
   by("over").addEventListener("click", startOver);
-  by("side").addEventListener("change", sideBySide);
+  document.querySelector(".numbers").addEventListener("toggle", () => latest && tell());
+  by("side").addEventListener("change", compare);
   by("film").addEventListener("click", film);
   by("inches").addEventListener("change", (event) => measure(event.target.checked));
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
@@ -378,7 +388,7 @@ function wire() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     colours = publish(begun.colours);
     charts.setColours(colours);
-    beside?.setColours(colours);
+    pinned.setColours(colours);
   });
   stayConnected((lost) => {
     by("lost").hidden = !lost;

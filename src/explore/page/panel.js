@@ -39,6 +39,8 @@ export function plot(place, { height, label, splits, yRange, draw, room, xLabel 
     hooks: { drawAxes: [draw] },
   };
   const chart = new uPlot(options, [[0, 1], [null, null]], place);
+  // For the test in a browser.
+  place.chart = chart;
   return {
     chart,
     setRange(wanted) {

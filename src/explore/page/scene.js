@@ -27,7 +27,8 @@ export function set(scene, path, value) {
   }
 }
 
-// Tells `listener(scene, { draft, structure, stamp })` of every change. A change that is still
+// Tells `listener(scene, { draft, structure, stamp, released })` of every change; `stamp` is the time
+// of a move, `released` that of the end of a drag. A change that is still
 // going on, such as a drag, is a draft; all of them make one step of undo, and so do changes of one
 // `run`, such as presses of one key, that follow each other closely.
 export class SceneState {
@@ -55,10 +56,10 @@ export class SceneState {
   }
 
   // The end of a drag.
-  settle() {
+  settle(released) {
     if (this.#before === null) return;
     this.#settle();
-    this.listener(this.scene, { draft: false, structure: false });
+    this.listener(this.scene, { draft: false, structure: false, released });
   }
 
   #settle() {

@@ -26,6 +26,10 @@ export async function mode(chart, rpm, frequency_hz, signal) {
   return answer.json();
 }
 
+// The chart of a scene, as JSON text: sketched for one that is just being changed. The answer is
+// there as soon as the server has computed it, its body a little later.
+export const chart = (text, draft, signal) => post(draft ? "chart/draft" : "chart/scene", text, signal);
+
 // The file that the command line would write for this scene.
 export async function saved(name, scene) {
   const answer = await post(`save/${name}`, JSON.stringify(scene));
@@ -44,8 +48,8 @@ export async function influence(chart, signal) {
   return answer.json();
 }
 
-// A task: `onProgress({ what, done, of })` as it goes on, then its answer.
-export async function task(name, asked, signal, onProgress) {
+// A task: `onProgress({ what, done, of })` and `onFigures([[name, svg]])` as it goes on, then its answer.
+export async function task(name, asked, signal, { onProgress, onFigures }) {
   const answer = await post(`task/${name}`, JSON.stringify(asked), signal);
   const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
@@ -58,8 +62,9 @@ export async function task(name, asked, signal, onProgress) {
     for (const line of lines) {
       const told = JSON.parse(line);
       if (told.refusal) throw new Refused(told.refusal);
-      if (told.of === undefined) return told;
-      onProgress(told);
+      if (told.summary !== undefined) return told;
+      if (told.so_far) onFigures(told.so_far);
+      else onProgress(told);
     }
   }
   throw new Error("the answer ended early");
@@ -77,53 +82,4 @@ export function stayConnected(onLost) {
   setInterval(beat, BEAT_MS);
   addEventListener("pagehide", () => navigator.sendBeacon("leave", name));
   addEventListener("pageshow", (event) => event.persisted && beat());
-}
-
-// Charts of a scene that keeps changing. One request is under way at a time. Drafts that were
-// passed while it ran are never asked for; a final chart, and any change after one was asked
-// for, aborts what runs: the server stops computing it.
-export class Live {
-  #running = null;
-  #next = null;
-  // Whether anything was asked for yet.
-  asked = false;
-
-  constructor({ onChart, onRefused, onBusy }) {
-    Object.assign(this, { onChart, onRefused, onBusy });
-  }
-
-  ask(scene, { draft, stamp }) {
-    this.asked = true;
-    // Every move waits for the chart that has it in, also those that were passed.
-    const stamps = this.#next?.stamps ?? [];
-    if (stamp !== undefined) stamps.push(stamp);
-    this.#next = { text: JSON.stringify(scene), draft, stamps };
-    const running = this.#running;
-    if (running && (!draft || !running.draft)) {
-      stamps.unshift(...running.stamps);
-      running.abort.abort();
-      this.#running = null;
-    }
-    if (!this.#running) this.#run();
-  }
-
-  async #run() {
-    const request = this.#next;
-    this.#next = null;
-    request.abort = new AbortController();
-    this.#running = request;
-    this.onBusy(true, request.draft);
-    try {
-      const path = request.draft ? "chart/draft" : "chart/scene";
-      const answer = await post(path, request.text, request.abort.signal);
-      const chart = await answer.json();
-      if (this.#running === request) this.onChart(chart, request);
-    } catch (error) {
-      if (this.#running === request && error.name !== "AbortError") this.onRefused(error, request);
-    }
-    if (this.#running !== request) return;
-    this.#running = null;
-    this.onBusy(false, request.draft);
-    if (this.#next) this.#run();
-  }
 }

@@ -180,8 +180,15 @@ class Task {
     this.fault.textContent = "";
     try {
       const asked = this.#asked();
-      const answer = await task(this.entry.name, asked, abort.signal, (told) => this.#tell(told));
-      this.#scene = JSON.stringify(asked.scene);
+      const scene = JSON.stringify(asked.scene);
+      const answer = await task(this.entry.name, asked, abort.signal, {
+        onProgress: (told) => this.#tell(told),
+        onFigures: (figures) => {
+          this.#scene = scene;
+          this.#grow(figures);
+        },
+      });
+      this.#scene = scene;
       this.#show(answer);
     } catch (error) {
       if (error.name !== "AbortError") this.fault.textContent = error instanceof Refused || error instanceof RangeError ? error.message : "The program does not answer any more.";
@@ -194,7 +201,27 @@ class Task {
     this.stop.hidden = !on;
     this.bar.hidden = !on;
     this.bar.removeAttribute("value");
-    this.so_far.textContent = on ? "computing …" : "";
+    // What was not brought to its end says so as long as it is seen.
+    const isPart = this.answer.firstElementChild?.classList.contains("so-far") ?? false;
+    this.so_far.textContent = on ? "computing …" : isPart ? `ended early, ${this.so_far.textContent}` : "";
+  }
+
+  // What is known so far, as the program will draw it.
+  #grow(figures) {
+    let place = this.answer.firstElementChild;
+    if (!place?.classList.contains("so-far")) {
+      place = node("figure", { className: "so-far" }, node("img"));
+      this.#replace(place);
+    }
+    const picture = place.querySelector("img");
+    URL.revokeObjectURL(picture.src);
+    picture.src = pictureOf(figures[0][1]);
+    picture.alt = `${this.entry.title}, as far as it is computed`;
+  }
+
+  #replace(...parts) {
+    for (const picture of this.answer.querySelectorAll("img")) URL.revokeObjectURL(picture.src);
+    this.answer.replaceChildren(...parts);
   }
 
   #tell({ what, done, of }) {
@@ -217,15 +244,16 @@ class Task {
       tools.prepend(take);
     }
     const pictures = figures.map(([file, svg]) => {
-      const picture = node("img", { src: URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" })), alt: `${file.replace(".svg", "").replaceAll("-", " ")}; the words above have its numbers` });
+      const picture = node("img", { src: pictureOf(svg), alt: `${file.replace(".svg", "").replaceAll("-", " ")}; the words above have its numbers` });
       const link = node("button", { type: "button", textContent: `Save ${file}` });
       link.addEventListener("click", () => download(file, new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    for (const picture of this.answer.querySelectorAll("img")) URL.revokeObjectURL(picture.src);
-    this.answer.replaceChildren(text, tools, ...pictures);
+    this.#replace(text, tools, ...pictures);
   }
 }
+
+const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 
 // A part with values that compute, and what it is a part of.
 function putIn(scene, part) {

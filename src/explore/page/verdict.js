@@ -1,6 +1,6 @@
 // What the chart says, in words and tables.
 
-import { node } from "./dom.js";
+import { node, write } from "./dom.js";
 import { numbered, rpm, shown } from "./words.js";
 
 const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
@@ -27,7 +27,7 @@ export function verdict(place, report) {
   const flutter = flutter_speed_rpm === null
     ? `No flutter of ${flutter_threshold_per_s} 1/s or more up to ${Math.round(report.campbell.to_rpm)} rpm`
     : `Flutter (${flutter_threshold_per_s} 1/s or more) from ${Math.round(flutter_speed_rpm)} rpm`;
-  place.textContent = `${good ? "✓ " : operating ? "✗ " : ""}${rule}${inside}. ${flutter}.`;
+  write(place, `${good ? "✓ " : operating ? "✗ " : ""}${rule}${inside}. ${flutter}.`);
 }
 
 // The numbers that a change is judged by, against those of the pinned saw.

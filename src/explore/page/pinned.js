@@ -1,0 +1,65 @@
+// The saw that later changes are held against, and its chart beside the present one.
+
+import { Charts } from "./charts.js";
+import { node } from "./dom.js";
+import { clone } from "./scene.js";
+
+export class Pinned {
+  // What is shown before anything was pinned by hand is the saw that the page began with.
+  report = null;
+  name = "";
+  #charts = null;
+
+  // `present` are the charts of the saw as it is.
+  constructor(place, present) {
+    Object.assign(this, { place, present });
+    this.campbell = node("div", { role: "img", className: "campbell" });
+    this.growth = node("div", { role: "img", ariaLabel: "Growth rates of the pinned saw" });
+    this.title = node("h2");
+    place.append(this.title, this.campbell, this.growth);
+  }
+
+  begin(report) {
+    this.report ??= clone(report);
+  }
+
+  pin(report, name) {
+    this.report = clone(report);
+    this.name = name;
+  }
+
+  get isNamed() {
+    return this.name !== "";
+  }
+
+  #differs(report) {
+    return JSON.stringify(this.report.scene) !== JSON.stringify(report.scene);
+  }
+
+  // Both saws on the same axes, or the present one alone.
+  showWith(report, beside) {
+    this.place.hidden = !beside;
+    this.place.parentElement.classList.toggle("two", beside);
+    this.present.shareAxes(beside ? this.report : null);
+    // Side by side nothing lies over each other.
+    this.present.show(report, !beside && this.#differs(report) ? this.report : null);
+    if (!beside) return;
+    this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
+      onHover: () => {},
+      onZoom: (speeds) => this.present.zoom(speeds),
+    });
+    this.title.textContent = this.name;
+    this.campbell.ariaLabel = `Campbell diagram of ${this.name}`;
+    this.#charts.resize();
+    this.#charts.shareAxes(report, this.present.stretch);
+    this.#charts.show(this.report, null);
+  }
+
+  zoomed(speeds) {
+    this.#charts?.zoomed(speeds);
+  }
+
+  setColours(colours) {
+    this.#charts?.setColours(colours);
+  }
+}
