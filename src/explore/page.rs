@@ -25,6 +25,7 @@ files! {
     "live.js": SCRIPT, "page/live.js";
     "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";
+    "refusal.js": SCRIPT, "page/refusal.js";
     "dom.js": SCRIPT, "page/dom.js";
     "form.js": SCRIPT, "page/form.js";
     "blade.js": SCRIPT, "page/blade.js";

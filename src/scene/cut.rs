@@ -93,7 +93,8 @@ impl Cut {
         cut.washboarding = washboarding
             .map(|washboarding| Washboarding::new(washboarding, &teeth))
             .transpose()?;
-        cut.chart = typed.chart_rpm.map(|rpm| cut.at_rpm(rpm)).transpose()?;
+        let of_chart = |rpm| cut.run_at(rpm, "cut.chart_rpm");
+        cut.chart = typed.chart_rpm.map(of_chart).transpose()?;
         Ok(cut)
     }
 
@@ -103,6 +104,11 @@ impl Cut {
     /// [`SceneError::Value`] where neither a tangential force nor a power is given, or a
     /// number is out of range.
     pub fn at_rpm(&self, rpm: f64) -> Result<CutRun, SceneError> {
+        self.run_at(rpm, "rpm")
+    }
+
+    /// The same, of a speed that is refused under a key of its own, unless it is one of the scene's.
+    fn run_at(&self, rpm: f64, key: &str) -> Result<CutRun, SceneError> {
         let index = self.file.speeds.iter().position(|speed| speed.rpm == rpm);
         let own = index.map_or_else(CutSpeedFile::default, |i| self.file.speeds[i].clone());
         let number = |name: &str, own: Option<f64>, of_cut: Option<f64>, range: (f64, f64)| {
@@ -113,7 +119,7 @@ impl Cut {
             let given = own.or(of_cut);
             given.map(|value| within(&key, value, range)).transpose()
         };
-        let key = index.map_or("rpm".into(), |i| format!("cut.speeds[{i}].rpm"));
+        let key = index.map_or(key.into(), |i| format!("cut.speeds[{i}].rpm"));
         let speed_rad_per_s = rad_per_s(within(&key, rpm, (1e-3, MAX_RPM))?);
         let force = (-MAX_FORCE_N, MAX_FORCE_N);
         let typed = &self.file;

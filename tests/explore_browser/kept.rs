@@ -83,8 +83,6 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
     });
 }
 
-/// Prints the times from a move of the pointer to the painted chart that has it in.
-
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn the_program_ends_with_its_page() {

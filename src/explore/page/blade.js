@@ -116,7 +116,8 @@ export class Blade {
     const [h, v] = [long / 2, wide / 2];
     group.querySelector(".body").setAttribute("d", point ? circle(h) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
     const handle = group.querySelector(".handle");
-    const size = 11 * px;
+    // Seldom more than the corner of a small pad.
+    const size = Math.max(Math.min(11 * px, 0.45 * Math.min(long, wide)), 6 * px);
     Object.entries({ x: h - size / 2, y: -v - size / 2, width: size, height: size }).forEach(([k, n]) => handle.setAttribute(k, n));
     handle.style.display = point ? "none" : "";
     const number = Number(group.dataset.path.match(/\d+/)[0]) + 1;

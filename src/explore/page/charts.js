@@ -24,7 +24,7 @@ export class Charts {
     this.onZoom = onZoom;
     this.measured = true;
     const narrow = () => this.width < 480;
-    const room = () => (narrow() ? 20 : 108);
+    const room = () => (narrow() ? 20 : this.width < 700 ? 108 : 150);
     this.campbell = plot(campbellPlace, {
       height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
       yRange: () => [0, Math.max(...this.#shown.map(highestShown), 0) || 1],
@@ -254,10 +254,15 @@ export class Charts {
     }
     ctx.restore();
     if (this.report.instabilities.length === 0) {
-      ctx.fillStyle = this.colours.quiet;
+      const words = "Stable at every speed of the sweep";
+      const [left, middle] = [box.left + 10 * scale, box.top + box.height / 2];
       ctx.font = `${12 * scale}px Inter, sans-serif`;
       ctx.textAlign = "left";
-      ctx.fillText("Stable at every speed of the sweep", box.left + 10 * scale, box.top + box.height / 2);
+      ctx.textBaseline = "middle";
+      ctx.fillStyle = this.colours.paper;
+      ctx.fillRect(left - 4 * scale, middle - 9 * scale, ctx.measureText(words).width + 8 * scale, 18 * scale);
+      ctx.fillStyle = this.colours.quiet;
+      ctx.fillText(words, left, middle);
     }
   }
 

@@ -4,6 +4,7 @@
 import * as beginnings from "./beginnings.js";
 import { node } from "./dom.js";
 import { Range } from "./range.js";
+import { Refusals } from "./refusal.js";
 import { get } from "./scene.js";
 import { numberOf, shown, tidy, unitOf } from "./words.js";
 
@@ -17,6 +18,7 @@ export class Form {
   constructor(place, schema, quantities, state) {
     Object.assign(this, { place, schema, quantities, state });
     this.fields = new Map();
+    this.refusals = new Refusals(quantities);
   }
 
   // Makes the fields anew, where the scene has got or lost a part.
@@ -283,7 +285,7 @@ export class Form {
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);
       }
-    }, (allowed) => inUnit(name, allowed, unit, scale));
+    }, (allowed) => this.refusals.told(path, { typed: get(this.state.scene, path), whole }, allowed));
   }
 }
 
@@ -292,15 +294,4 @@ function inWords(path, name) {
   const parts = path.split(".").slice(0, -1);
   const words = parts.map((part) => part.replace(/\[(\d+)\]/g, (_, index) => ` ${Number(index) + 1}`).replaceAll("_", " "));
   return [...words, name].join(": ");
-}
-
-// "between 1e-6 and 1000" of metres is "Thickness must be between 0.001 and 1e6 mm"; nothing where
-// more is said than numbers.
-function inUnit(name, allowed, unit, scale) {
-  const NUMBER = /[-−]?\d+(\.\d+)?(e[-+]?\d+)?/gi;
-  const rest = allowed?.replace(NUMBER, "").trim() ?? "";
-  if (!/^(a |finite|number|positive|negative|not|above|below|at|least|most|between|and|from|to|more|less|than|or|,|\s)+$/.test(rest)) return null;
-  const told = allowed.replace(NUMBER, (number) => shown(tidy(Number(number.replace("−", "-")) * scale)));
-  const subject = name.charAt(0).toUpperCase() + name.slice(1);
-  return `${subject} must be ${told}${/\d/.test(told) && unit ? ` ${unit}` : ""}`;
 }

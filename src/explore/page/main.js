@@ -51,7 +51,7 @@ const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, { on
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
-seen.settled = () => seen.painted === JSON.stringify(state.scene);
+seen.settled = () => seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
 seen.open = open;

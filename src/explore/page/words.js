@@ -18,7 +18,7 @@ const UNITS = [
   ["_deg", "°", 1],
   ["_hz", "Hz", 1],
   ["_mpa", "MPa", 1],
-  ["_pa", "GPa", 1e-9],
+  ["_pa", "MPa", 1e-6],
   ["_kg", "kg", 1],
   ["_k", "K", 1],
   ["_w", "W", 1],
@@ -34,6 +34,7 @@ export function useInches(on) {
 }
 
 export function unitOf(key) {
+  if (key === "youngs_modulus_pa") return { unit: "GPa", scale: 1e-9, digits: 12, name: "Young's modulus" };
   if (key === "rpm") return { unit: "rpm", scale: 1, digits: 12, name: "speed" };
   const found = UNITS.find(([ending]) => key.endsWith(ending));
   if (!found) return { unit: "", scale: 1, digits: 12, name: key.replaceAll("_", " ") };
