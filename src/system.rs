@@ -103,16 +103,7 @@ impl GyroscopicSystem {
                 }
             }
         }
-        let mut system = GyroscopicSystem {
-            stiffness,
-            spin,
-            gyroscopic,
-            damping: None,
-            circulatory: None,
-            nonconservative: None,
-            free_rigid: Vec::new(),
-            drift: None,
-        };
+        let mut system = Self::undamped(stiffness, spin, gyroscopic);
         system.add_blade_damping(plate, range.clone());
         if plate.membrane.is_some() {
             let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.as_ref());
@@ -290,6 +281,20 @@ impl GyroscopicSystem {
             nonconservative: self.nonconservative.as_ref().map(times),
             free_rigid: self.free_rigid.clone(),
             drift: self.drift.as_ref().map(times),
+        }
+    }
+
+    /// K₀, K_σ − N and G without other terms, or their products with some vectors.
+    pub(crate) fn undamped(stiffness: Mat<f64>, spin: Mat<f64>, gyroscopic: Mat<f64>) -> Self {
+        GyroscopicSystem {
+            stiffness,
+            spin,
+            gyroscopic,
+            damping: None,
+            circulatory: None,
+            nonconservative: None,
+            free_rigid: Vec::new(),
+            drift: None,
         }
     }
 

@@ -27,7 +27,7 @@ pub struct Finely {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
-    /// Relative error allowed of critical speeds and onsets, 1e-6 to 0.1, instead of a name
+    /// Relative error allowed of critical speeds and onsets, 1e-7 to 0.1, instead of a name
     #[arg(long, value_name = "SHARE", conflicts_with = "accuracy")]
     tolerance: Option<f64>,
 }

@@ -48,7 +48,7 @@ pub struct Resolution {
 
 /// Most diameters and most radial functions that may be asked for: beyond them digits are lost or
 /// memory is.
-const LARGEST: (usize, usize) = (64, 14);
+const LARGEST: (usize, usize) = (64, 30);
 
 impl Resolution {
     /// A basis as asked for.

@@ -13,8 +13,8 @@ use super::{
     rad_per_s,
 };
 
-/// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-6.
-const TOLERANCES: (f64, f64) = (1e-6, 0.1);
+/// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-8.
+const TOLERANCES: (f64, f64) = (1e-7, 0.1);
 
 impl TryFrom<SceneFile> for Scene {
     type Error = SceneError;

@@ -20,6 +20,7 @@ use faer::{Col, Mat, Scale};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
+pub use self::inverse::Inverse;
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
 use super::inertia::WholeBasis;
@@ -75,7 +76,7 @@ pub(super) fn nearly_lowest_eigenpairs(
     if !is_hamiltonian(system) {
         return Ok(None);
     }
-    let inverse = ShiftedInverse::by_structure(basis, system, speed_rad_per_s, shift_per_s);
+    let inverse = ShiftedInverse::by_structure(basis, speed_rad_per_s, shift_per_s);
     let Some(inverse) = inverse else {
         return Ok(None);
     };

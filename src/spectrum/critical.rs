@@ -56,14 +56,15 @@ pub struct NamedCriticalSpeed {
     pub shape: Col<f64>,
 }
 
-/// Every critical speed of a plate, ascending, with the name of its wave.
-pub(super) fn named_critical_speeds(
+/// Critical speeds of the components of a plate, all together ascending, with the names of their waves.
+pub(super) fn named(
     plate: &Plate,
     components: &[Component],
-) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+    found: Vec<Vec<CriticalSpeed>>,
+) -> Vec<NamedCriticalSpeed> {
     let mut named = Vec::new();
-    for (index, component) in components.iter().enumerate() {
-        for critical in critical_speeds(&component.full)? {
+    for (index, (component, found)) in components.iter().zip(found).enumerate() {
+        for critical in found {
             let speed = critical.speed_rad_per_s;
             let name = standing_name(plate, component.first, &critical.shape, speed);
             named.push(NamedCriticalSpeed {
@@ -76,7 +77,7 @@ pub(super) fn named_critical_speeds(
         }
     }
     named.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    Ok(named)
+    named
 }
 
 /// The name of a wave that stands still, from its unknowns in a component.

@@ -312,7 +312,8 @@ impl<'a> Builder<'a> {
                 .into_par_iter()
                 .map(|pair| {
                     let basis = self.basis(pair, self.window);
-                    let mut piece = Projection::new(self.system, basis, pair[1].speed);
+                    let mut piece =
+                        Projection::new(self.system, self.structure, basis, pair[1].speed);
                     let middle = 0.5 * (pair[0].speed + pair[1].speed);
                     let pairs = self.pairs(&piece, middle)?;
                     let error = self.frequency_error(&piece, middle, self.window, &pairs);

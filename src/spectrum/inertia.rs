@@ -26,7 +26,8 @@ mod waves;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use faer::{Mat, Scale, c64};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par, Scale, c64};
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 pub use self::damped::DampedBasis;
@@ -37,6 +38,7 @@ use self::waves::Waves;
 use super::component::frequency_scale;
 use super::hermitian::negative_eigenvalues;
 use crate::plate::{HarmonicBlock, Plate};
+use crate::system::GyroscopicSystem;
 
 /// The blade and what couples its harmonics, without damping.
 #[derive(Debug)]
@@ -70,6 +72,9 @@ pub struct Harmonic {
 
 /// Share of T = B(0) + σ that rounding may change L by.
 const ROUNDING: f64 = 1e-11;
+/// Lines lie below this multiple of the blade's frequency scale, for the most part: those above are counted, with less
+/// certainty.
+const HIGH_LINE: f64 = 6.0;
 /// Share of the speed beyond which a line is so long that more columns do not help.
 const LONG: f64 = 1e-3;
 
@@ -95,7 +100,7 @@ impl WholeBasis {
                 }
                 Coupling::Dense(in_waves(&sum, &harmonics))
             },
-            Coupling::Columns,
+            |columns| Coupling::Columns(Box::new(columns)),
         );
         WholeBasis {
             harmonics,
@@ -129,8 +134,123 @@ impl WholeBasis {
         });
         Some(ShiftedBlocks {
             blocks: blocks.collect(),
-            columns: Scale(1.0 / shift_per_s) * columns.in_unknowns(&self.harmonics),
+            columns: Scale(1.0 / shift_per_s) * columns.few(),
+            taken_away: 0,
         })
+    }
+
+    /// K₀, with what is left out of PPᵀ left out. Heave and tilt may have no stiffness but that of the guides: the
+    /// blocks hold them, and columns take away what they add. `None` as for [`Self::shifted`].
+    pub fn at_rest(&self) -> Option<ShiftedBlocks> {
+        let Coupling::Columns(columns) = &self.coupling else {
+            return None;
+        };
+        let columns = columns.few().to_owned();
+        let mut held: Vec<(usize, f64)> = Vec::new();
+        let blocks = self.harmonics.iter().map(|h| {
+            let mut block = h.rest.clone();
+            if h.diameters <= 1 {
+                block[(0, 0)] += h.shift;
+                held.extend(h.firsts().map(|first| (first, h.shift.sqrt())));
+            }
+            ShiftedBlock {
+                firsts: h.firsts().collect(),
+                block,
+                turning: 0.0,
+            }
+        });
+        let blocks = blocks.collect();
+        let holding = Mat::from_fn(columns.nrows(), held.len(), |i, k| match held[k] {
+            (first, root) if first == i => root,
+            _ => 0.0,
+        });
+        Some(ShiftedBlocks {
+            blocks,
+            columns: faer::concat![[columns, holding]],
+            taken_away: held.len(),
+        })
+    }
+
+    /// Whether the columns leave out no more than rounding.
+    pub fn is_exact(&self) -> bool {
+        matches!(&self.coupling, Coupling::Columns(columns) if columns.is_exact)
+    }
+
+    /// K₀X, (K_σ − N)X and GX with all columns that there are. `None` as for [`Self::shifted`].
+    pub fn times(&self, x: MatRef<'_, f64>) -> Option<GyroscopicSystem> {
+        let Coupling::Columns(columns) = &self.coupling else {
+            return None;
+        };
+        let columns = &columns.unknowns;
+        let mut stiffness = columns * (columns.transpose() * x);
+        let [mut spin, mut gyroscopic] = [0, 1].map(|_| Mat::zeros(x.nrows(), x.ncols()));
+        for h in &self.harmonics {
+            let (n, radial) = (h.diameters as f64, h.radial());
+            let whole = |block: &DMatrix<f64>| Mat::from_fn(radial, radial, |i, k| block[(i, k)]);
+            let (rest, mut tension) = (whole(&h.rest), whole(&h.tension));
+            (0..radial).for_each(|i| tension[(i, i)] -= n * n);
+            for first in h.firsts() {
+                let own = x.subrows(first, radial);
+                for (block, sum) in [(&rest, &mut stiffness), (&tension, &mut spin)] {
+                    let into = sum.subrows_mut(first, radial);
+                    matmul(into, Accum::Add, block, own, 1.0, Par::Seq);
+                }
+            }
+            if h.diameters > 0 {
+                let (cosine, sine) = (h.first, h.first + radial);
+                for (to, from, n) in [(cosine, sine, n), (sine, cosine, -n)] {
+                    let turned = Scale(n) * x.subrows(from, radial);
+                    gyroscopic.subrows_mut(to, radial).copy_from(turned);
+                }
+            }
+        }
+        Some(GyroscopicSystem::undamped(stiffness, spin, gyroscopic))
+    }
+
+    /// Where 2ΩG is not zero: (row, column, value).
+    pub fn turning(&self, speed_rad_per_s: f64) -> Vec<(usize, usize, f64)> {
+        let turned = self.harmonics.iter().filter(|h| h.diameters > 0);
+        let entries = turned.flat_map(|h| {
+            let value = 2.0 * speed_rad_per_s * h.diameters as f64;
+            (0..h.radial()).flat_map(move |j| {
+                let (cosine, sine) = (h.first + j, h.first + h.radial() + j);
+                [(cosine, sine, value), (sine, cosine, -value)]
+            })
+        });
+        entries.collect()
+    }
+
+    /// The lowest wave of every number of nodal diameters at rest, N × (2 n_max + 1), without guides.
+    pub fn first_waves(&self) -> Mat<f64> {
+        let places = self
+            .harmonics
+            .iter()
+            .flat_map(|h| h.firsts().map(move |first| (h, first)));
+        let places: Vec<(&Harmonic, usize)> = places.collect();
+        let order = self
+            .harmonics
+            .iter()
+            .map(|h| h.radial() * h.firsts().count());
+        let mut waves = Mat::zeros(order.sum(), places.len());
+        for (k, (h, first)) in places.into_iter().enumerate() {
+            let lowest = h.resting.eigenvalues.imin();
+            for j in 0..h.radial() {
+                waves[(first + j, k)] = h.resting.eigenvectors[(j, lowest)];
+            }
+        }
+        waves
+    }
+
+    /// Number of waves of the undamped blade at rest below a frequency, where that is certain.
+    pub fn modes_at_rest_below(&self, frequency_rad_per_s: f64) -> Option<usize> {
+        let rest = self.at(0.0);
+        self.count_along([&rest, &rest], [frequency_rad_per_s; 2])
+    }
+
+    /// Number of critical speeds below a speed, where that is certain: K₀ is positive definite.
+    pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
+        let at = self.at(speed_rad_per_s);
+        self.count_along([&at, &at], [0.0; 2])
     }
 
     /// Whether a count needs a factorization of the order of the basis.
@@ -170,10 +290,9 @@ impl WholeBasis {
     fn looks(&self, [a, b]: [&AtSpeed; 2]) -> Range<usize> {
         let is_long = b.speed_rad_per_s - a.speed_rad_per_s > LONG * b.speed_rad_per_s;
         match &self.coupling {
-            Coupling::Columns(Columns {
-                rests: [first, all],
-                ..
-            }) if !is_long && all.0 > first.0 => 0..2,
+            Coupling::Columns(columns) if !is_long && columns.rests[1].0 > columns.rests[0].0 => {
+                0..2
+            }
             _ => 0..1,
         }
     }
@@ -209,9 +328,13 @@ impl WholeBasis {
             Coupling::Columns(columns) => {
                 let waves = at.waves[look].get_or_init(|| {
                     let free = at.free.get_or_init(|| self.free_waves(at.speed_rad_per_s));
-                    Waves::new(free, columns, columns.rests[look].0)
+                    let waves = Waves::new(free, columns, columns.rests[look].0);
+                    match look {
+                        0 => waves.with_stiff_together(&self.harmonics, at.speed_rad_per_s),
+                        _ => waves,
+                    }
                 });
-                waves.count(&self.harmonics, &blocks)
+                waves.count(&self.harmonics, &blocks, bound)
             }
             Coupling::Dense(coupling) => {
                 let mut matrix = coupling.clone();
@@ -257,11 +380,13 @@ impl WholeBasis {
     }
 }
 
-/// Blocks and columns of L(σ) = blocks + PPᵀ.
+/// Blocks and columns of a matrix, blocks + P diag(1 … 1, −1 … −1) Pᵀ.
 pub struct ShiftedBlocks {
     pub blocks: Vec<ShiftedBlock>,
     /// P, N × columns.
     pub columns: Mat<f64>,
+    /// Number of the last columns, that are taken away.
+    pub taken_away: usize,
 }
 
 /// Of one harmonic: the same block for cosines and sines, and ±`turning` between them.
@@ -328,6 +453,11 @@ impl Harmonic {
         let (first, radial) = (self.first, self.radial());
         let phases = if self.diameters == 0 { 1 } else { 2 };
         (0..phases).map(move |phase| first + phase * radial)
+    }
+
+    /// (ω + nΩ)² of a line high up.
+    fn fast_turning(&self, speed_rad_per_s: f64) -> f64 {
+        (HIGH_LINE * self.shift.sqrt() + self.diameters as f64 * speed_rad_per_s).powi(2)
     }
 
     /// Indices of its waves among e^{inθ} and e^{−inθ}: for n = 0 they are one.

@@ -16,6 +16,7 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::mode::{Mode, ModeKind};
 use super::model::DescribedMode;
+use super::structured::{LARGE, StructuredStiffness};
 use super::vectors::real_times;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
@@ -30,7 +31,19 @@ pub struct LargerBasis {
 
 /// Functions that a component lacks.
 #[derive(Debug)]
-struct AddedFunctions {
+enum AddedFunctions {
+    Dense(DenseFunctions),
+    /// Of a large guided blade. The block of K₀⁻¹ of the larger basis between the new functions is S⁻¹.
+    Structured {
+        larger: Box<StructuredStiffness>,
+        /// Where the old functions stand in it.
+        kept: Vec<usize>,
+    },
+}
+
+/// By blocks of the matrices of the larger basis.
+#[derive(Debug)]
+struct DenseFunctions {
     /// K₀ between them and those of the component.
     stiffness: Mat<f64>,
     /// K_σ − N between them.
@@ -52,14 +65,11 @@ impl LargerBasis {
             true => (0..=plate.max_diameters())
                 .map(|n| {
                     let system = GyroscopicSystem::of_harmonic(larger, n);
-                    AddedFunctions::new(&system, &kept(plate, larger, n..=n))
+                    DenseFunctions::new(&system, &kept(plate, larger, n..=n))
+                        .map(AddedFunctions::Dense)
                 })
                 .collect::<Result<_, _>>()?,
-            false => {
-                let system = GyroscopicSystem::of_plate(larger);
-                let kept = kept(plate, larger, 0..=plate.max_diameters());
-                vec![AddedFunctions::new(&system, &kept)?]
-            }
+            false => vec![AddedFunctions::of_coupled(plate, larger)?],
         };
         Ok(LargerBasis { added })
     }
@@ -106,12 +116,9 @@ impl LargerBasis {
                 let q = shapes[k / 2][i];
                 if k % 2 == 0 { q.re } else { q.im }
             });
-            let force = self.added[index].whitened_force(speed_rad_per_s, &columns);
+            let softened = self.added[index].softened(speed_rad_per_s, &columns);
             for (k, (&place, q)) in places.iter().zip(&shapes).enumerate() {
-                let softening = [2 * k, 2 * k + 1]
-                    .map(|column| force.col(column).squared_norm_l2())
-                    .iter()
-                    .sum::<f64>();
+                let softening = softened[2 * k] + softened[2 * k + 1];
                 let lambda = modes[place].mode.lambda;
                 let turned = Scale(c64::new(speed_rad_per_s, 0.0))
                     * real_times(&component.full.gyroscopic, q);
@@ -139,6 +146,81 @@ impl LargerBasis {
 }
 
 impl AddedFunctions {
+    fn of_coupled(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
+        let kept = kept(plate, larger, 0..=plate.max_diameters());
+        let is_large = larger.degrees_of_freedom() >= LARGE;
+        let structured = is_large.then(|| StructuredStiffness::of(larger)).flatten();
+        // A blade that is not certain to be stable is looked at closely.
+        let structured =
+            structured.filter(|larger| larger.basis.critical_speeds_below(0.0) == Some(0));
+        if let Some(larger) = structured {
+            return Ok(AddedFunctions::Structured {
+                larger: Box::new(larger),
+                kept,
+            });
+        }
+        let system = GyroscopicSystem::of_plate(larger);
+        DenseFunctions::new(&system, &kept).map(AddedFunctions::Dense)
+    }
+
+    /// QᵀK_cn S⁻¹ K_nc Q.
+    fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        match self {
+            AddedFunctions::Dense(dense) => {
+                let force = dense.whitened_force(speed_rad_per_s, columns);
+                force.transpose() * &force
+            }
+            AddedFunctions::Structured { larger, kept } => {
+                let force = force_on_new(larger, kept, speed_rad_per_s, columns);
+                force.transpose() * larger.solve(&force)
+            }
+        }
+    }
+
+    /// Its diagonal.
+    fn softened(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Vec<f64> {
+        let places = 0..columns.ncols();
+        match self {
+            AddedFunctions::Dense(dense) => {
+                let force = dense.whitened_force(speed_rad_per_s, columns);
+                places.map(|k| force.col(k).squared_norm_l2()).collect()
+            }
+            AddedFunctions::Structured { larger, kept } => {
+                let force = force_on_new(larger, kept, speed_rad_per_s, columns);
+                let given_way = larger.solve(&force);
+                places
+                    .map(|k| force.col(k).transpose() * given_way.col(k))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// K_nc Q in the unknowns of the larger basis, zero on the old functions.
+fn force_on_new(
+    larger: &StructuredStiffness,
+    kept: &[usize],
+    speed_rad_per_s: f64,
+    columns: &Mat<f64>,
+) -> Mat<f64> {
+    let mut wide = Mat::zeros(larger.inverse.order(), columns.ncols());
+    let rows = |k: usize| {
+        kept.iter()
+            .enumerate()
+            .map(move |(row, &place)| (row, place, k))
+    };
+    for (row, place, k) in (0..columns.ncols()).flat_map(rows) {
+        wide[(place, k)] = columns[(row, k)];
+    }
+    let product = larger.basis.times(wide.as_ref());
+    let mut force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
+    for (_, place, k) in (0..columns.ncols()).flat_map(rows) {
+        force[(place, k)] = 0.0;
+    }
+    force
+}
+
+impl DenseFunctions {
     fn new(larger: &GyroscopicSystem, kept: &[usize]) -> Result<Self, SpectrumError> {
         let order = larger.order();
         let unstable = |_| SpectrumError::UnstableAtRest { order };
@@ -162,17 +244,11 @@ impl AddedFunctions {
         let mut whitened = block(&larger.stiffness, kept, &added);
         solve_lower_triangular_in_place(old.L(), whitened.as_mut(), Par::Seq);
         let schur = block(&larger.stiffness, &added, &added) - whitened.transpose() * &whitened;
-        Ok(AddedFunctions {
+        Ok(DenseFunctions {
             stiffness: block(&larger.stiffness, &added, kept),
             spin: block(&larger.spin, &added, kept),
             factor: schur.llt(Side::Lower).map_err(unstable)?,
         })
-    }
-
-    /// QᵀK_cn S⁻¹ K_nc Q.
-    fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
-        let force = self.whitened_force(speed_rad_per_s, columns);
-        force.transpose() * &force
     }
 
     /// L⁻¹K_nc Q, S = LLᵀ.

@@ -16,6 +16,7 @@ pub(crate) mod derivative;
 
 mod argument;
 mod arnoldi;
+mod assembled;
 mod at_rest;
 mod buckling;
 mod canonical;
@@ -39,18 +40,20 @@ mod mode;
 mod mode_name;
 mod mode_pair;
 mod model;
+mod pencil;
 mod projection;
 mod real_eigen;
 mod refined;
 mod reflected;
 mod residual;
+mod structured;
 mod vectors;
 mod work;
 
 pub(crate) use argument::turn_along;
 #[doc(hidden)]
 pub use arnoldi::lowest_eigenpairs;
-pub(crate) use at_rest::modes_at_rest;
+pub(crate) use assembled::Assembled;
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]
 pub use companion::companion_eigenpairs;

@@ -11,10 +11,10 @@ use faer::{Col, Mat, c64};
 
 use crate::plate::Plate;
 
-use super::buckling;
+use super::assembled::Assembled;
 use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution, frequency_scale};
-use super::critical::{NamedCriticalSpeed, named_critical_speeds};
+use super::critical::NamedCriticalSpeed;
 use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
@@ -177,8 +177,19 @@ impl SpectralModel {
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
     /// the reason.
     pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        named_critical_speeds(plate, &Component::of(plate))
-            .map_err(|error| buckling::explained(plate, error))
+        Assembled::of(plate).critical_speeds(plate, None)
+    }
+
+    /// The lowest critical speed of a plate and all others up to a speed, ascending: of a guided blade in a time far
+    /// below that of all.
+    ///
+    /// # Errors
+    /// Those of [`SpectralModel::critical_speeds`].
+    pub fn critical_speeds_up_to(
+        plate: &Plate,
+        to_rad_per_s: f64,
+    ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+        Assembled::of(plate).critical_speeds(plate, Some(&|_| to_rad_per_s))
     }
 
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.

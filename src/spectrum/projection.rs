@@ -5,7 +5,9 @@ use faer::{Col, Mat, c64};
 use crate::system::GyroscopicSystem;
 
 use super::hamiltonian::{HamiltonianReduction, State};
+use super::inertia::WholeBasis;
 use super::residual::Lifted;
+use super::structured;
 use super::vectors::{Eigenpair, real_times, split};
 
 /// A component projected on few orthonormal vectors.
@@ -24,9 +26,14 @@ pub struct Projection {
 }
 
 impl Projection {
-    /// Projects a component, for speeds up to `to_rad_per_s`.
-    pub fn new(system: &GyroscopicSystem, basis: Mat<f64>, to_rad_per_s: f64) -> Self {
-        let products = system.times(basis.as_ref());
+    /// Projects a component, for speeds up to `to_rad_per_s`; by its structure where that is known.
+    pub fn new(
+        system: &GyroscopicSystem,
+        structure: Option<&WholeBasis>,
+        basis: Mat<f64>,
+        to_rad_per_s: f64,
+    ) -> Self {
+        let products = structured::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());
         Projection {
             to_rad_per_s,

@@ -10,14 +10,11 @@
 use super::error::AnalysisError;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
-use crate::spectrum::{
-    Cancellation, Component, LargerBasis, NamedCriticalSpeed, SpectralModel, modes_at_rest,
-};
+use crate::spectrum::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, SpectralModel};
 use crate::tuned::Tuned;
 
-/// (n_max, J), each about 1.5 times as large as the one before. More than 13 radial
-/// polynomials lose digits on narrow rings.
-pub(crate) const LADDER: [(usize, usize); 9] = [
+/// (n_max, J), each about 1.5 times as large as the one before.
+const LADDER: [(usize, usize); 14] = [
     (4, 3),
     (6, 4),
     (8, 5),
@@ -27,9 +24,17 @@ pub(crate) const LADDER: [(usize, usize); 9] = [
     (18, 10),
     (23, 11),
     (30, 12),
+    (34, 15),
+    (40, 18),
+    (48, 21),
+    (56, 25),
+    (70, 30),
 ];
+/// So many of them are within reach of eigenproblems of their order; the others take the structure of a guided
+/// blade, or the harmonics of a free one.
+pub(crate) const DENSE_LADDER: &[(usize, usize)] = LADDER.split_at(9).0;
 /// Sizes that only measure what the largest of the ladder leave out.
-const BEYOND: [(usize, usize); 2] = [(36, 13), (42, 14)];
+const BEYOND: [(usize, usize); 2] = [(80, 34), (90, 38)];
 /// Steps of the ladder from a size to the one that its error is measured against: more for the
 /// small ones, which cost nothing and converge slowly at first.
 const fn steps_ahead(rung: usize) -> usize {
@@ -49,6 +54,9 @@ const FALL: (f64, f64) = (0.5, 0.8);
 const SAFETY: Tuned = Tuned::new("stability/basis::SAFETY", 4.0);
 /// Ten times the strain at which the strongest steel yields.
 const LARGEST_STRETCH: Tuned = Tuned::new("stability/basis::LARGEST_STRETCH", 0.1);
+/// Critical speeds up to this multiple of the end of the range are found: what is searched near its end is
+/// kept away from those just above it.
+const PAST_THE_RANGE: f64 = 1.05;
 /// Differences below this are the rounding of the eigenproblem.
 const ROUNDING: f64 = 1e-10;
 
@@ -57,7 +65,7 @@ const ROUNDING: f64 = 1e-10;
 pub struct ChosenBasis {
     /// The plate in this basis.
     pub plate: Plate,
-    /// Every critical speed, ascending.
+    /// The critical speeds up to a little above the range, and the lowest; ascending.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Speeds of the chart.
     pub range_rad_per_s: (f64, f64),
@@ -89,17 +97,22 @@ impl ChosenBasis {
         let mut previous: Option<Vec<NamedCriticalSpeed>> = None;
         for (rung, (max_diameters, radial_functions)) in LADDER.into_iter().enumerate() {
             cancellation.check()?;
-            let last = rung + 1 == LADDER.len();
             let resolution = Resolution {
                 max_diameters,
                 radial_functions,
             };
             let plate = Plate::new(scene, resolution);
-            let critical = SpectralModel::critical_speeds(&plate)?;
-            let range = match scene.sweep() {
+            let assembled = Assembled::of(&plate);
+            let is_within_reach = assembled.is_structured() && plate.is_conservative();
+            let is_largest = rung + 1 >= DENSE_LADDER.len() && !is_within_reach;
+            let last = is_largest || rung + 1 == LADDER.len();
+            let range = |lowest: Option<f64>| match scene.sweep() {
                 Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
-                None => (0.0, default_top(&critical).min(fastest)),
+                None => (0.0, default_top(lowest).min(fastest)),
             };
+            let limit = |lowest: f64| PAST_THE_RANGE * range(Some(lowest)).1;
+            let critical = assembled.critical_speeds(&plate, Some(&limit))?;
+            let range = range(critical.first().map(|c| c.speed_rad_per_s));
             if let Some(coarser) = &previous {
                 differences.push(difference(coarser, &critical, range.1));
             }
@@ -111,7 +124,7 @@ impl ChosenBasis {
             if last || (estimated <= tolerance && resolved.is_ok()) {
                 resolved?;
                 let larger = LargerBasis::new(&plate, &Plate::new(scene, ahead(rung)))?;
-                let resting = resting_error(&plate, &larger)?;
+                let resting = resting_error(&assembled, &larger)?;
                 if last || resting <= tolerance {
                     return Ok(ChosenBasis {
                         plate,
@@ -152,7 +165,7 @@ pub(crate) fn resolved_plate(
     let mut resolution = least;
     loop {
         let plate = Plate::new(scene, resolution);
-        let critical = SpectralModel::critical_speeds(&plate)?;
+        let critical = SpectralModel::critical_speeds_up_to(&plate, PAST_THE_RANGE * to_rad_per_s)?;
         match (unresolved(&plate, &critical, to_rad_per_s), larger.next()) {
             (Ok(()), _) => return Ok((plate, critical)),
             (Err(_), Some((max_diameters, radial_functions))) => {
@@ -180,8 +193,8 @@ fn ahead(rung: usize) -> Resolution {
 }
 
 /// Largest estimated relative error of the lowest frequencies at rest.
-fn resting_error(plate: &Plate, larger: &LargerBasis) -> Result<f64, AnalysisError> {
-    let modes = modes_at_rest(&Component::of(plate), MODES_AT_REST)?;
+fn resting_error(assembled: &Assembled, larger: &LargerBasis) -> Result<f64, AnalysisError> {
+    let modes = assembled.modes_at_rest(MODES_AT_REST)?;
     let errors = modes.iter().map(|mode| larger.resting_error(mode));
     Ok(REMAINDER.get() * errors.fold(0.0, f64::max))
 }
@@ -243,8 +256,8 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
 }
 
 /// Twice the lowest critical speed, rounded up to two digits.
-fn default_top(critical: &[NamedCriticalSpeed]) -> f64 {
-    let lowest = critical.first().map_or(1000.0, |c| rpm(c.speed_rad_per_s));
+fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
+    let lowest = lowest_rad_per_s.map_or(1000.0, rpm);
     let digit = 10_f64.powf((2.0 * lowest).log10().floor() - 1.0);
     rad_per_s((2.0 * lowest / digit).ceil() * digit)
 }

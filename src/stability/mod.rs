@@ -44,7 +44,7 @@ pub(crate) use analysis::OPERATING_LIMIT;
 pub use analysis::{Analysis, AnalysisOptions};
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
-pub(crate) use basis::LADDER;
+pub(crate) use basis::DENSE_LADDER;
 pub(crate) use basis::resolved_plate;
 pub use certificate::{Certificate, Mismatch};
 pub use chart::StabilityChart;

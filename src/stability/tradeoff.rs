@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::InstabilityKind;
-use super::basis::{ChosenBasis, LADDER};
+use super::basis::{ChosenBasis, DENSE_LADDER};
 use super::chart::{StabilityChart, chart};
 use super::error::AnalysisError;
 use crate::campbell::Progress;
@@ -54,7 +54,7 @@ pub struct Setting {
 }
 
 /// Sizes of the bases: those that an accuracy chooses from, but the least.
-const SIZES: &[(usize, usize)] = LADDER.split_at(1).1;
+const SIZES: &[(usize, usize)] = DENSE_LADDER.split_at(1).1;
 /// The whole basis at every speed takes a hundred times as long: two sizes show it.
 const DENSE_SIZES: usize = 2;
 /// What counts as the truth.

@@ -11,7 +11,7 @@ use super::{WashboardError, columns};
 use crate::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{ChosenBasis, LADDER};
+use crate::stability::{ChosenBasis, DENSE_LADDER};
 use crate::system::{GyroscopicSystem, body_frame_stiffness};
 
 /// The saw in the cut on its lower modes.
@@ -233,7 +233,7 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
         radial_functions,
     } = plate.resolution;
     let mut plate = plate;
-    let larger = LADDER.into_iter();
+    let larger = DENSE_LADDER.iter().copied();
     let larger = larger.filter(|(n, j)| *n > max_diameters && *j >= radial_functions);
     for (max_diameters, radial_functions) in larger {
         if complete_to(&plate, fastest) >= needed {

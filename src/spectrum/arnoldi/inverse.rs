@@ -1,20 +1,24 @@
-//! The inverse of L(σ), whole or by its structure.
+//! The inverse of L(σ) or K₀, whole or by its structure.
 //!
 //! Without edge loads L(σ) = A + PPᵀ with A block diagonal in the number of nodal diameters, for guides are of
 //! low rank, and by the identity of Sherman, Morrison and Woodbury
 //!
-//! L⁻¹ = A⁻¹ − A⁻¹P (1 + PᵀA⁻¹P)⁻¹ PᵀA⁻¹.
+//! L⁻¹ = A⁻¹ − A⁻¹P (1 + PᵀA⁻¹P)⁻¹ PᵀA⁻¹,
+//!
+//! with −1 for 1 where a column is taken away.
 //!
 //! With J functions of each harmonic and r columns a factorization costs O(NJ² + Nr²) in place of O(N³), and a
 //! solve O(NJ + Nr). Of a pair of cosine and sine A is [[B, γ], [−γ, B]], that is B − iγ on c + is.
 
+use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
-use faer::{Col, ColRef, Mat, MatRef};
+use faer::{Accum, Col, ColRef, Mat, MatRef, Par};
 use nalgebra::{Complex, DMatrix};
 
 use crate::spectrum::inertia::{ShiftedBlock, ShiftedBlocks};
 
-/// Of L(σ) in units of σ².
+/// Of L(σ) in units of σ², or of K₀.
+#[derive(Debug)]
 pub enum Inverse {
     /// Applying it takes half the time of two triangular solves, and the few dozen applications repay it.
     Dense(Mat<f64>),
@@ -22,6 +26,7 @@ pub enum Inverse {
 }
 
 /// By blocks and columns.
+#[derive(Debug)]
 pub struct BlockInverse {
     order: usize,
     blocks: Vec<BlockSolve>,
@@ -32,6 +37,7 @@ pub struct BlockInverse {
 }
 
 /// (B − iγ)⁻¹ of one harmonic.
+#[derive(Debug)]
 struct BlockSolve {
     firsts: Vec<usize>,
     re: DMatrix<f64>,
@@ -57,16 +63,20 @@ impl Inverse {
         };
         let solved = |transposed: bool| {
             let mut all = Mat::zeros(order, columns.ncols());
-            for k in 0..columns.ncols() {
-                let mut one = Col::zeros(order);
-                inverse.add_solved(columns.col(k), transposed, &mut one);
-                all.col_mut(k).copy_from(one);
+            for block in &inverse.blocks {
+                block.add_all_solved(columns.as_ref(), transposed, &mut all);
             }
             all
         };
-        let (plain, transposed) = (solved(false), solved(true));
+        let plain = solved(false);
+        let is_symmetric = structure.blocks.iter().all(|block| block.turning == 0.0);
+        let transposed = match is_symmetric {
+            true => plain.clone(),
+            false => solved(true),
+        };
         let mut core = columns.transpose() * &plain;
-        (0..columns.ncols()).for_each(|i| core[(i, i)] += 1.0);
+        let added = columns.ncols() - structure.taken_away;
+        (0..columns.ncols()).for_each(|i| core[(i, i)] += if i < added { 1.0 } else { -1.0 });
         let left = core.transpose().partial_piv_lu().solve(plain.transpose());
         inverse.left = left.transpose().to_owned();
         inverse.right = transposed;
@@ -143,6 +153,25 @@ impl BlockSolve {
             re: inverse.map(|x| x.re),
             im: inverse.map(|x| x.im),
         })
+    }
+
+    /// The same of many loads.
+    fn add_all_solved(&self, loads: MatRef<'_, f64>, transposed: bool, sum: &mut Mat<f64>) {
+        let radial = self.re.nrows();
+        let whole = |part: &DMatrix<f64>| Mat::from_fn(radial, radial, |i, k| part[(i, k)]);
+        let (re, im) = (whole(&self.re), whole(&self.im));
+        let mut add = |to: usize, part: &Mat<f64>, from: usize, factor: f64| {
+            let (into, from) = (sum.subrows_mut(to, radial), loads.subrows(from, radial));
+            matmul(into, Accum::Add, part, from, factor, Par::Seq);
+        };
+        let sign = if transposed { -1.0 } else { 1.0 };
+        let cosine = self.firsts[0];
+        add(cosine, &re, cosine, 1.0);
+        if let Some(&sine) = self.firsts.get(1) {
+            add(cosine, &im, sine, -sign);
+            add(sine, &im, cosine, sign);
+            add(sine, &re, sine, 1.0);
+        }
     }
 
     fn add_solved(&self, load: ColRef<'_, f64>, transposed: bool, sum: &mut Col<f64>) {

@@ -100,15 +100,13 @@ impl ShiftedInverse {
     /// columns leave out. `None` where they have none.
     pub fn by_structure(
         basis: &WholeBasis,
-        system: &GyroscopicSystem,
         speed_rad_per_s: f64,
         shift_per_s: f64,
     ) -> Option<Self> {
         let structure = basis.shifted(speed_rad_per_s, shift_per_s)?;
-        let velocity = Scale(1.0 / shift_per_s) * system.velocity_at(speed_rad_per_s);
         Some(ShiftedInverse {
             inverse: Inverse::by_blocks(&structure)?,
-            velocity: Velocity::new(velocity),
+            velocity: Velocity::Sparse(basis.turning(speed_rad_per_s / shift_per_s)),
         })
     }
 }

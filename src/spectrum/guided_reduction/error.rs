@@ -78,7 +78,7 @@ mod tests {
         let (height, _) = builder.chart_height(0.0).unwrap();
         builder.window = height;
         let snapshots = [400.0, 1200.0].map(|rpm| builder.snapshot(rad_per_s(rpm)).unwrap());
-        let projection = Projection::new(&system, builder.basis(&snapshots, height), range.1);
+        let projection = Projection::new(&system, None, builder.basis(&snapshots, height), range.1);
         let mut estimated = 0;
         for speed in [1e-6, 700.0].map(rad_per_s) {
             let exact = companion_eigenpairs(&system, speed).unwrap();

@@ -38,7 +38,7 @@ impl Builder<'_> {
             let first = self.snapshots.partition_point(|s| s.speed <= from);
             let snapshots = &self.snapshots[first.saturating_sub(1)..];
             let basis = self.basis(&self.snapshots, height);
-            let projection = Projection::new(self.system, basis, self.range.1);
+            let projection = Projection::new(self.system, self.structure, basis, self.range.1);
             let mut halfway = halfway(snapshots);
             halfway.retain(|speed| settled.iter().all(|known| known.speed != *speed));
             let tried: Vec<(f64, Snapshot)> = halfway

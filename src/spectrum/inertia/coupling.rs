@@ -1,8 +1,8 @@
 //! What couples the harmonics, as few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε (B(0) + σ).
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par, c64};
-use nalgebra::DMatrix;
+use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
+use nalgebra::{DMatrix, DVector};
 
 use super::Harmonic;
 
@@ -10,7 +10,7 @@ use super::Harmonic;
 #[derive(Debug)]
 pub enum Coupling {
     /// PPᵀ and a rest that is too small to matter.
-    Columns(Columns),
+    Columns(Box<Columns>),
     /// In the basis of waves, N × N: edge loads couple every wave with every other.
     Dense(Mat<c64>),
 }
@@ -26,12 +26,18 @@ pub struct Columns {
     pub resting: Mat<f64>,
     /// Numbers of columns to begin with, each with the ε of those left out.
     pub rests: [(usize, f64); 2],
+    /// P in the unknowns of the plate, N × columns; more of them than above.
+    pub unknowns: Mat<f64>,
+    /// Whether these leave out no more than rounding.
+    pub is_exact: bool,
 }
 
 /// Trace of the rest, relative to the blade's own stiffness, at which no more columns are taken.
 const ENOUGH: f64 = 1e-7;
 /// The same for a first look, which costs a third.
 const FIRST_LOOK: f64 = 1e-3;
+/// Trace of the rest, relative to that of K_g, which is rounding of K_g.
+const EXACT: f64 = 4.0 * f64::EPSILON;
 /// Columns beyond this share of the unknowns cost more than the matrix as a whole.
 const MOST_COLUMNS: f64 = 0.4;
 
@@ -45,99 +51,74 @@ impl Columns {
             .iter()
             .map(|h| h.scale.clone().cholesky().map(|factor| factor.l()))
             .collect::<Option<_>>()?;
-        let scaled = relative(coupling, harmonics, &factors)?;
-        let mut diagonal: Vec<f64> = (0..order).map(|i| scaled[(i, i)]).collect();
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let mut first_look = None;
+        let relative = Relative::new(coupling, harmonics, &factors);
+        let mut diagonal = relative.diagonal()?;
         let most = (MOST_COLUMNS * order as f64) as usize;
-        loop {
-            let trace: f64 = diagonal.iter().map(|d| d.max(0.0)).sum();
+        let mut columns = Mat::zeros(order, most);
+        let mut count = 0;
+        let trace = |diagonal: &[f64]| -> f64 { diagonal.iter().map(|d| d.max(0.0)).sum() };
+        let rounding = EXACT * trace(&diagonal);
+        let mut rests: Vec<(usize, f64)> = Vec::new();
+        let is_exact = loop {
+            let trace = trace(&diagonal);
             let negative = diagonal.iter().copied().fold(0.0, f64::min);
-            if negative < -ENOUGH || !trace.is_finite() {
+            if negative < -ENOUGH.max(rounding) || !trace.is_finite() {
                 return None;
             }
-            if trace <= FIRST_LOOK && first_look.is_none() {
-                first_look = Some((columns.len(), trace));
+            for enough in &[FIRST_LOOK, ENOUGH][rests.len()..] {
+                if trace <= *enough {
+                    rests.push((count, trace));
+                }
             }
-            if trace <= ENOUGH {
-                let all = (columns.len(), trace);
-                let rests = [first_look.unwrap_or(all), all];
-                return Some(Self::unscaled(&columns, rests, harmonics, &factors));
-            }
-            if columns.len() == most {
-                return None;
+            if trace <= rounding || count == most {
+                break trace <= rounding;
             }
             let largest = |x: &usize, y: &usize| diagonal[*x].total_cmp(&diagonal[*y]);
             let pivot = (0..order).max_by(largest)?;
-            let root = diagonal[pivot].sqrt();
-            let column: Vec<f64> = (0..order)
-                .map(|i| {
-                    let known: f64 = columns.iter().map(|c| c[i] * c[pivot]).sum();
-                    (scaled[(i, pivot)] - known) / root
-                })
-                .collect();
-            for (d, x) in diagonal.iter_mut().zip(&column) {
-                *d -= x * x;
+            let known = columns.subcols(0, count);
+            let column = relative.column(pivot)? - known * known.row(pivot).transpose();
+            let column = Scale(diagonal[pivot].sqrt().recip()) * column;
+            for (i, d) in diagonal.iter_mut().enumerate() {
+                *d -= column[i] * column[i];
             }
             diagonal[pivot] = 0.0;
-            columns.push(column);
-        }
+            columns.col_mut(count).copy_from(column);
+            count += 1;
+        };
+        let rests = [*rests.first()?, *rests.get(1)?];
+        let unknowns = relative.unscaled(columns.subcols(0, count));
+        Some(Self::of_unknowns(unknowns, is_exact, rests, harmonics))
     }
 
-    /// P in the unknowns of the plate, N × columns.
-    pub fn in_unknowns(&self, harmonics: &[Harmonic]) -> Mat<f64> {
-        let count = self.cosine.ncols();
-        let order = harmonics.iter().map(|h| h.radial() * h.firsts().count());
-        let mut unknowns = Mat::zeros(order.sum(), count);
+    /// P without the columns that are left out, in the unknowns of the plate.
+    pub fn few(&self) -> MatRef<'_, f64> {
+        self.unknowns.subcols(0, self.rests[1].0)
+    }
+
+    /// Sorted by waves, those that are not left out.
+    fn of_unknowns(
+        unknowns: Mat<f64>,
+        is_exact: bool,
+        rests: [(usize, f64); 2],
+        harmonics: &[Harmonic],
+    ) -> Self {
+        let rows: usize = harmonics.iter().map(Harmonic::radial).sum();
+        let count = rests[1].0;
+        let mut cosine = Mat::zeros(rows, count);
+        let mut sine = Mat::zeros(rows, count);
         let mut row = 0;
         for harmonic in harmonics {
             let norm = match harmonic.diameters {
                 0 => 1.0,
-                _ => std::f64::consts::SQRT_2,
+                _ => std::f64::consts::FRAC_1_SQRT_2,
             };
-            for (first, rows) in harmonic.firsts().zip([&self.cosine, &self.sine]) {
-                for k in 0..count {
-                    for j in 0..harmonic.radial() {
-                        unknowns[(first + j, k)] = norm * rows[(row + j, k)];
-                    }
-                }
+            for (first, rows) in harmonic.firsts().zip([&mut cosine, &mut sine]) {
+                let own = Scale(norm) * unknowns.get(first..first + harmonic.radial(), ..count);
+                rows.subrows_mut(row, harmonic.radial()).copy_from(own);
             }
             row += harmonic.radial();
         }
-        unknowns
-    }
-
-    /// T¹ᐟ² times the columns, sorted by waves.
-    fn unscaled(
-        columns: &[Vec<f64>],
-        rests: [(usize, f64); 2],
-        harmonics: &[Harmonic],
-        factors: &[DMatrix<f64>],
-    ) -> Self {
-        let rows: usize = harmonics.iter().map(Harmonic::radial).sum();
-        let mut cosine = Mat::zeros(rows, columns.len());
-        let mut sine = Mat::zeros(rows, columns.len());
-        let mut row = 0;
-        for (harmonic, factor) in harmonics.iter().zip(factors) {
-            let radial = harmonic.radial();
-            for (k, column) in columns.iter().enumerate() {
-                for j in 0..radial {
-                    let at = |first: usize| -> f64 {
-                        (0..=j).map(|i| factor[(j, i)] * column[first + i]).sum()
-                    };
-                    match harmonic.diameters {
-                        0 => cosine[(row + j, k)] = at(harmonic.first),
-                        _ => {
-                            let half = std::f64::consts::FRAC_1_SQRT_2;
-                            cosine[(row + j, k)] = half * at(harmonic.first);
-                            sine[(row + j, k)] = half * at(harmonic.first + radial);
-                        }
-                    }
-                }
-            }
-            row += radial;
-        }
-        let mut resting = Mat::zeros(2 * rows, columns.len());
+        let mut resting = Mat::zeros(2 * rows, count);
         let mut row = 0;
         for harmonic in harmonics {
             let (radial, vectors) = (harmonic.radial(), &harmonic.resting.eigenvectors);
@@ -154,30 +135,83 @@ impl Columns {
             sine,
             resting,
             rests,
+            unknowns,
+            is_exact,
         }
     }
 }
 
-/// C⁻¹ K C⁻ᵀ, T = CCᵀ block by block.
-fn relative(
-    coupling: &Mat<f64>,
-    harmonics: &[Harmonic],
-    factors: &[DMatrix<f64>],
-) -> Option<DMatrix<f64>> {
-    let order = coupling.nrows();
-    let mut scaled = DMatrix::from_fn(order, order, |i, k| coupling[(i, k)]);
-    for _ in 0..2 {
-        for (harmonic, factor) in harmonics.iter().zip(factors) {
-            for first in harmonic.firsts() {
-                let mut rows = scaled.rows_mut(first, harmonic.radial());
-                if !factor.solve_lower_triangular_mut(&mut rows) {
+/// C⁻¹ K C⁻ᵀ, T = CCᵀ block by block, of which few columns are ever asked for.
+struct Relative<'a> {
+    coupling: &'a Mat<f64>,
+    /// Index of the first unknown of each block, and its C.
+    blocks: Vec<(usize, &'a DMatrix<f64>)>,
+}
+
+impl<'a> Relative<'a> {
+    fn new(coupling: &'a Mat<f64>, harmonics: &[Harmonic], factors: &'a [DMatrix<f64>]) -> Self {
+        let blocks = harmonics
+            .iter()
+            .zip(factors)
+            .flat_map(|(h, factor)| h.firsts().map(move |first| (first, factor)));
+        Relative {
+            coupling,
+            blocks: blocks.collect(),
+        }
+    }
+
+    fn diagonal(&self) -> Option<Vec<f64>> {
+        let mut diagonal = Vec::with_capacity(self.coupling.nrows());
+        for &(first, factor) in &self.blocks {
+            let size = factor.nrows();
+            let mut own =
+                DMatrix::from_fn(size, size, |i, k| self.coupling[(first + i, first + k)]);
+            for _ in 0..2 {
+                if !factor.solve_lower_triangular_mut(&mut own) {
                     return None;
                 }
+                own.transpose_mut();
             }
+            diagonal.extend(own.diagonal().iter());
         }
-        scaled.transpose_mut();
+        Some(diagonal)
     }
-    Some(scaled)
+
+    /// T¹ᐟ² times columns.
+    fn unscaled(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
+        let mut unscaled = Mat::zeros(columns.nrows(), columns.ncols());
+        for &(first, factor) in &self.blocks {
+            let size = factor.nrows();
+            let factor = Mat::from_fn(size, size, |i, k| factor[(i, k)]);
+            let (into, own) = (
+                unscaled.subrows_mut(first, size),
+                columns.subrows(first, size),
+            );
+            matmul(into, Accum::Replace, &factor, own, 1.0, Par::Seq);
+        }
+        unscaled
+    }
+
+    fn column(&self, index: usize) -> Option<Col<f64>> {
+        let place = self.blocks.partition_point(|(first, _)| *first <= index);
+        let (first, factor) = self.blocks[place - 1];
+        let mut unit = DVector::zeros(factor.nrows());
+        unit[index - first] = 1.0;
+        if !factor.tr_solve_lower_triangular_mut(&mut unit) {
+            return None;
+        }
+        let unit = Col::from_fn(factor.nrows(), |i| unit[i]);
+        let mut column = self.coupling.subcols(first, factor.nrows()) * unit;
+        for &(first, factor) in &self.blocks {
+            let size = factor.nrows();
+            let mut own = DVector::from_fn(size, |i, _| column[first + i]);
+            if !factor.solve_lower_triangular_mut(&mut own) {
+                return None;
+            }
+            (0..size).for_each(|i| column[first + i] = own[i]);
+        }
+        Some(column)
+    }
 }
 
 /// A symmetric matrix in the basis of waves (cos nθ ± i sin nθ)/√2, e^{inθ} before e^{−inθ}.

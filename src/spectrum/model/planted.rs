@@ -60,7 +60,7 @@ impl SpectralModel {
         let sound = &reflected.projection;
         let basis = basis(&sound.basis, reflected.height_rad_per_s);
         let to = sound.to_rad_per_s;
-        reflected.projection = Projection::new(&component.full, basis, to);
+        reflected.projection = Projection::new(&component.full, None, basis, to);
         reflected.known.clear();
     }
 }

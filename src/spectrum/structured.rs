@@ -1,0 +1,54 @@
+//! K₀ of a guided blade by its structure: blocks of one number of nodal diameters, and few columns.
+
+use faer::{Mat, MatRef};
+
+use super::arnoldi::Inverse;
+use super::inertia::WholeBasis;
+use crate::plate::Plate;
+use crate::system::GyroscopicSystem;
+
+/// Below this order one dense factorization costs less.
+pub const LARGE: usize = 200;
+
+/// Blocks and columns of K₀, and what solves with them. What the columns leave out is less than 1e-7 of the
+/// blade's own stiffness.
+#[derive(Debug)]
+pub struct StructuredStiffness {
+    /// Blocks and columns.
+    pub basis: WholeBasis,
+    /// Nearly K₀⁻¹.
+    pub inverse: Inverse,
+}
+
+impl StructuredStiffness {
+    /// Of a plate that guides hold; `None` where they take too many columns, where loads at the rim
+    /// couple every wave with every other, and where K₀ is singular.
+    pub fn of(plate: &Plate) -> Option<Self> {
+        let basis = WholeBasis::new(plate);
+        let inverse = Inverse::by_blocks(&basis.at_rest()?)?;
+        Some(StructuredStiffness { basis, inverse })
+    }
+
+    /// K₀⁻¹ X.
+    pub fn solve(&self, loads: &Mat<f64>) -> Mat<f64> {
+        let mut solved = Mat::zeros(loads.nrows(), loads.ncols());
+        for k in 0..loads.ncols() {
+            solved
+                .col_mut(k)
+                .copy_from(self.inverse.times(loads.col(k)));
+        }
+        solved
+    }
+}
+
+/// The matrices of a system times the columns of V, by the structure of an undamped blade where that is exact.
+pub fn times(
+    system: &GyroscopicSystem,
+    structure: Option<&WholeBasis>,
+    basis: MatRef<'_, f64>,
+) -> GyroscopicSystem {
+    let is_sum = system.is_conservative() && system.free_rigid.is_empty();
+    let structure = structure.filter(|structure| is_sum && structure.is_exact());
+    let product = structure.and_then(|structure| structure.times(basis));
+    product.unwrap_or_else(|| system.times(basis))
+}
