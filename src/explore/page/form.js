@@ -14,6 +14,10 @@ const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Parts that this chart does not depend on, and the command that looks at them.
 const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", spline: "cut" };
 
+// Numbers that speeds are known to move with: they keep room for it from the beginning.
+const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.]mass_per_tooth_kg|material[.](youngs_modulus_pa|density_kg_per_m3))"
+  + "|guides[[].*[.](radius_m|angle_deg|stiffness_n_per_m)|membrane[.].*(expansion_per_k|rim_rise_k|eigenstrain)|membrane[.]roll_tension.*radius_m)$");
+
 export class Form {
   constructor(place, schema, quantities, state) {
     Object.assign(this, { place, schema, quantities, state });
@@ -53,10 +57,9 @@ export class Form {
       const place = element.querySelector(".influence");
       if (!place) continue;
       const one = by.get(path);
-      place.hidden = !one?.words;
-      if (!one) continue;
-      place.querySelector(".words").textContent = one.words;
-      place.querySelector(".bar").style.width = `${Math.round(100 * one.share)}%`;
+      place.hidden = !one?.words && !WEIGHED.test(path);
+      place.querySelector(".words").textContent = one?.words ?? "";
+      place.querySelector(".bar").style.width = `${Math.round(100 * (one?.share ?? 0))}%`;
     }
   }
 
@@ -274,7 +277,7 @@ export class Form {
     slider.addEventListener("change", (event) => this.state.settle(event.timeStamp));
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
     const bar = node("span", { className: "track", ariaHidden: "true" }, node("span", { className: "bar" }));
-    const influence = node("p", { className: "influence", hidden: true }, node("span", { className: "words" }), bar);
+    const influence = node("p", { className: "influence", hidden: !WEIGHED.test(path) }, node("span", { className: "words" }), bar);
     const row = node("div", { className: "field number", title: schema.description ?? "" }, label, input, slider, influence);
     return this.#register(path, row, (number) => {
       const known = number ?? fallback;

@@ -221,7 +221,8 @@ function buttons() {
   by("redo").disabled = !state.canRedo;
   const source = state.scene.measured?.source;
   by("points").hidden = source === undefined;
-  by("source").textContent = (source ?? "").length > 36 ? `${source.slice(0, 35)}…` : source ?? "";
+  by("source").textContent = source ?? "";
+  by("source").title = source ?? "";
   by("unpin").hidden = !pinned.isNamed;
   by("unpin").textContent = `Unpin ${pinned.name}`;
   by("sides").hidden = by("unpin").hidden;
