@@ -5,6 +5,7 @@
 //! scene with every request and holds no numbers of its own: what it shows, and every file it
 //! saves, comes from the same calls as on the command line.
 
+mod charts;
 mod examples;
 mod guard;
 mod job;

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::Deserialize;
 
-use super::reply::{Charts, Refusal};
+use super::charts::Charts;
+use super::reply::Refusal;
 use crate::report::ModeEntry;
 use crate::scene::rpm;
 use crate::spectrum::DescribedMode;

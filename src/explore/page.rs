@@ -22,6 +22,9 @@ files! {
     "scene.js": SCRIPT, "page/scene.js";
     "kept.js": SCRIPT, "page/kept.js";
     "beginnings.js": SCRIPT, "page/beginnings.js";
+    "branches.js": SCRIPT, "page/branches.js";
+    "files.js": SCRIPT, "page/files.js";
+    "pointed.js": SCRIPT, "page/pointed.js";
     "live.js": SCRIPT, "page/live.js";
     "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";

@@ -1,19 +1,12 @@
-//! What the page is sent: charts, files, and why a scene was refused.
+//! What the page is sent besides charts: what it begins with, files, and why a scene was refused.
 
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex};
-use std::time::Instant;
-
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::examples::examples;
 use crate::figure::{self, FigureError};
-use crate::report::{Report, SensitivityEntry};
-use crate::scene::{
-    Accuracy, QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneFile, json_schema,
-};
+use crate::scene::{QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneFile, json_schema};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError, AnalysisOptions, Detail, sensitivities};
+use crate::stability::{Analysis, AnalysisError};
 
 /// What the page begins with.
 #[derive(Serialize)]
@@ -40,17 +33,6 @@ impl Start {
             version: env!("CARGO_PKG_VERSION"),
         }
     }
-}
-
-/// Which accuracy a chart is asked for at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Fidelity {
-    /// Draft, whatever the scene says, and drawn at fewer speeds: for a saw that is just being
-    /// changed.
-    Draft,
-    /// The scene's own.
-    Scene,
 }
 
 /// Why there is no chart, and which quantity is to blame.
@@ -127,93 +109,6 @@ impl Refusal {
             message: error.to_string(),
             allowed: None,
         }
-    }
-}
-
-#[derive(Serialize)]
-struct Chart<'a> {
-    /// Name of the chart when its modes are asked for.
-    chart: usize,
-    milliseconds: f64,
-    report: &'a Report,
-}
-
-/// The latest charts, for the modes on them.
-#[derive(Default)]
-pub struct Charts(Mutex<Kept>);
-
-#[derive(Default)]
-struct Kept {
-    made: usize,
-    latest: VecDeque<(usize, Arc<Analysis>)>,
-}
-
-/// The chart shown and those that are just being replaced.
-const KEPT: usize = 3;
-
-impl Charts {
-    /// Computes a chart and keeps it for its modes; the answer as JSON.
-    ///
-    /// # Errors
-    /// [`Refusal`] of a scene or of a computation that fails or is stopped.
-    pub fn chart(&self, scene: &str, fidelity: Fidelity) -> Result<String, Refusal> {
-        let started = Instant::now();
-        let mut scene = Scene::from_json(scene)?;
-        let detail = match fidelity {
-            Fidelity::Draft => {
-                scene = scene
-                    .edited(|file| (file.accuracy, file.tolerance) = (Accuracy::Draft, None))?;
-                Detail::Sketch
-            }
-            Fidelity::Scene => Detail::Full,
-        };
-        let analysis = Analysis::with_options(
-            &scene,
-            AnalysisOptions {
-                detail,
-                ..AnalysisOptions::default()
-            },
-        )?;
-        let report = analysis.report();
-        let chart = self.keep(analysis);
-        let milliseconds = 1e3 * started.elapsed().as_secs_f64();
-        serde_json::to_string(&Chart {
-            chart,
-            milliseconds,
-            report: &report,
-        })
-        .map_err(|error| Refusal::of(&error))
-    }
-
-    /// How the speeds of a chart move with the numbers of its scene.
-    ///
-    /// # Errors
-    /// [`Refusal`] of a chart that is not kept any more, or of a computation that fails.
-    pub fn influence(&self, asked: &str) -> Result<Vec<SensitivityEntry>, Refusal> {
-        let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
-        let analysis = self.named(chart).ok_or_else(|| Refusal::gone(chart))?;
-        let start = analysis.range_rad_per_s.0;
-        let at = analysis.scene.operating_rad_per_s().unwrap_or(start);
-        let found = sensitivities(&analysis, at).map_err(|error| Refusal::of(&error))?;
-        Ok(found.iter().map(SensitivityEntry::from).collect())
-    }
-
-    fn keep(&self, analysis: Analysis) -> usize {
-        let mut kept = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        kept.made += 1;
-        let name = kept.made;
-        kept.latest.push_back((name, Arc::new(analysis)));
-        while kept.latest.len() > KEPT {
-            kept.latest.pop_front();
-        }
-        name
-    }
-
-    /// A chart by its name, while it is kept.
-    pub fn named(&self, name: usize) -> Option<Arc<Analysis>> {
-        let kept = self.0.lock().unwrap_or_else(|e| e.into_inner());
-        let found = kept.latest.iter().find(|(known, _)| *known == name);
-        found.map(|(_, analysis)| analysis.clone())
     }
 }
 

@@ -7,17 +7,18 @@ use std::sync::Arc;
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{DefaultBodyLimit, Path, State};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
+use super::charts::{Charts, Fidelity};
 use super::guard::{Door, guard};
 use super::job::Jobs;
 use super::pages::Pages;
-use super::reply::{Charts, Fidelity, Refusal, SavedFile, Start};
+use super::reply::{Refusal, SavedFile, Start};
 use super::task::{Meter, Task};
 use super::{mode, page};
 use crate::scene::{MAX_SCENE_BYTES, Scene};
@@ -135,14 +136,20 @@ async fn jobs(State(desk): State<Desk>) -> Response {
     )
 }
 
+/// Header with the name of the page that asks.
+const PAGE: &str = "sawflutter-page";
+
 /// The chart of the scene that is sent.
 async fn chart(
     State(desk): State<Desk>,
     Path(fidelity): Path<Fidelity>,
+    headers: HeaderMap,
     scene: String,
 ) -> Response {
     let charts = desk.charts.clone();
-    let work = move || charts.chart(&scene, fidelity);
+    let page = headers.get(PAGE).and_then(|page| page.to_str().ok());
+    let page = page.unwrap_or_default().to_owned();
+    let work = move || charts.chart(&page, &scene, fidelity);
     match desk.jobs.run(work).await {
         Some(Ok(text)) => json_text(StatusCode::OK, text),
         Some(Err(refusal)) => refused(&refusal),
@@ -242,5 +249,6 @@ async fn alive(State(desk): State<Desk>, page: String) -> StatusCode {
 /// A page says that it is being closed.
 async fn leave(State(desk): State<Desk>, page: String) -> StatusCode {
     desk.pages.left(&page);
+    desk.charts.forget(&page);
     StatusCode::NO_CONTENT
 }

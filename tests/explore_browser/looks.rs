@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use crate::browser::{Page, drag, let_go, run};
+use crate::browser::{PAD, Page, drag, let_go, run};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
@@ -154,6 +154,47 @@ fn two_saws_stand_side_by_side_on_the_same_axes_where_the_page_is_wide_enough() 
         let some = page.value(ends).await;
         assert_eq!(some[0], some[1]);
         assert_ne!(some, all);
+        page.close().await;
+    });
+}
+
+/// Upper edges of the diagrams and of a field, on the page.
+const PLACES: &str = "['#campbell', '#growth', \"[id='guides[0].radius_m']\"]\
+    .map((place) => document.querySelector(place).getBoundingClientRect().top + scrollY)";
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let before = page.value(PLACES).await;
+        // How the speeds move with the numbers is known a moment after the chart.
+        page.wait("[...document.querySelectorAll('.influence .words')].some((words) => words.textContent !== '')")
+            .await;
+        assert_eq!(page.value(PLACES).await, before, "influence");
+        drag(&page, PAD, 30, (2, 2)).await;
+        page.wait("sawflutter.latencies.draft.length > 0").await;
+        assert_eq!(page.value(PLACES).await, before, "dragging");
+        let_go(&page).await;
+        page.settle().await;
+        assert_eq!(page.value(PLACES).await, before, "let go");
+        drag(&page, "#campbell .u-over", 20, (6, 0)).await;
+        let_go(&page).await;
+        page.wait("!document.querySelector('#zoomed').hidden").await;
+        assert_eq!(page.value(PLACES).await, before, "magnified");
+        // A verdict of two lines has the room of one.
+        let inside = "sawflutter.report().instabilities.find((band) => band.kind === 'divergence')";
+        let rpm = page
+            .value(&format!(
+                "Math.round(0.5 * ({inside}.from_rpm + {inside}.to_rpm))"
+            ))
+            .await;
+        page.enter("operating_rpm", &rpm.to_string()).await;
+        page.settle().await;
+        let told = page.text("#verdict").await;
+        assert!(told.contains("inside a"), "{told}");
+        assert_eq!(page.value(PLACES).await, before, "verdict");
         page.close().await;
     });
 }

@@ -1,6 +1,7 @@
 //! Many pages of one program.
 
 use serde_json::json;
+use thirtyfour::Key;
 
 use crate::browser::{PAD, Page, drag, let_go, run};
 
@@ -21,8 +22,8 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
         }
         // Each but the last has been in the background meanwhile.
         let mut shown = Vec::new();
-        for tab in tabs {
-            page.driver.switch_to_window(tab).await.unwrap();
+        for tab in &tabs {
+            page.driver.switch_to_window(tab.clone()).await.unwrap();
             let tools = page.driver.cdp();
             tools
                 .send_raw("Page.bringToFront", json!({}))
@@ -42,6 +43,13 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
             shown.push(after);
         }
         assert_eq!(shown.len(), 8);
+        // The first one's chart is still kept for its modes, whatever the others have asked since.
+        page.driver.switch_to_window(tabs[0].clone()).await.unwrap();
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        chart.send_keys(Key::Right + "").await.unwrap();
+        page.wait("document.querySelector('#mode').textContent.includes('Krein')")
+            .await;
         page.close().await;
     });
 }

@@ -1,11 +1,11 @@
 // The Campbell diagram and the growth rates: panels by panel.js, marks by marks.js.
 
+import { nearest, samePoint, walked } from "./branches.js";
 import {
   NEGLIGIBLE_PER_S, bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
 } from "./marks.js";
 import { plot, roundGrowth } from "./panel.js";
 
-const NEAR_PX = 14;
 // No shorter stretch of the sweep is shown.
 const LEAST_STRETCH = 1e-3;
 
@@ -15,7 +15,8 @@ export class Charts {
   // Another report that is shown beside this one, on the same axes.
   #other = null;
   width = 600;
-  highlighted = null;
+  // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
+  pointed = null;
   #zoom = null;
 
   constructor(campbellPlace, growthPlace, colours, { onHover, onZoom }) {
@@ -65,12 +66,9 @@ export class Charts {
   }
 
   show(report, pinned) {
-    const before = this.report;
     this.report = report;
     this.pinned = pinned;
-    const rpm = this.highlighted?.rpm[this.spot];
-    this.highlighted = before && this.highlighted ? sameBranch(report, this.highlighted) : null;
-    if (this.highlighted) this.spot = indexNear(this.highlighted.rpm, rpm);
+    this.pointed &&= samePoint(report, this.pointed);
     this.redraw();
   }
 
@@ -141,7 +139,7 @@ export class Charts {
   // Closer or farther about the point that is looked at, or the middle.
   #magnify(factor) {
     const [from, to] = this.speeds;
-    const looked = this.highlighted?.rpm[this.spot];
+    const looked = this.pointed?.branch.rpm[this.pointed.i];
     const about = looked >= from && looked <= to ? looked : 0.5 * (from + to);
     this.zoom([about + factor * (from - about), about + factor * (to - about)]);
   }
@@ -171,7 +169,7 @@ export class Charts {
     drawBands(ctx, x, box, this.report, this.colours, scale);
     this.#drawSpeeds(ctx, x, box, scale);
     if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, ghost: true });
-    drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.highlighted });
+    drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.pointed?.branch });
     if (this.measured && this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
     this.#drawExcitation(ctx, place, scale);
     this.#dotCritical(ctx, place, scale);
@@ -224,8 +222,9 @@ export class Charts {
   }
 
   #drawSpot(ctx, place, scale) {
-    if (!this.highlighted || this.spot === undefined) return;
-    const [x, y] = place(this.highlighted.rpm[this.spot], this.highlighted.frequency_hz[this.spot]);
+    if (!this.pointed) return;
+    const { branch, i } = this.pointed;
+    const [x, y] = place(branch.rpm[i], branch.frequency_hz[i]);
     ctx.strokeStyle = this.colours.ink;
     ctx.lineWidth = 2 * scale;
     ctx.beginPath();
@@ -286,16 +285,11 @@ export class Charts {
     }
   }
 
-  // The point that is looked at, on the chart as it is now.
-  get pointed() {
-    return this.highlighted && { branch: this.highlighted, i: this.spot };
-  }
-
   // The branch next to the pointer, or the one that the arrow keys have come to.
   #follow(element) {
     const over = this.campbell.chart.over;
     over.addEventListener("pointermove", (event) => {
-      if (event.buttons === 0) this.#point(this.#nearest(event.offsetX, event.offsetY));
+      if (event.buttons === 0) this.#point(this.report && nearest(this.report, this.campbell.chart, [event.offsetX, event.offsetY]));
     });
     over.addEventListener("pointerleave", () => this.#point(null));
     element.addEventListener("blur", () => this.#point(null));
@@ -310,74 +304,18 @@ export class Charts {
       }
       if (!step || !this.report) return;
       event.preventDefault();
-      this.#point(this.#walk(...step));
+      this.#point(walked(this.report, this.pointed, step));
     });
   }
 
-  #nearest(left, top) {
-    let best = null;
-    let least = NEAR_PX;
-    const u = this.campbell.chart;
-    for (const branch of this.report?.campbell.branches ?? []) {
-      branch.rpm.forEach((rpm, i) => {
-        const [x, y] = [u.valToPos(rpm, "x"), u.valToPos(branch.frequency_hz[i], "y")];
-        const j = i + 1;
-        // Between two samples the nearer one speaks for both.
-        const distance = j < branch.rpm.length
-          ? toSegment([left, top], [x, y], [u.valToPos(branch.rpm[j], "x"), u.valToPos(branch.frequency_hz[j], "y")])
-          : Math.hypot(left - x, top - y);
-        if (distance >= least) return;
-        least = distance;
-        const next = j < branch.rpm.length && left - x > u.valToPos(branch.rpm[j], "x") - left;
-        best = { branch, i: next ? j : i };
-      });
-    }
-    return best;
-  }
-
-  #walk(along, up) {
-    const shown = this.report.campbell.branches;
-    const branch = this.highlighted ?? shown[0];
-    const i = this.highlighted ? this.spot : Math.floor(branch.rpm.length / 3);
-    if (along !== 0 || !this.highlighted) {
-      return { branch, i: Math.min(Math.max(i + along, 0), branch.rpm.length - 1) };
-    }
-    const rpm = branch.rpm[i];
-    const here = shown
-      .map((other) => ({ branch: other, i: other.rpm.indexOf(rpm) }))
-      .filter((at) => at.i >= 0)
-      .sort((a, b) => a.branch.frequency_hz[a.i] - b.branch.frequency_hz[b.i]);
-    const place = here.findIndex((at) => at.branch === branch);
-    return here[Math.min(Math.max(place + up, 0), here.length - 1)];
-  }
-
   #point(found) {
-    const changed = found?.branch !== (this.highlighted ?? undefined) || found?.i !== this.spot;
-    if (!changed) return;
-    this.highlighted = found?.branch ?? null;
-    this.spot = found?.i;
+    if (found?.branch === this.pointed?.branch && found?.i === this.pointed?.i) return;
+    this.pointed = found;
     this.campbell.chart.redraw(false, false);
     this.onHover(found);
   }
 }
 
-function sameBranch(report, branch) {
-  const alike = report.campbell.branches.filter((b) => b.name === branch.name);
-  return alike.find((b) => b.branch === branch.branch) ?? alike[0] ?? null;
-}
-
-function indexNear(values, wanted) {
-  const off = values.map((value) => Math.abs(value - wanted));
-  return off.indexOf(Math.min(...off));
-}
-
 function rooted(value) {
   return Math.sign(value) * Math.sqrt(Math.abs(value));
-}
-
-function toSegment([px, py], [ax, ay], [bx, by]) {
-  const [dx, dy] = [bx - ax, by - ay];
-  const length = dx * dx + dy * dy;
-  const t = length > 0 ? Math.min(Math.max(((px - ax) * dx + (py - ay) * dy) / length, 0), 1) : 0;
-  return Math.hypot(px - ax - t * dx, py - ay - t * dy);
 }

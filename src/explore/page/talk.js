@@ -8,8 +8,11 @@ export class Refused extends Error {
   }
 }
 
+// The server keeps the charts of each page apart.
+const page = crypto.randomUUID();
+
 async function post(path, body, signal) {
-  const answer = await fetch(path, { method: "POST", body, signal });
+  const answer = await fetch(path, { method: "POST", body, signal, headers: { "sawflutter-page": page } });
   if (answer.ok) return answer;
   if (answer.status === 422) throw new Refused(await answer.json());
   const text = await answer.text();
@@ -76,10 +79,9 @@ const BEAT_MS = 2000;
 // Tells the server that the page is open, and when it is closed; `onLost(lost)` whether the
 // server answers.
 export function stayConnected(onLost) {
-  const name = crypto.randomUUID();
-  const beat = () => fetch("alive", { method: "POST", body: name }).then((answer) => onLost(!answer.ok), () => onLost(true));
+  const beat = () => fetch("alive", { method: "POST", body: page }).then((answer) => onLost(!answer.ok), () => onLost(true));
   beat();
   setInterval(beat, BEAT_MS);
-  addEventListener("pagehide", () => navigator.sendBeacon("leave", name));
+  addEventListener("pagehide", () => navigator.sendBeacon("leave", page));
   addEventListener("pageshow", (event) => event.persisted && beat());
 }

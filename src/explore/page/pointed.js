@@ -1,0 +1,81 @@
+// The mode of the point that is looked at: in words, moving on the blade, and as a film.
+
+import { Blade } from "./blade.js";
+import { node } from "./dom.js";
+import { download } from "./kept.js";
+import { Motion } from "./motion.js";
+import { mode } from "./talk.js";
+import { krein, numbered, shown } from "./words.js";
+
+const MEANING = {
+  forward: "It runs with the rotation, ahead of the dot.",
+  backward: "It runs against the rotation.",
+  reflected: "It is carried along in space but falls behind the dot: on the blade it runs backward.",
+  standing: "It does not travel.",
+};
+const NEGLIGIBLE_PER_S = 1e-3;
+
+export class Pointed {
+  #asked = null;
+  // The mode that was pointed at last.
+  #filmed = null;
+
+  // `colours()` are those of the page as it is; `scene()` is the scene.
+  constructor({ canvas, words, film, mark, colours, scene }) {
+    Object.assign(this, { words, film, scene });
+    const numbers = (text) => text.match(/\d+/g).map(Number);
+    this.motion = new Motion(canvas, mark, () => {
+      const { backward, forward, dark } = colours();
+      return [numbers(backward), numbers(forward), dark ? [44, 49, 57] : [247, 248, 249]];
+    });
+    film.addEventListener("click", () => this.#save());
+  }
+
+  // Whether a mode is shown or on its way.
+  get isOn() {
+    return this.#asked !== null;
+  }
+
+  // `point` is a branch and the number of a speed on a chart, or nothing.
+  async show(chart, point) {
+    this.#asked?.abort();
+    this.#asked = null;
+    if (!point) return this.#hide();
+    const { branch, i } = point;
+    this.#asked = new AbortController();
+    try {
+      const shape = await mode(chart, branch.rpm[i], branch.frequency_hz[i], this.#asked.signal);
+      const slower = this.motion.show(shape, Blade.reach(this.scene()));
+      document.body.classList.add("moving");
+      this.#filmed = shape;
+      this.film.disabled = this.motion.still || !globalThis.MediaRecorder;
+      this.#tell(branch, shape, slower);
+    } catch (error) {
+      if (error.name !== "AbortError") this.words.textContent = error.message;
+    }
+    return undefined;
+  }
+
+  #hide() {
+    this.motion.hide();
+    document.body.classList.remove("moving");
+    this.words.textContent = this.words.dataset.empty;
+  }
+
+  #tell(branch, shape, slower) {
+    const rate = shape.growth_per_s;
+    const growth = Math.abs(rate) > NEGLIGIBLE_PER_S ? `, ${rate > 0 ? "grows" : "decays"} at ${shown(Math.abs(rate), 3)} 1/s` : "";
+    const name = node("strong", { textContent: numbered(branch.branch, branch.name), className: shape.direction });
+    this.words.replaceChildren(name, ` at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
+      + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, nodal diameters there ${shape.name}, Krein sign ${krein(shape.krein_sign)}${growth}. `
+      + `${MEANING[shape.direction]} Shown ${shown(slower, 2)} times slower; the dot turns with the blade.`);
+  }
+
+  async #save() {
+    this.film.disabled = true;
+    this.motion.show(this.#filmed, Blade.reach(this.scene()));
+    download("mode.webm", await this.motion.film());
+    this.motion.hide();
+    this.film.disabled = false;
+  }
+}
