@@ -225,3 +225,53 @@ fn inches_and_examples_show_the_same_saws() {
         page.close().await;
     });
 }
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_task_that_cannot_be_done_says_why_in_the_words_of_the_form() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let cases = [
+            (
+                "place",
+                "document.querySelector('#place-least').value = '-9'",
+                "The lower limit of the first critical speed must be above 0 rpm",
+            ),
+            (
+                "study",
+                "document.querySelectorAll('#panel-study input').forEach((i) => (i.value = '0'))",
+                "At least one tolerance must be above 0: without one all saws are the same",
+            ),
+            (
+                "cut",
+                "sawflutter.state.set('blade.thickness_m', -1)",
+                "Thickness must be above 0 mm; usual: 0.1 to 40 mm",
+            ),
+        ];
+        for (tab, script, wanted) in cases {
+            page.find(&format!("#tab-{tab}"))
+                .await
+                .click()
+                .await
+                .unwrap();
+            page.script(script).await;
+            let start = page.find(&format!("#panel-{tab} .start button")).await;
+            start.click().await.unwrap();
+            let told = format!("#panel-{tab} .fault");
+            page.wait(&format!(
+                "document.querySelector('{told}').textContent !== ''"
+            ))
+            .await;
+            assert_eq!(page.text(&told).await, wanted);
+        }
+        page.script("sawflutter.state.undo(); sawflutter.state.set('measured', undefined)")
+            .await;
+        page.find("#tab-fit").await.click().await.unwrap();
+        let disabled = "document.querySelector('#panel-fit .start button').disabled";
+        assert_eq!(page.value(disabled).await, json!(true));
+        let told = page.text("#panel-fit").await;
+        assert!(told.contains("no measured frequencies yet"), "{told}");
+        page.close().await;
+    });
+}

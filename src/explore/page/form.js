@@ -63,12 +63,18 @@ export class Form {
     }
   }
 
-  // What is wrong, at the field it is about and in the unit of the field.
-  refuse(key, message, allowed) {
+  // A refusal in the words and the unit of the field that it is about.
+  inWords({ key, message, allowed }) {
+    return this.fields.get(key)?.words?.(allowed) ?? message;
+  }
+
+  // What is wrong, at the field it is about; whether there is one.
+  refuse(refusal) {
+    const key = refusal?.key ?? null;
     let told = false;
     for (const field of this.fields.values()) {
       const own = key !== null && field.path === key;
-      field.error(own ? field.words?.(allowed) ?? message : "");
+      field.error(own ? this.inWords(refusal) : "");
       told ||= own;
       if (own) field.element.closest("details")?.setAttribute("open", "");
     }

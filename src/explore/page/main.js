@@ -49,7 +49,10 @@ const files = new Files(state, kept, begun, say);
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), charts);
-const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, { onScene: (scene) => files.replace(scene) });
+const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, {
+  onScene: (scene) => files.replace(scene),
+  inWords: (refusal) => form.inWords(refusal),
+});
 const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
@@ -89,7 +92,7 @@ function onChart(chart, request) {
   latest = chart;
   refusedKey = null;
   pinned.begin(chart.report);
-  form.refuse(null, "");
+  form.refuse(null);
   say("");
   document.body.classList.remove("stale");
   compare();
@@ -145,7 +148,7 @@ function onRefused(error, request) {
   const answers = error instanceof Refused;
   if (!answers && request.draft) return;
   refusedKey = error.key ?? null;
-  const told = form.refuse(refusedKey, error.message, error.allowed);
+  const told = form.refuse(error);
   say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
   // Chart and verdict are of an earlier scene.
   document.body.classList.add("stale");

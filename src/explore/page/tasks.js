@@ -29,16 +29,19 @@ const TASKS = [
   { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
   { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
   { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a motion grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
-  { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
-  { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
+  { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw",
+    lacks: (scene) => (scene.measured ? "" : "The scene has no measured frequencies yet.") },
+  { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw",
+    lacks: (scene) => (scene.guides?.length ? "" : "The scene has no guide to place yet.") },
   { name: "study", title: "Tolerances", what: `${SAWS} saws within tolerances: how their critical and flutter speeds spread.` },
 ];
 
 export class Tasks {
   #panels = new Map();
 
-  constructor(tabs, panels, chartPanel, state, { onScene }) {
-    Object.assign(this, { tabs, panels, chartPanel, state, onScene });
+  // `onScene(scene)` takes a saw over that was found; `inWords(refusal)` is what a field says of it.
+  constructor(tabs, panels, chartPanel, state, listeners) {
+    Object.assign(this, { tabs, panels, chartPanel, state, listeners });
     const all = [{ name: "chart", title: "Chart" }, ...TASKS];
     for (const { name, title } of all) {
       const tab = node("button", { type: "button", id: `tab-${name}`, textContent: title });
@@ -84,7 +87,7 @@ export class Tasks {
     const panel = node("div", { id: `panel-${entry.name}`, hidden: true });
     panel.setAttribute("role", "tabpanel");
     panel.setAttribute("aria-labelledby", `tab-${entry.name}`);
-    panel.task = new Task(panel, entry, this.state, this.onScene);
+    panel.task = new Task(panel, entry, this.state, this.listeners);
     this.panels.append(panel);
     return panel;
   }
@@ -95,8 +98,8 @@ class Task {
   #abort = null;
   #scene = null;
 
-  constructor(panel, entry, state, onScene) {
-    Object.assign(this, { panel, entry, state, onScene });
+  constructor(panel, entry, state, { onScene, inWords }) {
+    Object.assign(this, { panel, entry, state, onScene, inWords });
     this.inputs = node("div", { className: "inputs" });
     this.missing = node("p", { className: "remark" });
     this.start = node("button", { type: "button", textContent: "Compute" });
@@ -118,17 +121,18 @@ class Task {
   // What the scene has and lacks now.
   refresh() {
     if (this.panel.hidden) return;
-    const { part } = this.entry;
+    const { part, lacks } = this.entry;
     const scene = this.state.scene;
-    const lacks = part !== undefined && !get(scene, part);
-    this.missing.replaceChildren();
-    if (lacks) {
+    const isPartMissing = part !== undefined && !get(scene, part);
+    const missing = lacks?.(scene) ?? "";
+    this.missing.replaceChildren(missing);
+    if (isPartMissing) {
       const name = part.split(".").at(-1);
       const add = node("button", { type: "button", textContent: `Put ${name} in` });
       add.addEventListener("click", () => this.state.change((scene) => putIn(scene, part), { structure: true }));
       this.missing.append(`The scene has no ${name} yet. `, add);
     }
-    this.start.disabled = lacks;
+    this.start.disabled = isPartMissing || missing !== "";
     this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
     if (this.entry.name === "study") this.#offerTolerances(scene);
@@ -140,7 +144,7 @@ class Task {
     this.least = node("input", { id: "place-least", type: "text", inputMode: "decimal", placeholder: "none" });
     this.inputs.append(
       node("div", { className: "field" }, node("label", { htmlFor: "place-goal", textContent: "Goal" }), this.goal),
-      node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Least lowest critical speed, rpm" }), this.least));
+      node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
   }
 
   // A field for each number that has a usual tolerance; what was typed stays.
@@ -160,17 +164,23 @@ class Task {
   #asked() {
     const scene = this.state.scene;
     if (this.entry.name === "place") {
-      const least = this.least.value.trim();
-      return { scene, window: this.goal.value === "window", min_critical_rpm: least === "" ? null : number(least) };
+      const least = this.least.value.trim() === "" ? null : number(this.least.value);
+      if (least !== null && least <= 0) throw new RangeError("The lower limit of the first critical speed must be above 0 rpm");
+      const window = this.goal.value === "window";
+      if (window && !scene.operating_rpm) throw new RangeError("A window is sought around the operating speed: the form has none yet");
+      return { scene, window, min_critical_rpm: least };
     }
     if (this.entry.name !== "study") return { scene };
     const parameters = this.paths.map((path) => {
       const { scale } = unitOf(path.split(".").at(-1));
       const plus_minus = tidy(number(document.getElementById(`study:${path}`).value) / scale);
+      if (plus_minus < 0) throw new RangeError("A tolerance must be at least 0: it counts to both sides");
       return { path, distribution: { kind: "tolerance", plus_minus } };
     });
+    const varied = parameters.filter((p) => p.distribution.plus_minus !== 0);
+    if (varied.length === 0) throw new RangeError("At least one tolerance must be above 0: without one all saws are the same");
     const limits = scene.operating_rpm ? { operating_rpm: scene.operating_rpm } : null;
-    return { scene, study: { name: "Tolerances", parameters: parameters.filter((p) => p.distribution.plus_minus !== 0), saws: SAWS, limits } };
+    return { scene, study: { name: "Tolerances", parameters: varied, saws: SAWS, limits } };
   }
 
   async #run() {
@@ -191,7 +201,9 @@ class Task {
       this.#scene = scene;
       this.#show(answer);
     } catch (error) {
-      if (error.name !== "AbortError") this.fault.textContent = error instanceof Refused || error instanceof RangeError ? error.message : "The program does not answer any more.";
+      if (error instanceof Refused) this.fault.textContent = this.inWords(error);
+      else if (error instanceof RangeError) this.fault.textContent = error.message;
+      else if (error.name !== "AbortError") this.fault.textContent = "The program does not answer any more.";
     }
     if (this.#abort === abort) this.#busy(false);
     this.refresh();
