@@ -200,7 +200,12 @@ fn inches_and_examples_show_the_same_saws() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let scene = page.value("sawflutter.state.scene").await;
+        let words = "[...document.querySelectorAll('.influence .words')].map((words) => words.textContent).join('')";
+        page.wait(&format!("{words} !== ''")).await;
         page.find("#inches").await.click().await.unwrap();
+        // What is known of the saw does not depend on the unit.
+        let known = page.value(words).await;
+        assert!(known.as_str().unwrap().contains("critical"), "{known}");
         let field = "document.getElementById('blade.thickness_m').value";
         assert_eq!(page.value(field).await, json!("0.110236"));
         assert_eq!(page.value("sawflutter.state.scene").await, scene);

@@ -23,6 +23,7 @@ export class Form {
     Object.assign(this, { place, schema, quantities, state });
     this.fields = new Map();
     this.refusals = new Refusals(quantities);
+    this.found = [];
   }
 
   // Makes the fields anew, where the scene has got or lost a part.
@@ -37,6 +38,7 @@ export class Form {
       part.open = first ? /^(blade|guides)/.test(part.dataset.path) && !part.dataset.path.endsWith("material") : open.has(part.dataset.path);
     }
     if (focused) document.getElementById(focused)?.focus();
+    this.influence(this.found);
   }
 
   // Shows the numbers of the scene, except in the field that is being typed in.
@@ -52,6 +54,7 @@ export class Form {
 
   // How the speeds move with each number.
   influence(found) {
+    this.found = found;
     const by = new Map(found.map((one) => [one.path, one]));
     for (const { path, element } of this.fields.values()) {
       const place = element.querySelector(".influence");

@@ -213,7 +213,6 @@ function measure(on) {
   by("inches").checked = on;
   useInches(on);
   form.build();
-  if (latest) weigh(latest);
   try {
     localStorage.setItem(INCHES, on ? "1" : "");
   } catch {
