@@ -135,3 +135,31 @@ impl Charts {
         found.map(|chart| chart.analysis.clone())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A page that is looked at keeps its chart, however many another one asks for meanwhile.
+    #[test]
+    fn charts_are_kept_for_each_page_apart() {
+        let charts = Charts::default();
+        let scene = serde_json::to_string(Scene::paper().file()).unwrap();
+        let ask = |page: &str| charts.chart(page, &scene, Fidelity::Draft).unwrap();
+        let first = ask("one");
+        assert!(first.starts_with(r#"{"chart":1,"#), "{}", &first[..40]);
+        for _ in 0..=OF_A_PAGE {
+            ask("another");
+        }
+        let is_kept = |name: usize| charts.named(name).is_some();
+        assert_eq!(
+            [1, 2, 3, 4, 5].map(is_kept),
+            [true, false, true, true, true]
+        );
+        charts.forget("another");
+        assert_eq!(
+            [1, 2, 3, 4, 5].map(is_kept),
+            [true, false, false, false, false]
+        );
+    }
+}

@@ -261,11 +261,12 @@ mod tests {
     #[test]
     fn refusals_name_the_key() {
         type Change = fn(&mut SceneFile, &mut CutFile);
-        let cases: [(&str, Change); 6] = [
+        let cases: [(&str, Change); 7] = [
             ("blade.teeth", |file, _| file.blade.teeth = None),
             ("cut.teeth_in_cut", |_, cut| cut.teeth_in_cut = Some(43)),
             ("cut.depth_m", |_, cut| cut.depth_m = Some(-0.2)),
             ("cut.speeds[1].rpm", |_, cut| cut.speeds[1].rpm = 0.0),
+            ("cut.chart_rpm", |_, cut| cut.chart_rpm = Some(-5.0)),
             ("cut.board_length_m", |_, cut| {
                 cut.board_length_m = Some(1e9)
             }),
