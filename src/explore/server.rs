@@ -54,6 +54,9 @@ pub struct Desk {
     jobs: Jobs,
     /// Tasks that take longer than a chart, which does not wait for them.
     tasks: Jobs,
+    /// Influences take about as long as a chart. They wait for no task: the connections on which
+    /// pages waited would be lacking for charts.
+    influences: Jobs,
     charts: Arc<Charts>,
     pages: Arc<Pages>,
 }
@@ -83,6 +86,7 @@ pub fn serve(
             start: Arc::new(Start::new(scene)),
             jobs: Jobs::default(),
             tasks: Jobs::default(),
+            influences: Jobs::default(),
             charts: Arc::default(),
             pages: Arc::default(),
         };
@@ -198,7 +202,7 @@ fn last_line(done: Option<Result<String, Refusal>>) -> String {
 async fn influence(State(desk): State<Desk>, asked: String) -> Response {
     let charts = desk.charts.clone();
     let work = move || charts.influence(&asked);
-    match desk.tasks.run(work).await {
+    match desk.influences.run(work).await {
         Some(Ok(found)) => json(StatusCode::OK, &found),
         Some(Err(refusal)) => refused(&refusal),
         None => StatusCode::SERVICE_UNAVAILABLE.into_response(),

@@ -191,12 +191,18 @@ class Task {
     try {
       const asked = this.#asked();
       const scene = JSON.stringify(asked.scene);
-      const answer = await task(this.entry.name, asked, abort.signal, {
+      const listeners = {
         onProgress: (told) => this.#tell(told),
         onFigures: (figures) => {
           this.#scene = scene;
           this.#grow(figures);
         },
+      };
+      // One task of all tabs at a time: those that waited at the server would hold the few
+      // connections that a browser opens to it.
+      const answer = await navigator.locks.request("sawflutter task", { signal: abort.signal }, () => {
+        this.so_far.textContent = "computing …";
+        return task(this.entry.name, asked, abort.signal, listeners);
       });
       this.#scene = scene;
       this.#show(answer);
@@ -215,7 +221,7 @@ class Task {
     this.bar.removeAttribute("value");
     // What was not brought to its end says so as long as it is seen.
     const isPart = this.answer.firstElementChild?.classList.contains("so-far") ?? false;
-    this.so_far.textContent = on ? "computing …" : isPart ? `ended early, ${this.so_far.textContent}` : "";
+    this.so_far.textContent = on ? "waits for another computation …" : isPart ? `ended early, ${this.so_far.textContent}` : "";
   }
 
   // What is known so far, as the program will draw it.
