@@ -32,7 +32,7 @@ use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 pub use self::damped::DampedBasis;
 
-use self::coupling::{Columns, Coupling, in_waves};
+use self::coupling::{Columns, Coupling, LOOKS, in_waves};
 use self::jacobi::Eigenvectors;
 use self::waves::Waves;
 use super::component::frequency_scale;
@@ -60,8 +60,9 @@ pub struct Harmonic {
     tension: DMatrix<f64>,
     /// By how much K_σ falls short of being positive: rounding.
     shortfall: f64,
-    /// T = B(0) + σ, positive definite: what small is relative to.
-    pub scale: DMatrix<f64>,
+    /// Of the waves at rest, in 1/s²: what is small beside it may be left out. T = B(0) + σ, which is positive, and more
+    /// for waves so stiff that a good share of their stiffness changes nothing.
+    pub weights: Vec<f64>,
     /// σ.
     shift: f64,
     /// The waves at rest, near those of every speed: of K_b + K_m.
@@ -75,6 +76,11 @@ const ROUNDING: f64 = 1e-11;
 /// Lines lie below this multiple of the blade's frequency scale, for the most part: those above are counted, with less
 /// certainty.
 const HIGH_LINE: f64 = 6.0;
+/// A wave that is so many times as stiff as those that lines meet may be made stiffer by a thousand times the share that these
+/// may: its flexibility hardly counts.
+const MOST_WEIGHT: f64 = 100.0;
+/// A wave with a stiffness of so many times (ω + nΩ)² is as good as at rest, in each look.
+const STIFF: [Option<f64>; LOOKS] = [Some(1e2), Some(1e4)];
 /// Share of the speed beyond which a line is so long that more columns do not help.
 const LONG: f64 = 1e-3;
 
@@ -264,8 +270,7 @@ impl WholeBasis {
         AtSpeed {
             speed_rad_per_s,
             blocks: self.harmonics.iter().map(stiffness).collect(),
-            free: OnceLock::new(),
-            waves: [OnceLock::new(), OnceLock::new()],
+            waves: Default::default(),
         }
     }
 
@@ -290,8 +295,10 @@ impl WholeBasis {
     fn looks(&self, [a, b]: [&AtSpeed; 2]) -> Range<usize> {
         let is_long = b.speed_rad_per_s - a.speed_rad_per_s > LONG * b.speed_rad_per_s;
         match &self.coupling {
-            Coupling::Columns(columns) if !is_long && columns.rests[1].0 > columns.rests[0].0 => {
-                0..2
+            Coupling::Columns(columns)
+                if !is_long && columns.rests[LOOKS - 1].0 > columns.rests[0].0 =>
+            {
+                0..LOOKS
             }
             _ => 0..1,
         }
@@ -315,7 +322,7 @@ impl WholeBasis {
             let of = |n: f64| bound.of_square([0, 1].map(|end| line[end] + n * speeds[end]));
             let more = h.shortfall * (speeds[1].powi(2) - speeds[0].powi(2));
             let shift = h.shift + h.shortfall * speeds[1].powi(2);
-            let share = bound.share(rest);
+            let share = bound.sign() * ROUNDING;
             BoundedBlock {
                 share,
                 more: share * shift + bound.sign() * more,
@@ -326,12 +333,14 @@ impl WholeBasis {
         let at = if bound == Bound::Low { a } else { b };
         match &self.coupling {
             Coupling::Columns(columns) => {
-                let waves = at.waves[look].get_or_init(|| {
-                    let free = at.free.get_or_init(|| self.free_waves(at.speed_rad_per_s));
-                    let waves = Waves::new(free, columns, columns.rests[look].0);
-                    match look {
-                        0 => waves.with_stiff_together(&self.harmonics, at.speed_rad_per_s),
-                        _ => waves,
+                let waves = at.waves[look][bound as usize].get_or_init(|| {
+                    let free = self.free_waves(at.speed_rad_per_s, bound.share(rest));
+                    let waves = Waves::new(&free, columns, columns.rests[look].0);
+                    match STIFF[look] {
+                        Some(stiff) => {
+                            waves.with_stiff_together(&self.harmonics, at.speed_rad_per_s, stiff)
+                        }
+                        None => waves,
                     }
                 });
                 waves.count(&self.harmonics, &blocks, bound)
@@ -344,13 +353,13 @@ impl WholeBasis {
         }
     }
 
-    /// The waves of every block at a speed, in those at rest.
-    fn free_waves(&self, speed_rad_per_s: f64) -> Vec<Eigenvectors> {
+    /// The waves of every block at a speed, with a share of the weights added to it, in those at rest.
+    fn free_waves(&self, speed_rad_per_s: f64, share: f64) -> Vec<Eigenvectors> {
         let square = speed_rad_per_s.powi(2);
         let turned = self.harmonics.iter().map(|h| {
             let mut turned = &h.resting_tension * square;
             for (i, own) in h.resting.eigenvalues.iter().enumerate() {
-                turned[(i, i)] += own;
+                turned[(i, i)] += own + share * h.weights[i];
             }
             turned
         });
@@ -403,10 +412,8 @@ pub struct ShiftedBlock {
 pub struct AtSpeed {
     speed_rad_per_s: f64,
     blocks: Vec<DMatrix<f64>>,
-    /// The waves of every block, in those at rest.
-    free: OnceLock<Vec<Eigenvectors>>,
-    /// With the first columns alone, and with all.
-    waves: [OnceLock<Waves>; 2],
+    /// Of each look, for both bounds.
+    waves: [[OnceLock<Waves>; 2]; LOOKS],
 }
 
 /// Of a bound (1 + share) B_n + more − (ω ± nΩ)².
@@ -434,7 +441,11 @@ impl Harmonic {
             diameters: block.diameters,
             first,
             shortfall: (-least(&tension)).max(0.0),
-            scale: &rest + DMatrix::from_diagonal_element(radial, radial, shift),
+            weights: resting
+                .eigenvalues
+                .iter()
+                .map(|own| weight(own + shift, shift))
+                .collect(),
             rest,
             tension,
             shift,
@@ -466,6 +477,12 @@ impl Harmonic {
     }
 }
 
+/// Of a wave with T at rest.
+fn weight(own: f64, shift: f64) -> f64 {
+    let stiffer = own / (HIGH_LINE.powi(2) * shift);
+    own * stiffer.clamp(1.0, MOST_WEIGHT)
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Bound {
     Low,
@@ -480,11 +497,11 @@ impl Bound {
         }
     }
 
-    /// Share of B(Ω) + σ to add for rounding and for what the columns leave out.
+    /// Share of the weights to add for what the columns leave out.
     fn share(self, rest: f64) -> f64 {
         match self {
-            Bound::Low => -ROUNDING,
-            Bound::High => ROUNDING + rest,
+            Bound::Low => 0.0,
+            Bound::High => rest,
         }
     }
 

@@ -1,8 +1,7 @@
-//! What couples the harmonics, as few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε (B(0) + σ).
+//! What couples the harmonics, as few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε G.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
-use nalgebra::{DMatrix, DVector};
 
 use super::Harmonic;
 
@@ -24,59 +23,61 @@ pub struct Columns {
     pub sine: Mat<f64>,
     /// Both in the waves of the blade at rest, those of cosines above those of sines.
     pub resting: Mat<f64>,
-    /// Numbers of columns to begin with, each with the ε of those left out.
-    pub rests: [(usize, f64); 2],
+    /// Numbers of columns of each look, and of what solves, with the ε of those left out.
+    pub rests: [(usize, f64); LOOKS + 1],
     /// P in the unknowns of the plate, N × columns; more of them than above.
     pub unknowns: Mat<f64>,
     /// Whether these leave out no more than rounding.
     pub is_exact: bool,
 }
 
-/// Trace of the rest, relative to the blade's own stiffness, at which no more columns are taken.
-const ENOUGH: f64 = 1e-7;
-/// The same for a first look, which costs a third.
-const FIRST_LOOK: f64 = 1e-3;
-/// Trace of the rest, relative to that of K_g, which is rounding of K_g.
+/// Looks at a line, the later one closer and at a higher cost.
+pub const LOOKS: usize = 2;
+/// Trace of the rest, relative to the weights, at which a look takes no more columns, and what solves with them.
+const ENOUGH: [f64; LOOKS + 1] = [1e-3, 1e-5, 1e-7];
+/// Trace of the rest, relative to that of K_g, both relative to the stiffness at rest, which is rounding of K_g.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 /// Columns beyond this share of the unknowns cost more than the matrix as a whole.
 const MOST_COLUMNS: f64 = 0.4;
 
 impl Columns {
-    /// Cholesky with complete pivoting of K_g relative to the blade, T⁻¹ᐟ² K_g T⁻¹ᐟ²: what is left
-    /// is positive and no larger than its trace. `None` where there are too many columns, and where
+    /// Cholesky with complete pivoting of K_g relative to the weights G of the waves at rest, G⁻¹ᐟ² K_g G⁻¹ᐟ²: what is
+    /// left is positive and no larger than its trace. `None` where there are too many columns, and where
     /// K_g has a negative direction.
     pub fn new(coupling: &Mat<f64>, harmonics: &[Harmonic]) -> Option<Self> {
         let order = coupling.nrows();
-        let factors: Vec<DMatrix<f64>> = harmonics
-            .iter()
-            .map(|h| h.scale.clone().cholesky().map(|factor| factor.l()))
-            .collect::<Option<_>>()?;
-        let relative = Relative::new(coupling, harmonics, &factors);
-        let mut diagonal = relative.diagonal()?;
+        let relative = Relative::new(coupling, harmonics);
+        let mut diagonal = relative.diagonal();
         let most = (MOST_COLUMNS * order as f64) as usize;
         let mut columns = Mat::zeros(order, most);
         let mut count = 0;
         let trace = |diagonal: &[f64]| -> f64 { diagonal.iter().map(|d| d.max(0.0)).sum() };
-        let rounding = EXACT * trace(&diagonal);
+        let heavier = heavier(harmonics);
+        let unweighted = |diagonal: &[f64]| -> f64 {
+            let all = diagonal.iter().zip(&heavier);
+            all.map(|(d, heavier)| d.max(0.0) * heavier).sum()
+        };
+        let rounding = EXACT * unweighted(&diagonal);
         let mut rests: Vec<(usize, f64)> = Vec::new();
         let is_exact = loop {
             let trace = trace(&diagonal);
             let negative = diagonal.iter().copied().fold(0.0, f64::min);
-            if negative < -ENOUGH.max(rounding) || !trace.is_finite() {
+            if negative < -ENOUGH[LOOKS].max(rounding) || !trace.is_finite() {
                 return None;
             }
-            for enough in &[FIRST_LOOK, ENOUGH][rests.len()..] {
+            for enough in &ENOUGH[rests.len()..] {
                 if trace <= *enough {
                     rests.push((count, trace));
                 }
             }
-            if trace <= rounding || count == most {
-                break trace <= rounding;
+            let is_exact = unweighted(&diagonal) <= rounding;
+            if is_exact || count == most {
+                break is_exact;
             }
             let largest = |x: &usize, y: &usize| diagonal[*x].total_cmp(&diagonal[*y]);
             let pivot = (0..order).max_by(largest)?;
             let known = columns.subcols(0, count);
-            let column = relative.column(pivot)? - known * known.row(pivot).transpose();
+            let column = relative.column(pivot) - known * known.row(pivot).transpose();
             let column = Scale(diagonal[pivot].sqrt().recip()) * column;
             for (i, d) in diagonal.iter_mut().enumerate() {
                 *d -= column[i] * column[i];
@@ -85,25 +86,25 @@ impl Columns {
             columns.col_mut(count).copy_from(column);
             count += 1;
         };
-        let rests = [*rests.first()?, *rests.get(1)?];
+        let rests = rests.try_into().ok()?;
         let unknowns = relative.unscaled(columns.subcols(0, count));
         Some(Self::of_unknowns(unknowns, is_exact, rests, harmonics))
     }
 
     /// P without the columns that are left out, in the unknowns of the plate.
     pub fn few(&self) -> MatRef<'_, f64> {
-        self.unknowns.subcols(0, self.rests[1].0)
+        self.unknowns.subcols(0, self.rests[LOOKS].0)
     }
 
     /// Sorted by waves, those that are not left out.
     fn of_unknowns(
         unknowns: Mat<f64>,
         is_exact: bool,
-        rests: [(usize, f64); 2],
+        rests: [(usize, f64); LOOKS + 1],
         harmonics: &[Harmonic],
     ) -> Self {
         let rows: usize = harmonics.iter().map(Harmonic::radial).sum();
-        let count = rests[1].0;
+        let count = rests[LOOKS].0;
         let mut cosine = Mat::zeros(rows, count);
         let mut sine = Mat::zeros(rows, count);
         let mut row = 0;
@@ -141,76 +142,88 @@ impl Columns {
     }
 }
 
-/// C⁻¹ K C⁻ᵀ, T = CCᵀ block by block, of which few columns are ever asked for.
+/// By how much the weight of every wave is above its stiffness at rest.
+fn heavier(harmonics: &[Harmonic]) -> Vec<f64> {
+    let of = |h: &Harmonic| -> Vec<f64> {
+        let all = h.weights.iter().zip(h.resting.eigenvalues.iter());
+        all.map(|(weight, own)| weight / (own + h.shift)).collect()
+    };
+    let blocks = harmonics
+        .iter()
+        .flat_map(|h| h.firsts().map(move |_| of(h)));
+    blocks.flatten().collect()
+}
+
+/// F⁻¹ K F⁻ᵀ, FFᵀ = G block by block, of which few columns are ever asked for.
 struct Relative<'a> {
     coupling: &'a Mat<f64>,
-    /// Index of the first unknown of each block, and its C.
-    blocks: Vec<(usize, &'a DMatrix<f64>)>,
+    blocks: Vec<Scaled>,
+}
+
+/// One block of F, the waves at rest each times the root of its weight.
+struct Scaled {
+    /// Index of its first unknown.
+    first: usize,
+    factor: Mat<f64>,
+    inverse: Mat<f64>,
 }
 
 impl<'a> Relative<'a> {
-    fn new(coupling: &'a Mat<f64>, harmonics: &[Harmonic], factors: &'a [DMatrix<f64>]) -> Self {
-        let blocks = harmonics
-            .iter()
-            .zip(factors)
-            .flat_map(|(h, factor)| h.firsts().map(move |first| (first, factor)));
+    fn new(coupling: &'a Mat<f64>, harmonics: &[Harmonic]) -> Self {
+        let blocks = harmonics.iter().flat_map(|h| {
+            h.firsts().map(|first| {
+                let (radial, waves) = (h.radial(), &h.resting.eigenvectors);
+                Scaled {
+                    first,
+                    factor: Mat::from_fn(radial, radial, |i, k| {
+                        waves[(i, k)] * h.weights[k].sqrt()
+                    }),
+                    inverse: Mat::from_fn(radial, radial, |i, k| {
+                        waves[(k, i)] / h.weights[i].sqrt()
+                    }),
+                }
+            })
+        });
         Relative {
             coupling,
             blocks: blocks.collect(),
         }
     }
 
-    fn diagonal(&self) -> Option<Vec<f64>> {
+    fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = Vec::with_capacity(self.coupling.nrows());
-        for &(first, factor) in &self.blocks {
-            let size = factor.nrows();
-            let mut own =
-                DMatrix::from_fn(size, size, |i, k| self.coupling[(first + i, first + k)]);
-            for _ in 0..2 {
-                if !factor.solve_lower_triangular_mut(&mut own) {
-                    return None;
-                }
-                own.transpose_mut();
-            }
-            diagonal.extend(own.diagonal().iter());
+        for Scaled { first, inverse, .. } in &self.blocks {
+            let (first, size) = (*first, inverse.nrows());
+            let own = self.coupling.get(first..first + size, first..first + size);
+            let half = inverse * own;
+            diagonal.extend((0..size).map(|i| half.row(i) * inverse.row(i).transpose()));
         }
-        Some(diagonal)
+        diagonal
     }
 
-    /// T¹ᐟ² times columns.
+    /// F times columns.
     fn unscaled(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
         let mut unscaled = Mat::zeros(columns.nrows(), columns.ncols());
-        for &(first, factor) in &self.blocks {
+        for Scaled { first, factor, .. } in &self.blocks {
             let size = factor.nrows();
-            let factor = Mat::from_fn(size, size, |i, k| factor[(i, k)]);
-            let (into, own) = (
-                unscaled.subrows_mut(first, size),
-                columns.subrows(first, size),
-            );
-            matmul(into, Accum::Replace, &factor, own, 1.0, Par::Seq);
+            let into = unscaled.subrows_mut(*first, size);
+            let own = columns.subrows(*first, size);
+            matmul(into, Accum::Replace, factor, own, 1.0, Par::Seq);
         }
         unscaled
     }
 
-    fn column(&self, index: usize) -> Option<Col<f64>> {
-        let place = self.blocks.partition_point(|(first, _)| *first <= index);
-        let (first, factor) = self.blocks[place - 1];
-        let mut unit = DVector::zeros(factor.nrows());
-        unit[index - first] = 1.0;
-        if !factor.tr_solve_lower_triangular_mut(&mut unit) {
-            return None;
+    fn column(&self, index: usize) -> Col<f64> {
+        let place = self.blocks.partition_point(|block| block.first <= index);
+        let Scaled { first, inverse, .. } = &self.blocks[place - 1];
+        let unit = inverse.row(index - first).transpose();
+        let column = self.coupling.subcols(*first, inverse.nrows()) * unit;
+        let mut scaled = Col::zeros(column.nrows());
+        for Scaled { first, inverse, .. } in &self.blocks {
+            let own = inverse * column.subrows(*first, inverse.nrows());
+            scaled.subrows_mut(*first, inverse.nrows()).copy_from(own);
         }
-        let unit = Col::from_fn(factor.nrows(), |i| unit[i]);
-        let mut column = self.coupling.subcols(first, factor.nrows()) * unit;
-        for &(first, factor) in &self.blocks {
-            let size = factor.nrows();
-            let mut own = DVector::from_fn(size, |i, _| column[first + i]);
-            if !factor.solve_lower_triangular_mut(&mut own) {
-                return None;
-            }
-            (0..size).for_each(|i| column[first + i] = own[i]);
-        }
-        Some(column)
+        scaled
     }
 }
 

@@ -222,7 +222,7 @@ fn cost_of_a_count() {
         let basis = WholeBasis::new(&plate);
         let prepared = start.elapsed();
         let columns = match &basis.coupling {
-            Coupling::Columns(columns) => columns.rests[0].0 * 1000 + columns.rests[1].0,
+            Coupling::Columns(columns) => columns.rests[0].0 * 1000 + columns.rests[LOOKS - 1].0,
             Coupling::Dense(_) => 0,
         };
         let place = Place {

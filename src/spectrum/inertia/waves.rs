@@ -12,9 +12,6 @@ use crate::spectrum::hermitian::negative_eigenvalues;
 /// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.
 const RESONANT: f64 = 1e5;
 
-/// A wave with a stiffness of so many times (ω + nΩ)² is as good as at rest, where no more is asked of it.
-const STIFF: f64 = 1e3;
-
 /// The waves of a speed.
 #[derive(Debug)]
 pub struct Waves {
@@ -78,12 +75,18 @@ impl Waves {
         }
     }
 
-    /// The same with its stiff waves taken together, so that a count takes the others alone.
-    pub fn with_stiff_together(self, harmonics: &[Harmonic], speed_rad_per_s: f64) -> Self {
+    /// The same with its stiff waves taken together, so that a count takes the others alone. They are those with a stiffness
+    /// of so many times (ω + nΩ)².
+    pub fn with_stiff_together(
+        self,
+        harmonics: &[Harmonic],
+        speed_rad_per_s: f64,
+        stiff: f64,
+    ) -> Self {
         let total = self.rows.len();
         let is_stiff = |row: &Row| {
             let turning = harmonics[row.harmonic].fast_turning(speed_rad_per_s);
-            row.stiffness > STIFF * turning && row.size < 0.5 * RESONANT * row.stiffness
+            row.stiffness > stiff * turning && row.size < 0.5 * RESONANT * row.stiffness
         };
         let (stiff, soft): (Vec<usize>, Vec<usize>) =
             (0..total).partition(|&row| is_stiff(&self.rows[row]));
