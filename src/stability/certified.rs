@@ -39,7 +39,7 @@ pub(super) fn bands(
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let full = FullBasis::new(model);
-    let found = searched(
+    let mut found = searched(
         model,
         SignatureEvaluator::new(model, speeds)?,
         &full,
@@ -47,6 +47,10 @@ pub(super) fn bands(
         depth,
     )?;
     if found.1.miscounts.is_empty() {
+        return Ok(found);
+    }
+    if !SignatureEvaluator::has_whole_basis_within_reach(model) {
+        found.1.gave_up = true;
         return Ok(found);
     }
     let whole = SignatureEvaluator::on_whole_basis(model, speeds)?;

@@ -22,10 +22,21 @@ pub const CRITICAL_GROUP: f64 = 2e-5;
 /// where modes cannot be told apart.
 const MOST_SPEEDS: usize = 20_000;
 
-/// Speeds that may be solved on the whole basis, each in the time of a whole sweep on a reduced
-/// model: more than any saw of the tests needs by ten times.
-const MOST_FULL_SOLVES: usize = 200;
+/// Speeds that may be solved on a whole basis of at most [`USUAL_ORDER`] functions, each in the time of a whole sweep on
+/// a reduced model: more than any saw of the tests needs by ten times.
+const MOST_FULL_SOLVES: f64 = 200.0;
+/// The time of one grows with the cube of the order: beyond this fewer may be solved, and none of the largest basis, where one
+/// would take minutes.
+const USUAL_ORDER: f64 = 300.0;
 
+/// Speeds that may be solved on the whole basis of a model.
+fn most_full_solves(model: &SpectralModel) -> usize {
+    let smaller = (USUAL_ORDER / model.plate.degrees_of_freedom() as f64).min(1.0);
+    (MOST_FULL_SOLVES * smaller.powi(3)) as usize
+}
+
+/// A search on the whole basis begins with so many.
+const LEAST_FOR_A_SEARCH: usize = 25;
 /// Speeds at which the search solves the whole projected system; between two of them it goes
 /// by their modes.
 const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
@@ -58,6 +69,11 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
         Self::of(model, model.reflected_model(), speeds, false)
+    }
+
+    /// Whether the whole basis of a model is small enough to be solved at every speed of a search.
+    pub fn has_whole_basis_within_reach(model: &SpectralModel) -> bool {
+        most_full_solves(model) > LEAST_FOR_A_SEARCH
     }
 
     /// The same by modes of the whole basis, whatever the projections of the model lack: slow.
@@ -107,7 +123,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// Whether it has looked at as many speeds as it may.
     pub fn is_exhausted(&self) -> bool {
         self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
-            || self.tally.solved_in_full.load(Ordering::Relaxed) >= MOST_FULL_SOLVES
+            || self.tally.solved_in_full.load(Ordering::Relaxed) > most_full_solves(self.model)
     }
 
     /// The signature at a speed. Where it contradicts the Krein index it is read
@@ -162,7 +178,7 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(signature);
         }
         let before = self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        let signature = match before < MOST_FULL_SOLVES {
+        let signature = match before < most_full_solves(self.model) {
             true => {
                 let modes = self.model.full_modes(speed_rad_per_s)?;
                 Signature::new(speed_rad_per_s, modes.iter())
