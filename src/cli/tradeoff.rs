@@ -56,7 +56,7 @@ fn table(text: &mut String, settings: &[Setting]) -> std::fmt::Result {
     for s in settings {
         writeln!(
             text,
-            "{} {:<20} {:>2}, {:>2}  {:>11} {:>7} {:>8.1} ms  {:>8.4} %",
+            "{} {:<20} {:>2}, {:>2}  {:>11} {:>7} {:>8.1} ms  {:>8.5} %",
             if s.on_front { '*' } else { ' ' },
             name(s.method),
             s.max_diameters,
@@ -68,18 +68,18 @@ fn table(text: &mut String, settings: &[Setting]) -> std::fmt::Result {
         )?;
     }
     writeln!(text)?;
-    for error in [1e-2, 1e-3, 1e-4] {
+    for error in [1e-2, 1e-3, 1e-4, 1e-5] {
         match recommended(settings, error) {
             Some(s) => writeln!(
                 text,
-                "Within {:>4} %: {}, {} functions, {} speeds: {:.0} ms",
+                "Within {:>5} %: {}, {} functions, {} speeds: {:.0} ms",
                 100.0 * error,
                 name(s.method),
                 s.functions,
                 s.speeds,
                 1e3 * s.seconds
             )?,
-            None => writeln!(text, "Within {:>4} %: none of these", 100.0 * error)?,
+            None => writeln!(text, "Within {:>5} %: none of these", 100.0 * error)?,
         }
     }
     Ok(())

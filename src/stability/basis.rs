@@ -14,7 +14,7 @@ use crate::spectrum::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, 
 use crate::tuned::Tuned;
 
 /// (n_max, J), each about 1.5 times as large as the one before.
-const LADDER: [(usize, usize); 14] = [
+pub(super) const LADDER: [(usize, usize); 14] = [
     (4, 3),
     (6, 4),
     (8, 5),
@@ -56,7 +56,7 @@ const SAFETY: Tuned = Tuned::new("stability/basis::SAFETY", 4.0);
 const LARGEST_STRETCH: Tuned = Tuned::new("stability/basis::LARGEST_STRETCH", 0.1);
 /// Critical speeds up to this multiple of the end of the range are found: what is searched near its end is
 /// kept away from those just above it.
-const PAST_THE_RANGE: f64 = 1.05;
+pub(super) const PAST_THE_RANGE: f64 = 1.05;
 /// Differences below this are the rounding of the eigenproblem.
 const ROUNDING: f64 = 1e-10;
 

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::InstabilityKind;
-use super::basis::{ChosenBasis, DENSE_LADDER};
+use super::basis::{ChosenBasis, DENSE_LADDER, LADDER, PAST_THE_RANGE};
 use super::chart::{StabilityChart, chart};
 use super::error::AnalysisError;
 use crate::campbell::Progress;
@@ -53,12 +53,14 @@ pub struct Setting {
     pub on_front: bool,
 }
 
-/// Sizes of the bases: those that an accuracy chooses from, but the least.
-const SIZES: &[(usize, usize)] = DENSE_LADDER.split_at(1).1;
+/// Sizes of the bases: those that a tolerance chooses from, but the least and the largest.
+const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0.split_at(1).1;
+/// Those of them that a dense eigenproblem of the order of the basis is asked of.
+const SINGLE_SIZES: &[(usize, usize)] = DENSE_LADDER.split_at(1).1;
 /// The whole basis at every speed takes a hundred times as long: two sizes show it.
 const DENSE_SIZES: usize = 2;
-/// What counts as the truth.
-const TRUTH: (usize, usize) = (36, 13);
+/// What counts as the truth: the largest basis.
+const TRUTH: (usize, usize) = LADDER[LADDER.len() - 1];
 /// Speeds of a chart, and other numbers of them at one size.
 const SPEEDS: usize = 51;
 const OTHER_SPEEDS: [usize; 2] = [25, 201];
@@ -90,7 +92,7 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     }
     add(Method::Dense, &SIZES[..DENSE_SIZES], SPEEDS);
     add(Method::CriticalSpeeds, SIZES, 0);
-    add(Method::CriticalSpeedsSingle, SIZES, 0);
+    add(Method::CriticalSpeedsSingle, SINGLE_SIZES, 0);
     let count = runs.len() + 1;
     let truth = events(scene, Method::Reduced, resolution(TRUTH), SPEEDS, range)?;
     progress(1, count);
@@ -175,7 +177,7 @@ fn events(
     let strategy = match method {
         Method::CriticalSpeeds => {
             return Ok(Some(Events {
-                critical: below(&SpectralModel::critical_speeds(&plate)?),
+                critical: below(&SpectralModel::critical_speeds_up_to(&plate, range.1)?),
                 onsets: Vec::new(),
             }));
         }
@@ -192,7 +194,8 @@ fn events(
         Method::Reduced => Strategy::Reduced,
         Method::Dense => Strategy::Dense,
     };
-    let model = SpectralModel::new(plate, range, strategy)?;
+    let critical = SpectralModel::critical_speeds_up_to(&plate, PAST_THE_RANGE * range.1)?;
+    let model = SpectralModel::with_critical(plate, critical, range, strategy)?;
     let StabilityChart { instabilities, .. } = chart(&model, range, speeds, &|_, _| ())?;
     let flutter = instabilities
         .iter()
