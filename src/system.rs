@@ -16,6 +16,7 @@
 //! that symmetry and skewness give.
 
 use faer::{Col, Mat, MatRef, Scale, c64};
+use nalgebra::DMatrix;
 
 use crate::plate::{HarmonicBlock, Plate};
 
@@ -82,28 +83,22 @@ impl GyroscopicSystem {
     }
 
     fn of_harmonics(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Self {
-        let first = plate.offset(*range.start());
+        let (first, radial) = (plate.offset(*range.start()), plate.basis.count());
         let size = plate.offset(range.end() + 1) - first;
-        let radial = plate.basis.count();
-        let mut stiffness = Mat::zeros(size, size);
-        let mut spin = Mat::zeros(size, size);
+        let blocks = |of: fn(&HarmonicBlock) -> &DMatrix<f64>| -> Mat<f64> {
+            let blocks: Vec<_> = plate.harmonics.iter().map(of).collect();
+            spread(plate, range.clone(), &blocks)
+        };
         let mut gyroscopic = Mat::zeros(size, size);
-        for harmonic in &plate.harmonics[range.clone()] {
-            let n = harmonic.diameters;
+        for n in range.clone().filter(|n| *n > 0) {
             let cosine = plate.offset(n) - first;
-            put(&mut stiffness, cosine, &harmonic.bending);
-            put(&mut spin, cosine, &harmonic.spin);
-            if n > 0 {
-                put(&mut stiffness, cosine + radial, &harmonic.bending);
-                put(&mut spin, cosine + radial, &harmonic.spin);
-                for j in 0..radial {
-                    // ∂θ sin nθ = n cos nθ, ∂θ cos nθ = −n sin nθ.
-                    gyroscopic[(cosine + j, cosine + radial + j)] = n as f64;
-                    gyroscopic[(cosine + radial + j, cosine + j)] = -(n as f64);
-                }
+            for j in 0..radial {
+                // ∂θ sin nθ = n cos nθ, ∂θ cos nθ = −n sin nθ.
+                gyroscopic[(cosine + j, cosine + radial + j)] = n as f64;
+                gyroscopic[(cosine + radial + j, cosine + j)] = -(n as f64);
             }
         }
-        let mut system = Self::undamped(stiffness, spin, gyroscopic);
+        let mut system = Self::undamped(blocks(|h| &h.bending), blocks(|h| &h.spin), gyroscopic);
         system.add_blade_damping(plate, range.clone());
         if plate.membrane.is_some() {
             let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.as_ref());
@@ -345,9 +340,8 @@ impl GyroscopicSystem {
 
 /// ∫ φᵢφⱼ dA in units of the mass, where it is not the identity.
 fn air_area(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Option<Mat<f64>> {
-    let blocks = plate.harmonics.iter().map(|h| h.area.as_ref());
-    let blocks: Option<Vec<_>> = blocks.collect();
-    blocks.map(|blocks| spread(plate, range, &blocks))
+    let blocks: Option<Vec<_>> = plate.harmonics.iter().map(|h| h.area.as_ref()).collect();
+    Some(spread(plate, range, &blocks?))
 }
 
 /// Share of the largest number below which a number is rounding.
@@ -358,7 +352,7 @@ const ROUNDING: f64 = 1e-12;
 pub(crate) fn spread(
     plate: &Plate,
     range: std::ops::RangeInclusive<usize>,
-    blocks: &[&nalgebra::DMatrix<f64>],
+    blocks: &[&DMatrix<f64>],
 ) -> Mat<f64> {
     let first = plate.offset(*range.start());
     let size = plate.offset(range.end() + 1) - first;
@@ -373,7 +367,7 @@ pub(crate) fn spread(
     matrix
 }
 
-fn put(matrix: &mut Mat<f64>, offset: usize, block: &nalgebra::DMatrix<f64>) {
+fn put(matrix: &mut Mat<f64>, offset: usize, block: &DMatrix<f64>) {
     for j in 0..block.nrows() {
         for k in 0..block.ncols() {
             matrix[(offset + j, offset + k)] = block[(j, k)];
@@ -388,19 +382,6 @@ fn symmetric(matrix: Mat<f64>) -> Mat<f64> {
 
 fn skew(matrix: Mat<f64>) -> Mat<f64> {
     Scale(0.5) * (&matrix - matrix.transpose())
-}
-
-/// K₀ and K_σ − N of one harmonic in the body frame, where the undamped free blade
-/// is a symmetric problem: (K_b + K_m + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
-#[doc(hidden)]
-pub fn body_frame_stiffness(block: &HarmonicBlock, speed_rad_per_s: f64) -> Mat<f64> {
-    let n2 = (block.diameters * block.diameters) as f64;
-    let speed2 = speed_rad_per_s.powi(2);
-    Mat::from_fn(block.bending.nrows(), block.bending.ncols(), |j, k| {
-        let inertia = if j == k { n2 } else { 0.0 };
-        let membrane = block.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
-        block.bending[(j, k)] + membrane + speed2 * (block.spin[(j, k)] + inertia)
-    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Bending and membrane stiffness of one circumferential harmonic.
 
+use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 
 use crate::scene::Blade;
@@ -81,6 +82,18 @@ impl HarmonicBlock {
         block.bending.fill_upper_triangle_with_lower_triangle();
         block.spin.fill_upper_triangle_with_lower_triangle();
         block
+    }
+
+    /// K(Ω) in the body frame, where the undamped free blade
+    /// is a symmetric problem: (K_b + K_m + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
+    pub fn body_frame_stiffness(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let n2 = (self.diameters * self.diameters) as f64;
+        let speed2 = speed_rad_per_s.powi(2);
+        Mat::from_fn(self.bending.nrows(), self.bending.ncols(), |j, k| {
+            let inertia = if j == k { n2 } else { 0.0 };
+            let membrane = self.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
+            self.bending[(j, k)] + membrane + speed2 * (self.spin[(j, k)] + inertia)
+        })
     }
 
     /// Heave and tilt neither bend nor, spinning, stiffen the blade: K_b and

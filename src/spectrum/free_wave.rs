@@ -12,7 +12,7 @@ use super::error::SpectrumError;
 use super::vectors::{Eigenpair, by_magnitude, unit};
 use crate::plate::Plate;
 use crate::scene::rpm;
-use crate::system::{GyroscopicSystem, body_frame_stiffness};
+use crate::system::GyroscopicSystem;
 
 /// Every eigenpair with Im λ ≥ 0 of n nodal diameters, ‖q‖ = 1, ordered by |λ|; of each rigid
 /// motion that nothing holds one with λ = 0 exactly. `system` is that of the harmonic.
@@ -28,7 +28,7 @@ pub fn eigenpairs(
     let radial = plate.basis.count();
     // The rigid motion is decoupled to the last bit.
     let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);
-    let stiffness = body_frame_stiffness(&plate.harmonics[n], speed_rad_per_s);
+    let stiffness = plate.harmonics[n].body_frame_stiffness(speed_rad_per_s);
     let elastic = stiffness.get(rigid.., rigid..).to_owned();
     let drift = n as f64 * speed_rad_per_s;
     let mut pairs = Vec::new();

@@ -10,8 +10,7 @@ use crate::system::GyroscopicSystem;
 /// Below this order one dense factorization costs less.
 pub const LARGE: usize = 200;
 
-/// Blocks and columns of K₀, and what solves with them. What the columns leave out is less than 1e-7 of the
-/// blade's own stiffness.
+/// Blocks and columns of K₀, and what solves with them.
 #[derive(Debug)]
 pub struct StructuredStiffness {
     /// Blocks and columns.

@@ -12,7 +12,7 @@ use crate::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{ChosenBasis, DENSE_LADDER};
-use crate::system::{GyroscopicSystem, body_frame_stiffness};
+use crate::system::GyroscopicSystem;
 
 /// The saw in the cut on its lower modes.
 #[derive(Debug)]
@@ -259,7 +259,7 @@ fn complete_to(plate: &Plate, fastest: f64) -> f64 {
 
 /// Frequency on the blade of the shape of n nodal diameters and k nodal circles.
 fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
-    let block = body_frame_stiffness(&plate.harmonics[n], speed);
+    let block = plate.harmonics[n].body_frame_stiffness(speed);
     let values = block.self_adjoint_eigenvalues(Side::Lower);
     let square = values.ok().and_then(|values| values.get(k).copied());
     square.unwrap_or(0.0).max(0.0).sqrt()

@@ -6,7 +6,7 @@ use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Scene, SceneFile, WoodFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, InstabilityKind, Onsets, StabilityState};
-use sawflutter::system::{GyroscopicSystem, body_frame_stiffness};
+use sawflutter::system::GyroscopicSystem;
 
 use crate::common::relative_error;
 
@@ -100,7 +100,7 @@ fn wood_over_the_whole_blade_is_an_even_bed() {
     let mass = blade.mass_per_area_kg_per_m2();
     let system = GyroscopicSystem::of_plate(&plate);
     for n in 0..=6 {
-        let block = body_frame_stiffness(&plate.harmonics[n], 0.0);
+        let block = plate.harmonics[n].body_frame_stiffness(0.0);
         let first = plate.offset(n);
         for j in 0..plate.basis.count() {
             for k in 0..plate.basis.count() {

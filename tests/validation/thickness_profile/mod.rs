@@ -12,7 +12,6 @@ use sawflutter::plate::{Plate, Resolution, RimForce};
 use sawflutter::scene::{
     InPlane, MembraneFile, Mount, RimFile, Scene, SceneFile, TemperatureFile, ThicknessRow,
 };
-use sawflutter::system::body_frame_stiffness;
 
 use crate::common::{Worst, relative_error};
 
@@ -95,7 +94,7 @@ const RESOLUTION: Resolution = Resolution {
 
 /// Frequencies of the library in the turning frame, in rad/s, ascending.
 fn frequencies(plate: &Plate, n: usize, speed: f64) -> Vec<f64> {
-    let k = body_frame_stiffness(&plate.harmonics[n], speed);
+    let k = plate.harmonics[n].body_frame_stiffness(speed);
     let k = DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| k[(i, j)]);
     let mut squares: Vec<f64> = k.symmetric_eigenvalues().iter().copied().collect();
     squares.sort_by(f64::total_cmp);
