@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use sawflutter::check::{Check, Limits};
 use sawflutter::figure::Figures;
-use sawflutter::fit::{Compared, Fit, Measurement};
+use sawflutter::fit::{Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, RunUpReport};
 use sawflutter::scene::{Freed, Scene, rad_per_s};
@@ -47,7 +47,7 @@ type Figure = (&'static str, Vec<u8>);
 
 /// The figures that a scene has something to show in.
 fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
-    if scene.spline().is_some() {
+    if scene.file().spline.is_some() {
         // Another scene's saw on its spline: only that is new.
         let figures = pngs(&cut(scene)?)?.into_iter();
         let orbit = figures.filter(|(name, _)| *name == "spline-orbit.png");
@@ -59,17 +59,17 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     if scene.cut().is_some() {
         figures.extend(pngs(&cut(scene)?)?);
     }
-    if let Some(runup) = &scene.runup() {
-        let found = RunningUp::new(scene, runup, &|_, _| ())?;
+    if scene.file().runup.is_some() {
+        let found = RunningUp::new(scene, &|_, _| ())?;
         figures.extend(pngs(&RunUpReport::new(&found))?);
     }
-    if scene.operating_rad_per_s().is_some() && scene.guides().len() == 1 {
+    if scene.operating_rad_per_s().is_some() && scene.file().guides.len() == 1 {
         figures.extend(pngs(&check(scene)?)?);
     }
     if scene.file().measured.is_some() {
         figures.extend(pngs(&fit(scene)?)?);
     }
-    if scene.guides().len() > 1 {
+    if scene.file().guides.len() > 1 {
         figures.extend(pngs(&place(scene)?)?);
     }
     Ok(figures)
@@ -78,7 +78,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
 /// `sawflutter cut`.
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     let cut = scene.cut().context("it has a cut")?;
-    let cutting = Cutting::new(scene, cut, &cut.runs, &|_, _| ())?;
+    let cutting = Cutting::new(scene, &cut.runs, &|_, _| ())?;
     Ok(CutReport::new(&cutting))
 }
 
@@ -112,7 +112,7 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
         ..Default::default()
     };
     let fit = Fit::new(scene, &measurement, &freed, &options, &|_, _| ())?;
-    Ok(FitReport::new(&fit, &Compared::new(&fit)?))
+    Ok(FitReport::new(&fit))
 }
 
 /// `sawflutter place` with the pad's radius and angle free.

@@ -21,7 +21,11 @@ use nalgebra::DMatrix;
 use crate::plate::{HarmonicBlock, Plate};
 
 /// L(λ) = λ² + λD + K, of K(Ω) and D = 2ΩG + C.
-pub fn dynamic_stiffness(stiffness: &Mat<f64>, velocity: &Mat<f64>, lambda: c64) -> Mat<c64> {
+pub(crate) fn dynamic_stiffness(
+    stiffness: &Mat<f64>,
+    velocity: &Mat<f64>,
+    lambda: c64,
+) -> Mat<c64> {
     let order = stiffness.nrows();
     let mut dynamic = Mat::from_fn(order, order, |i, k| {
         lambda * velocity[(i, k)] + stiffness[(i, k)]

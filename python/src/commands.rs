@@ -3,7 +3,7 @@
 
 use pyo3::prelude::*;
 use sawflutter::check::{Check, LimitsFile};
-use sawflutter::fit::{Compared, Fit, Measurement, Options as FitOptions};
+use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::place::{Options as PlaceOptions, Placement};
 use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
@@ -123,9 +123,8 @@ pub fn cut(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let cut = scene.needed_cut()?;
-        let runs = cut.runs_at(&rpm)?;
-        let cutting = Cutting::new(&scene, cut, &runs, &|done, of| meter.show(done, of))?;
+        let runs = scene.needed_cut()?.runs_at(&rpm)?;
+        let cutting = Cutting::new(&scene, &runs, &|done, of| meter.show(done, of))?;
         json(&CutReport::new(&cutting))
     })
 }
@@ -136,8 +135,8 @@ pub fn cut(
 pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let runup = scene.needed_runup()?;
-        let found = RunningUp::new(&scene, runup, &|done, of| meter.show(done, of))?;
+        scene.needed_runup()?;
+        let found = RunningUp::new(&scene, &|done, of| meter.show(done, of))?;
         json(&RunUpReport::new(&found))
     })
 }
@@ -153,10 +152,10 @@ pub fn washboard(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
-        let (cut, washboarding) = scene.needed_washboarding()?;
+        let cut = scene.needed_washboarding()?;
         let run = cut.at_rpm(scene.needed_operating_rpm(rpm)?)?;
         let progress = |done, of| meter.show(done, of);
-        let found = Washboard::new(&scene, (cut, washboarding), &run, &progress)?;
+        let found = Washboard::new(&scene, &run, &progress)?;
         json(&WashboardReport::new(&found))
     })
 }
@@ -192,7 +191,7 @@ pub fn fit(
     compute(py, progress, move |meter| {
         let progress = |done, of| meter.show(done, of);
         let fit = Fit::new(&scene, &measurement, &freed, &options, &progress)?;
-        json(&FitReport::new(&fit, &Compared::new(&fit)?))
+        json(&FitReport::new(&fit))
     })
 }
 

@@ -28,11 +28,10 @@ pub struct Arguments {
 /// Computes a cut, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let cut = pasted(&scene, scene.needed_cut())?;
-    let runs = cut.runs_at(&arguments.rpm)?;
+    let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("points of the map");
-    let cutting = Cutting::new(&scene, cut, &runs, &|done, of| show(&bar, done, of))?;
+    let cutting = Cutting::new(&scene, &runs, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let report = CutReport::new(&cutting);
     let json = serde_json::to_string_pretty(&report)?;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fit::{Compared, Fit, Measurement, Options};
+use crate::fit::{Fit, Measurement, Options};
 use crate::report::FitReport;
 use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         show(&bar, done, of);
     })?;
     bar.finish_and_clear();
-    let report = FitReport::new(&fit, &Compared::new(&fit)?);
+    let report = FitReport::new(&fit);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     let fitted = serde_json::to_string_pretty(&report.scene)?;

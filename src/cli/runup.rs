@@ -25,10 +25,10 @@ pub struct Arguments {
 /// Computes a run-up, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let runup = pasted(&scene, scene.needed_runup())?;
+    pasted(&scene, scene.needed_runup())?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("steps");
-    let found = RunningUp::new(&scene, runup, &|done, of| show(&bar, done, of))?;
+    let found = RunningUp::new(&scene, &|done, of| show(&bar, done, of))?;
     bar.finish_and_clear();
     let report = RunUpReport::new(&found);
     let json = serde_json::to_string_pretty(&report)?;

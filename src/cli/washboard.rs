@@ -29,12 +29,12 @@ pub struct Arguments {
 /// Looks at washboarding, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
-    let (cut, washboarding) = pasted(&scene, scene.needed_washboarding())?;
+    let cut = pasted(&scene, scene.needed_washboarding())?;
     let run = cut.at_rpm(scene.needed_operating_rpm(arguments.rpm)?)?;
     let folder = arguments.common.folder()?;
     let bar = progress_bar("speeds");
     let progress = |done, of| show(&bar, done, of);
-    let found = Washboard::new(&scene, (cut, washboarding), &run, &progress)?;
+    let found = Washboard::new(&scene, &run, &progress)?;
     bar.finish_and_clear();
     let report = WashboardReport::new(&found);
     let json = serde_json::to_string_pretty(&report)?;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::reply::Refusal;
 use crate::figure::{Figure, Figures, growing_map};
-use crate::fit::{self, Compared, Fit, FitError, Measurement};
+use crate::fit::{self, Fit, FitError, Measurement};
 use crate::place::{self, Demands, Goal, GrowingMap, PlaceError, Placement};
 use crate::report::{
     CutReport, FitReport, GrowingMapEntry, PlaceReport, RunUpReport, WashboardReport,
@@ -162,27 +162,26 @@ fn refused(error: TransientError) -> Refusal {
 }
 
 fn cut(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let cut = scene.needed_cut()?;
-    let runs = cut.runs_at(&[])?;
+    let runs = scene.needed_cut()?.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
-    let cutting = Cutting::new(scene, cut, &runs, &progress).map_err(refused)?;
+    let cutting = Cutting::new(scene, &runs, &progress).map_err(refused)?;
     let report = CutReport::new(&cutting);
     answer(&report, report.summary(), None)
 }
 
 fn runup(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let runup = scene.needed_runup()?;
+    scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
-    let found = RunningUp::new(scene, runup, &progress).map_err(refused)?;
+    let found = RunningUp::new(scene, &progress).map_err(refused)?;
     let report = RunUpReport::new(&found);
     answer(&report, report.summary(), None)
 }
 
 fn washboard(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
-    let (cut, washboarding) = scene.needed_washboarding()?;
+    let cut = scene.needed_washboarding()?;
     let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
-    let found = Washboard::new(scene, (cut, washboarding), &run, &progress);
+    let found = Washboard::new(scene, &run, &progress);
     let found = found.map_err(|error: WashboardError| Refusal::of(&error))?;
     let report = WashboardReport::new(&found);
     answer(&report, report.summary(), None)
@@ -193,10 +192,8 @@ fn fit(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
     let options = fit::Options::default().checked(&measurement)?;
     let freed = Freed::to_fit(scene, &[])?;
     let progress = |done, of| meter.show("starts", done, of);
-    let compared = Fit::new(scene, &measurement, &freed, &options, &progress)
-        .and_then(|fit| Ok((Compared::new(&fit)?, fit)));
-    let (compared, fit) = compared.map_err(|error: FitError| Refusal::of(&error))?;
-    let report = FitReport::new(&fit, &compared);
+    let fit = Fit::new(scene, &measurement, &freed, &options, &progress);
+    let report = FitReport::new(&fit.map_err(|error: FitError| Refusal::of(&error))?);
     answer(&report, report.summary(), Some(&report.scene))
 }
 

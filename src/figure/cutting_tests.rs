@@ -3,7 +3,7 @@
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
 use crate::report::{CutReport, RunUpReport, WashboardReport};
-use crate::scene::{Accuracy, CutRun, RunUp, Scene, SpeedRange, rad_per_s};
+use crate::scene::{Accuracy, CutRun, Scene};
 use crate::transient::{Cutting, RunningUp};
 use crate::washboarding::Washboard;
 
@@ -11,7 +11,7 @@ use crate::washboarding::Washboard;
 fn cut_report(scene: &Scene) -> CutReport {
     let cut = scene.cut().unwrap();
     let runs = [1800.0, 2800.0, 2600.0].map(|rpm| cut.at_rpm(rpm).unwrap());
-    let cutting = Cutting::new(scene, cut, &runs, &|_, _| ()).unwrap();
+    let cutting = Cutting::new(scene, &runs, &|_, _| ()).unwrap();
     CutReport::new(&cutting)
 }
 
@@ -54,7 +54,7 @@ fn five_speeds_of_any_size_keep_their_labels_apart() {
         run(2500.0, 4.5),
         run(2800.0, 1e4),
     ];
-    let cutting = Cutting::new(&scene, cut, &runs, &|_, _| ()).unwrap();
+    let cutting = Cutting::new(&scene, &runs, &|_, _| ()).unwrap();
     let mut report = CutReport::new(&cutting);
     for run in &report.runs {
         let within = |w: &f64| w.abs() <= report.linear_limit_m;
@@ -78,7 +78,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
         lateral_n: 0.0,
         ..cut.at_rpm(2800.0).unwrap()
     };
-    let cutting = Cutting::new(&scene, cut, &[run], &|_, _| ()).unwrap();
+    let cutting = Cutting::new(&scene, &[run], &|_, _| ()).unwrap();
     let report = CutReport::new(&cutting);
     assert_eq!(report.runs[0].transient_verdict, None);
     assert!(
@@ -95,15 +95,11 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
 fn the_figures_of_a_run_up_are_tidy() {
     let paper = Scene::paper();
     let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
-    let runup = RunUp {
-        speeds: SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(2000.0),
-        },
-        duration_s: 10.0,
-        ..*scene.runup().unwrap()
-    };
-    let found = RunningUp::new(&scene, &runup, &|_, _| ()).unwrap();
+    let scene = scene.edited(|saw| {
+        let runup = saw.runup.as_mut().unwrap();
+        (runup.from_rpm, runup.to_rpm, runup.duration_s) = (0.0, 2000.0, 10.0);
+    });
+    let found = RunningUp::new(&scene.unwrap(), &|_, _| ()).unwrap();
     let report = RunUpReport::new(&found);
     assert_tidy(&runup::sheet(&report));
     assert_tidy(&response_map::sheet(&report));
@@ -131,10 +127,8 @@ fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
             (delayed.stiffness_n_per_m, delayed.overlap) = (stiffness, overlap);
         });
         let scene = scene.unwrap();
-        let cut = scene.cut().unwrap();
-        let run = cut.at_rpm(2400.0).unwrap();
-        let delayed = cut.washboarding.as_ref().unwrap();
-        let found = Washboard::new(&scene, (cut, delayed), &run, &|_, _| ()).unwrap();
+        let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
+        let found = Washboard::new(&scene, &run, &|_, _| ()).unwrap();
         let sheet = washboard::sheet(&WashboardReport::new(&found));
         assert_tidy(&sheet);
         let mut all = texts(&sheet).into_iter();

@@ -6,8 +6,7 @@ use super::{
     root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CutReport, FitReport, GrowingMapEntry, PlaceReport, Report, RunUpReport,
-    WashboardReport,
+    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -182,7 +181,8 @@ impl Figures for StudyReport {
 
 /// The map of a placement that goes on; the finished one is a figure of its report, under the same
 /// names.
-pub fn growing_map(growing: &GrowingMapEntry) -> Figure {
+#[cfg(feature = "explore")]
+pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
     Figure {
         names: PlaceReport::NAMES[0],
         sheet: super::growing_map::sheet(growing),

@@ -243,7 +243,7 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
 mod tests {
     use super::*;
     use crate::figure::tidy::assert_tidy;
-    use crate::fit::{Compared, Fit, Measurement, Options};
+    use crate::fit::{Fit, Measurement, Options};
     use crate::plate::Resolution;
     use crate::scene::{Freed, Scene};
 
@@ -264,7 +264,7 @@ mod tests {
             let options = Options { to_rpm, ..options };
             let freed = std::slice::from_ref(&freed);
             let fit = Fit::new(&scene, &table, freed, &options, &|_, _| ()).unwrap();
-            let report = FitReport::new(&fit, &Compared::new(&fit).unwrap());
+            let report = FitReport::new(&fit);
             assert_tidy(&sheet(&report));
         }
     }

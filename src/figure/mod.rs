@@ -26,6 +26,7 @@ mod drawn_tests;
 #[path = "../../tests/invariants/draws.rs"]
 mod draws;
 mod fit;
+#[cfg(feature = "explore")]
 mod growing_map;
 mod heading;
 mod heat;
@@ -50,7 +51,9 @@ mod tidy;
 mod tradeoff;
 mod washboard;
 
-pub use drawn::{Figure, Figures, growing_map, tradeoff};
+#[cfg(feature = "explore")]
+pub(crate) use drawn::growing_map;
+pub use drawn::{Figure, Figures, tradeoff};
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
 

@@ -1,12 +1,17 @@
 //! Computed frequencies before and after a fit, at the measured speeds and over speed.
 
-use super::{Fit, Measurement};
+use rayon::prelude::*;
+
+use super::Measurement;
+use super::model::Model;
 use crate::campbell::even_speeds;
-use crate::spectrum::SpectrumError;
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Scene, rad_per_s};
+use crate::spectrum::{LowestModes, SpectrumError};
 
 /// Lowest frequencies in ascending order at some speeds.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BeforeAndAfter {
+pub(crate) struct BeforeAndAfter {
     /// Speeds.
     pub rpm: Vec<f64>,
     /// Of the scene as it was, in Hz, a row for each speed.
@@ -17,7 +22,7 @@ pub struct BeforeAndAfter {
 
 /// What a report of a fit shows beside the numbers found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Compared {
+pub(crate) struct Compared {
     /// At the measured speeds, those included that were left out of the fit.
     pub measured: BeforeAndAfter,
     /// From rest to a little past the last fitted speed.
@@ -31,29 +36,46 @@ const BEYOND: f64 = 1.12;
 /// A fit at rest alone is drawn a little way, for there has to be an axis.
 const LEAST_RPM: f64 = 100.0;
 
+/// The `count` lowest frequencies at speeds in rpm, in Hz.
+fn frequencies_hz(
+    lowest: &LowestModes,
+    rpm: &[f64],
+    count: usize,
+) -> Result<Vec<Vec<f64>>, SpectrumError> {
+    rpm.par_iter()
+        .map(|rpm| Model::frequencies_hz(lowest, rad_per_s(*rpm), count))
+        .collect()
+}
+
 impl Compared {
-    /// The frequencies of a fit.
+    /// The frequencies of a scene before and after a fit to the rows up to a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(fit: &Fit) -> Result<Self, SpectrumError> {
-        let fitted = fit.measurement.up_to(fit.to_rpm);
-        let top = match fitted.top_rpm() {
+    pub fn new(
+        scenes: [&Scene; 2],
+        measured: &Measurement,
+        to_rpm: f64,
+        resolution: Resolution,
+    ) -> Result<Self, SpectrumError> {
+        let used = measured.up_to(to_rpm);
+        let top = match used.top_rpm() {
             rpm if rpm > 0.0 => BEYOND * rpm,
             _ => LEAST_RPM,
         };
+        let [before, fitted] = scenes.map(|scene| LowestModes::new(&Plate::new(scene, resolution)));
         let of = |rpm: Vec<f64>, measurement: &Measurement| -> Result<_, SpectrumError> {
             let depth = measurement.depth();
             Ok(BeforeAndAfter {
-                before_hz: fit.frequencies_hz(&fit.before, &rpm, depth)?,
-                fitted_hz: fit.frequencies_hz(&fit.scene, &rpm, depth)?,
+                before_hz: frequencies_hz(&before, &rpm, depth)?,
+                fitted_hz: frequencies_hz(&fitted, &rpm, depth)?,
                 rpm,
             })
         };
-        let rows = fit.measurement.rows.iter().map(|row| row.rpm);
+        let rows = measured.rows.iter().map(|row| row.rpm);
         Ok(Compared {
-            measured: of(rows.collect(), &fit.measurement)?,
-            curves: of(even_speeds((0.0, top), CURVE_SPEEDS), &fitted)?,
+            measured: of(rows.collect(), measured)?,
+            curves: of(even_speeds((0.0, top), CURVE_SPEEDS), &used)?,
         })
     }
 }

@@ -30,22 +30,21 @@ mod solve;
 mod starts;
 mod table;
 
-use rayon::prelude::*;
-
 use crate::campbell::Progress;
-use crate::plate::{Plate, Resolution};
+use crate::plate::Resolution;
 use crate::scene::{
     Freed, RefusedValue, Scene, SceneError, SpeedRange, effective, rad_per_s, scene_at,
 };
-use crate::spectrum::{LowestModes, SpectrumError};
+use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
 
-pub use compared::{BeforeAndAfter, Compared};
+pub(crate) use compared::BeforeAndAfter;
+pub(crate) use compared::Compared;
 pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
 use solve::{Found, at_bound, statistics};
-pub use starts::Start;
+pub(crate) use starts::Start;
 use starts::{refined, search};
 
 /// Confidence, starts and range of a fit.
@@ -152,7 +151,9 @@ pub struct Fit {
     /// Estimated relative error of its critical speeds; `None` where it was given.
     pub estimated_relative_error: Option<f64>,
     /// Every start, on a coarser basis.
-    pub starts: Vec<Start>,
+    pub(crate) starts: Vec<Start>,
+    /// Computed frequencies, before and after.
+    pub(crate) compared: Compared,
 }
 
 /// Shares of the bounds at which a number is looked at for whether it moves anything.
@@ -207,11 +208,14 @@ impl Fit {
         let best = refined(&fine, &candidates)?.unwrap_or_else(|| best.clone());
         let spread = statistics(&fine, &best.shares, options.confidence)?;
         let before = fine.residuals_of_saw_hz(scene)?;
+        let fitted = calibrated(scene, measurement, &freed, &best)?;
+        let to_rpm = options.to_rpm;
         Ok(Fit {
-            scene: calibrated(scene, measurement, &freed, &best)?,
+            compared: Compared::new([scene, &fitted], measured, to_rpm, resolution)?,
+            scene: fitted,
             before: scene.clone(),
             measurement: measured.clone(),
-            to_rpm: options.to_rpm,
+            to_rpm,
             confidence: options.confidence,
             parameters: parameters(scene, &freed, &best.shares, &spread.half_widths)?,
             without_effect,
@@ -223,22 +227,6 @@ impl Fit {
             estimated_relative_error,
             starts,
         })
-    }
-
-    /// The `count` lowest frequencies of a saw at speeds in rpm, in Hz, on the fit's basis.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn frequencies_hz(
-        &self,
-        scene: &Scene,
-        rpm: &[f64],
-        count: usize,
-    ) -> Result<Vec<Vec<f64>>, SpectrumError> {
-        let lowest = LowestModes::new(&Plate::new(scene, self.resolution));
-        rpm.par_iter()
-            .map(|rpm| Model::frequencies_hz(&lowest, rad_per_s(*rpm), count))
-            .collect()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::spectrum::SpectrumError;
 
 /// A start and where it led.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Start {
+pub(crate) struct Start {
     /// Values it began with.
     pub from: Vec<f64>,
     /// Values it reached, and the root mean square of what was left; `None` for a start that

@@ -8,7 +8,7 @@ use super::search::{Search, Seen};
 
 /// The goal over two freed numbers as far as it is known.
 #[derive(Debug, Clone, PartialEq)]
-pub struct GrowingMap {
+pub(crate) struct GrowingMap {
     /// The map; a cell that is not computed yet has no outcome.
     pub map: Map,
     /// Which cells are computed, one row for each value of y.
@@ -19,7 +19,7 @@ pub struct GrowingMap {
 
 /// A saw somewhere between the bounds.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub(crate) struct Sample {
     /// Its numbers along the axes of the map.
     pub at: [f64; 2],
     /// What it is worth; `None` where there is no saw.
@@ -27,7 +27,7 @@ pub struct Sample {
 }
 
 /// Called with the map whenever it has grown.
-pub type Watch<'a> = &'a (dyn Fn(&GrowingMap) + Sync);
+pub(crate) type Watch<'a> = &'a (dyn Fn(&GrowingMap) + Sync);
 
 /// Takes what the threads of a search find into one map.
 pub(super) struct Grower<'a> {
@@ -89,4 +89,51 @@ impl<'a> Grower<'a> {
 
 fn unknown(map: &Map) -> Vec<Vec<bool>> {
     vec![vec![false; map.x.len()]; map.y.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::place::{Demands, Options, Placement};
+    use crate::plate::Resolution;
+    use crate::scene::{Freed, Scene};
+
+    /// Goal: what is shown of a map that is being computed is the map that is answered in the end.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn a_map_that_is_watched_grows_cell_by_cell_into_the_map_of_the_result() {
+        let saw = Scene::paper().edited(|saw| saw.sweep.as_mut().unwrap().to_rpm = 2400.0);
+        let saw = saw.unwrap();
+        let radius = Freed::new(saw.file(), "guides[0].radius_m", 0.19, 0.25).unwrap();
+        let stiffness = Freed::new(saw.file(), "guides[0].stiffness_n_per_m", 1e7, 3e7).unwrap();
+        let options = Options {
+            samples: 8,
+            places: 1,
+            refine: 24,
+            map: 3,
+            resolution: Some(Resolution {
+                max_diameters: 6,
+                radial_functions: 3,
+            }),
+        };
+        let shown = Mutex::new(Vec::new());
+        let watch = |growing: &GrowingMap| {
+            let known = growing.is_computed.iter().flatten().filter(|is| **is);
+            let mut shown = shown.lock().unwrap();
+            shown.push((known.count(), growing.samples.len(), growing.map.clone()));
+        };
+        let (freed, demands) = ([radius, stiffness], Demands::default());
+        let found =
+            Placement::watched(&saw, &freed, &demands, &options, &|_, _, _| (), &watch).unwrap();
+        let shown = shown.into_inner().unwrap();
+        let samples = shown.iter().map(|(_, samples, _)| *samples);
+        assert!(samples.take(8).eq(1..=8), "the samples come one by one");
+        let cells: Vec<usize> = shown[8..].iter().map(|(cells, ..)| *cells).collect();
+        // Anew where the map itself has led to a better saw.
+        assert!(
+            cells.chunks(10).all(|map| map.iter().copied().eq(0..=9)),
+            "{cells:?}"
+        );
+        assert_eq!(shown.last().unwrap().2, found.map.unwrap());
+    }
 }

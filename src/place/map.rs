@@ -10,7 +10,7 @@ use super::search::{Search, Tried};
 /// The goal over two freed numbers, the others as they were best when it was drawn. On the
 /// coarse basis of the search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Map {
+pub(crate) struct Map {
     /// JSON path of the number along the first axis.
     pub x_path: String,
     /// Its values, of even shares.

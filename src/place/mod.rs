@@ -4,7 +4,7 @@
 //!
 //! The flutter speed is not continuous in the numbers: it jumps where the peak of a band passes the
 //! threshold. The best saw may stand right beside such a jump, so the answer includes what saws
-//! with slightly different numbers are worth ([`Neighbours`]). Bands are searched without
+//! with slightly different numbers are worth. Bands are searched without
 //! the forces of a cut. One angle of guides that may all turn is held, since nothing else
 //! stands in space: a single pad may be anywhere around the blade.
 //!
@@ -43,9 +43,10 @@ use crate::stability::ChosenBasis;
 
 pub use demands::{Demands, Goal, Options};
 use growing::Grower;
-pub use growing::{GrowingMap, Sample, Watch};
-pub use map::Map;
-pub use neighbours::{Neighbour, Neighbours};
+pub(crate) use growing::GrowingMap;
+pub(crate) use growing::Watch;
+pub(crate) use map::Map;
+pub(crate) use neighbours::Neighbours;
 pub use outcome::Outcome;
 use outcome::{Question, REFUSED};
 use search::{Search, Tried};
@@ -107,9 +108,9 @@ pub struct Placement {
     /// The best saw.
     pub best: Outcome,
     /// Saws a little off the best one.
-    pub neighbours: Neighbours,
+    pub(crate) neighbours: Neighbours,
     /// The goal over two of the numbers.
-    pub map: Option<Map>,
+    pub(crate) map: Option<Map>,
     /// Sweep in rad/s, the same for every saw.
     pub range: (f64, f64),
     /// The basis of the best saw.
@@ -162,7 +163,7 @@ impl Placement {
     ///
     /// # Errors
     /// Those of [`Placement::new`].
-    pub fn watched(
+    pub(crate) fn watched(
         scene: &Scene,
         freed: &[Freed],
         demands: &Demands,

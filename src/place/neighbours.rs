@@ -11,7 +11,7 @@ use super::search::Search;
 
 /// A saw whose numbers are off by what a workshop cannot rule out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Neighbour {
+pub(crate) struct Neighbour {
     /// Values of the freed numbers.
     pub values: Vec<f64>,
     /// What it is worth; `None` where there is no such saw.
@@ -20,7 +20,7 @@ pub struct Neighbour {
 
 /// What happens around the best saw.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Neighbours {
+pub(crate) struct Neighbours {
     /// How far each number is moved, in its unit.
     pub offsets: Vec<f64>,
     /// For each number the saws with less and with more of it; `None` past a bound.

@@ -27,7 +27,7 @@ pub struct HarmonicBlock {
 
 impl HarmonicBlock {
     /// Assembles bending and rotation for n nodal diameters.
-    pub fn new(
+    pub(crate) fn new(
         blade: &Blade,
         stress: &CentrifugalStress,
         basis: &RadialBasis,

@@ -29,7 +29,7 @@ pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]
 pub use harmonic::HarmonicBlock;
 pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
-pub use radial::RadialBasis;
+pub(crate) use radial::RadialBasis;
 
 use faer::Mat;
 
@@ -95,7 +95,7 @@ pub struct Plate {
     /// Size of the basis.
     pub resolution: Resolution,
     /// Radial functions.
-    pub basis: RadialBasis,
+    pub(crate) basis: RadialBasis,
     /// K_b, K_m and K_σ − N of n = 0 … n_max.
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of what touches the blade: guides, and what [`Plate::with_contact`] adds.
@@ -103,7 +103,7 @@ pub struct Plate {
     /// K_e, in 1/s², N × N, symmetric, once [`Plate::with_edge_loads`] has put forces on the rim.
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, when the scene names them.
-    pub damping: Option<Damping>,
+    pub(crate) damping: Option<Damping>,
     /// Stress of heat, roll tension or manufacture, when the scene names one.
     pub membrane: Option<MembraneStress>,
     /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
@@ -120,7 +120,7 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
 
 impl Plate {
     /// Assembles the matrices that the scene asks for. Every scene that is valid has them; a
-    /// resolution of fewer than two radial functions is not one, see [`RadialBasis::new`].
+    /// resolution of fewer than two radial functions is not one, see [`Resolution::new`].
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let stress = CentrifugalStress::new(scene.blade());
@@ -220,6 +220,12 @@ impl Plate {
     /// Number of unknowns N.
     pub fn degrees_of_freedom(&self) -> usize {
         self.basis.count() * (2 * self.max_diameters() + 1)
+    }
+
+    /// Radial functions of each number of nodal diameters: those of the resolution, and those that steps and
+    /// bends of the thickness add.
+    pub fn radial_functions(&self) -> usize {
+        self.basis.count()
     }
 
     /// Index of the first cosine of n nodal diameters.

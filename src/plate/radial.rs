@@ -28,7 +28,7 @@ pub struct RadialValues {
 /// J polynomials, and a few functions more for each knot of the thickness, for each number of
 /// nodal diameters n, with ∫ R_nj R_nk μ r dr = δ_jk over a < r < b.
 #[derive(Debug, Clone)]
-pub struct RadialBasis {
+pub(crate) struct RadialBasis {
     inner_radius_m: f64,
     width_m: f64,
     clamped: bool,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fit::{BeforeAndAfter, Compared, Fit, FittedParameter, Row, Start};
+use crate::fit::{BeforeAndAfter, Fit, FittedParameter, Row, Start};
 use crate::scene::{SceneFile, unusual};
 
 /// `fit.json`.
@@ -118,7 +118,7 @@ const HIGH_CORRELATION: f64 = 0.95;
 
 impl FitReport {
     /// Reports a fit.
-    pub fn new(fit: &Fit, compared: &Compared) -> Self {
+    pub fn new(fit: &Fit) -> Self {
         FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: fit.scene.file().clone(),
@@ -135,8 +135,8 @@ impl FitReport {
             degrees_of_freedom: fit.degrees_of_freedom,
             rms_hz: fit.rms_hz,
             rms_before_hz: fit.rms_before_hz,
-            residuals: residuals(fit, &compared.measured),
-            curves: CurvesEntry::from(&compared.curves),
+            residuals: residuals(fit),
+            curves: CurvesEntry::from(&fit.compared.curves),
             starts: fit.starts.iter().map(StartEntry::from).collect(),
             max_diameters: fit.resolution.max_diameters,
             radial_functions: fit.resolution.radial_functions,
@@ -181,8 +181,9 @@ impl From<&BeforeAndAfter> for CurvesEntry {
     }
 }
 
-fn residuals(fit: &Fit, computed: &BeforeAndAfter) -> Vec<ResidualEntry> {
+fn residuals(fit: &Fit) -> Vec<ResidualEntry> {
     let mut entries = Vec::new();
+    let computed = &fit.compared.measured;
     let computed = computed.before_hz.iter().zip(&computed.fitted_hz);
     for (row, (before, after)) in fit.measurement.rows.iter().zip(computed) {
         let Row { rpm, pairs } = row;

@@ -14,6 +14,8 @@ mod csv;
 mod cut;
 mod excitation;
 mod fit;
+#[cfg(feature = "explore")]
+mod growing;
 mod in_cut;
 mod membrane;
 mod mode;
@@ -38,11 +40,13 @@ pub use self::cut::{
 };
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+#[cfg(feature = "explore")]
+pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
-    GoalEntry, GrowingMapEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};

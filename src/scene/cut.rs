@@ -23,9 +23,9 @@ pub struct Cut {
     /// Speeds and the forces at each.
     pub runs: Vec<CutRun>,
     /// Wood against the blade, in the cut only.
-    pub wood: Option<Wood>,
+    pub(crate) wood: Option<Wood>,
     /// The force of the surface left by the tooth before, for a look at washboarding only.
-    pub washboarding: Option<Washboarding>,
+    pub(crate) washboarding: Option<Washboarding>,
     /// The forces that bear on a chart; `None` where it is of the idling saw.
     pub chart: Option<CutRun>,
     file: CutFile,

@@ -5,7 +5,7 @@ use super::{Blade, GuideFile, SceneError};
 
 /// A guide pad on the blade, in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Guide {
+pub(crate) struct Guide {
     /// Distance of the centre from the axis.
     pub radius_m: f64,
     /// Angle of the centre.

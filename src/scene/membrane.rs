@@ -72,7 +72,7 @@ pub struct RollBandFile {
 
 /// Validated membrane stress.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Membrane {
+pub(crate) struct Membrane {
     /// Heat.
     pub temperature: Option<Temperature>,
     /// Rolled bands.
@@ -83,7 +83,7 @@ pub struct Membrane {
 
 /// Validated temperature, T(r) = peak · shape(r).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Temperature {
+pub(crate) struct Temperature {
     /// Coefficient of linear thermal expansion α.
     pub expansion_per_k: f64,
     /// The rise of largest size on the blade; at the rim for a shape.
@@ -94,7 +94,7 @@ pub struct Temperature {
 
 /// Temperature over its peak.
 #[derive(Debug, Clone, PartialEq)]
-pub enum TemperatureShape {
+pub(crate) enum TemperatureShape {
     /// ((r − r₀)/(b − r₀))^p beyond r₀.
     Rim {
         /// r₀.
@@ -108,7 +108,7 @@ pub enum TemperatureShape {
 
 /// A validated band, from edge to edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RollBand {
+pub(crate) struct RollBand {
     /// Inner edge.
     pub from_radius_m: f64,
     /// Outer edge.

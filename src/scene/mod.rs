@@ -42,11 +42,12 @@ pub use file::{
 pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
 pub(crate) use freed::{effective, scene_at};
-pub use guide::Guide;
-pub use membrane::{
-    Membrane, MembraneFile, RollBand, RollBandFile, Temperature, TemperatureFile, TemperatureRow,
-    TemperatureShape,
-};
+pub(crate) use guide::Guide;
+pub(crate) use membrane::Membrane;
+pub(crate) use membrane::RollBand;
+pub(crate) use membrane::Temperature;
+pub(crate) use membrane::TemperatureShape;
+pub use membrane::{MembraneFile, RollBandFile, TemperatureFile, TemperatureRow};
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
@@ -57,14 +58,22 @@ pub(crate) use quantity::{unusual, unusual_number};
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
 pub use refused::RefusedValue;
-pub use residual::{ResidualStress, ResidualStressRow};
-pub use runup::{Probe, ProbeFile, RunUp, RunUpFile};
-pub use spline::{Spline, SplineFile};
-pub use thickness::{RimFile, RimMass, ThicknessProfile, ThicknessRow};
-pub use validated::{Blade, Bore, Damping, Scene, SpeedRange};
+pub(crate) use residual::ResidualStress;
+pub use residual::ResidualStressRow;
+pub(crate) use runup::Probe;
+pub use runup::{ProbeFile, RunUp, RunUpFile};
+pub(crate) use spline::Spline;
+pub use spline::SplineFile;
+pub(crate) use thickness::RimMass;
+pub(crate) use thickness::ThicknessProfile;
+pub use thickness::{RimFile, ThicknessRow};
+pub(crate) use validated::Damping;
+pub use validated::{Blade, Bore, Scene, SpeedRange};
 pub(crate) use washboarding::MAX_CUTTING_STIFFNESS;
-pub use washboarding::{Washboarding, WashboardingFile};
-pub use wood::{Wood, WoodFile};
+pub(crate) use washboarding::Washboarding;
+pub use washboarding::WashboardingFile;
+pub(crate) use wood::Wood;
+pub use wood::WoodFile;
 
 /// Rotation speed in rad/s from revolutions per minute.
 pub fn rad_per_s(rpm: f64) -> f64 {

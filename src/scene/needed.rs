@@ -17,17 +17,13 @@ impl Scene {
             .ok_or_else(|| RefusedValue::missing("cut", allowed, remedy))
     }
 
-    /// The cut and its delayed force.
+    /// The cut, with a force that depends on the surface left by the tooth before.
     ///
     /// # Errors
     /// [`RefusedValue`] where the scene lacks one of them.
-    pub fn needed_washboarding(&self) -> Result<(&Cut, &Washboarding), RefusedValue> {
+    pub fn needed_washboarding(&self) -> Result<&Cut, RefusedValue> {
         let cut = self.needed_cut()?;
-        let allowed = "given, with the cutting stiffness across the blade";
-        let remedy = "add it to the scene's cut";
-        let washboarding = cut.washboarding.as_ref();
-        let missing = || RefusedValue::missing("cut.washboarding", allowed, remedy);
-        Ok((cut, washboarding.ok_or_else(missing)?))
+        cut.needed_washboarding().map(|_| cut)
     }
 
     /// The run-up.
@@ -65,6 +61,17 @@ impl Scene {
 }
 
 impl Cut {
+    /// The force that depends on the surface left by the tooth before.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where the scene has none.
+    pub(crate) fn needed_washboarding(&self) -> Result<&Washboarding, RefusedValue> {
+        let allowed = "given, with the cutting stiffness across the blade";
+        let remedy = "add it to the scene's cut";
+        let washboarding = self.washboarding.as_ref();
+        washboarding.ok_or_else(|| RefusedValue::missing("cut.washboarding", allowed, remedy))
+    }
+
     /// The forces at the speeds asked for, in rpm; without any, those of the scene's.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ pub struct ResidualStressRow {
 
 /// Validated residual stress, in equilibrium.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ResidualStress {
+pub(crate) struct ResidualStress {
     /// σ_θθ, in Pa.
     pub hoop_pa: Profile,
     /// ∫σ_θθ dr over ∫|σ_θθ| dr as typed: the mean was taken off where both edges are free.

@@ -50,7 +50,7 @@ pub struct RunUp {
 
 /// A validated probe.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Probe {
+pub(crate) struct Probe {
     /// Distance from the axis.
     pub radius_m: f64,
     /// Angle.

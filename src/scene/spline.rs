@@ -47,7 +47,7 @@ fn papers_clearance_m() -> f64 {
 
 /// Validated contact between bore and arbor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spline {
+pub(crate) struct Spline {
     /// Number of spline teeth.
     pub teeth: usize,
     /// Angle of a flank to the radius through it.

@@ -41,7 +41,7 @@ const MAX_TOOTH_KG: f64 = 1e3;
 /// Validated thickness: that of the hub up to the first row, straight between the rows, constant
 /// beyond the last. Two rows of one radius make a step, and so does a first row unlike the hub.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThicknessProfile {
+pub(crate) struct ThicknessProfile {
     hub_m: f64,
     /// (radius, thickness), the first `count` of them.
     rows: [(f64, f64); MAX_ROWS],
@@ -50,7 +50,7 @@ pub struct ThicknessProfile {
 
 /// Validated mass on a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RimMass {
+pub(crate) struct RimMass {
     /// Of all teeth together.
     pub mass_kg: f64,
     /// Distance from the axis.

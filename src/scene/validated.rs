@@ -40,9 +40,9 @@ pub struct Blade {
     /// Thickness h; with a profile that of the hub, to which mass and stiffness are referred.
     pub thickness_m: f64,
     /// Thickness over the radius, where it is not the same everywhere.
-    pub profile: Option<ThicknessProfile>,
+    pub(crate) profile: Option<ThicknessProfile>,
     /// Mass of teeth and tips.
-    pub rim: Option<RimMass>,
+    pub(crate) rim: Option<RimMass>,
     /// Material.
     pub material: Material,
     /// What happens at r = a.
@@ -60,7 +60,7 @@ pub enum Bore {
 
 /// Damping of the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Damping {
+pub(crate) struct Damping {
     /// Kelvin–Voigt retardation time η, in the body frame.
     pub material_retardation_time_s: f64,
     /// Air resistance per area, in the frame of the air.
@@ -130,22 +130,22 @@ impl Scene {
     }
 
     /// Guide pads with a stiffness or a damping.
-    pub fn guides(&self) -> &[Guide] {
+    pub(crate) fn guides(&self) -> &[Guide] {
         &self.guides
     }
 
     /// Damping, if any number of it is not zero.
-    pub fn damping(&self) -> Option<Damping> {
+    pub(crate) fn damping(&self) -> Option<Damping> {
         self.damping
     }
 
     /// Membrane stress from heat, roll tension or as measured.
-    pub fn membrane(&self) -> Option<&Membrane> {
+    pub(crate) fn membrane(&self) -> Option<&Membrane> {
         self.membrane.as_ref()
     }
 
     /// Contact between bore and arbor, if its motion is asked for.
-    pub fn spline(&self) -> Option<&Spline> {
+    pub(crate) fn spline(&self) -> Option<&Spline> {
         self.spline.as_ref()
     }
 
@@ -190,7 +190,7 @@ impl Scene {
     }
 
     /// Where the deflection is read.
-    pub fn probe(&self) -> &Probe {
+    pub(crate) fn probe(&self) -> &Probe {
         &self.probe
     }
 }

@@ -35,7 +35,7 @@ fn full_overlap() -> f64 {
 
 /// Validated washboarding.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Washboarding {
+pub(crate) struct Washboarding {
     /// Lateral cutting stiffness k of all teeth in the cut together.
     pub stiffness_n_per_m: f64,
     /// μ.

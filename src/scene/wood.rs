@@ -28,7 +28,7 @@ pub struct WoodFile {
 
 /// Validated wood in the kerf.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wood {
+pub(crate) struct Wood {
     /// Angle of its middle.
     pub angle_rad: f64,
     /// Its arc.

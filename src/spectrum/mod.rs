@@ -51,8 +51,7 @@ mod vectors;
 mod work;
 
 pub(crate) use argument::turn_along;
-#[doc(hidden)]
-pub use arnoldi::lowest_eigenpairs;
+pub(crate) use arnoldi::lowest_eigenpairs;
 pub(crate) use assembled::Assembled;
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]
@@ -84,8 +83,7 @@ pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
 pub(crate) use refined::RefinedPair;
 pub(crate) use reflected::{KnownStates, ReflectedModel};
-#[doc(hidden)]
-pub use vectors::{orthonormal, split};
+pub(crate) use vectors::{orthonormal, split};
 pub use work::Cancellation;
 #[doc(hidden)]
 pub use work::WorkCounters;

@@ -51,7 +51,7 @@ fn three_halves(x: f64) -> f64 {
 
 impl Contact {
     /// The flanks of a spline; the first tooth is at angle 0.
-    pub fn new(spline: &Spline) -> Self {
+    pub(crate) fn new(spline: &Spline) -> Self {
         let (sin, cos) = spline.pressure_angle_rad.sin_cos();
         let normals = (0..spline.teeth)
             .flat_map(|tooth| {

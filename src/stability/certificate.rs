@@ -13,13 +13,13 @@ pub struct Certificate {
     /// Speeds at which it did not match, not even on the full model, in rad/s.
     pub violations_rad_per_s: Vec<f64>,
     /// Speeds at which the list of bands contradicts the eigenvalues found there.
-    pub mismatches: Vec<Mismatch>,
+    pub(crate) mismatches: Vec<Mismatch>,
     /// Whether the search ran out of its allowance of speeds.
     pub gave_up: bool,
     /// Counts of modes on the whole basis that were certain.
     pub full_basis_counts: usize,
     /// Where they contradict the spectra.
-    pub miscounts: Vec<Miscount>,
+    pub(crate) miscounts: Vec<Miscount>,
     /// Whether they did so at first, and the bands were searched again on the whole basis.
     pub searched_again: bool,
     /// Stretches of speed, in rad/s, that were searched and not proven to be free of bands that are
@@ -39,7 +39,7 @@ impl Certificate {
 
 /// A contradiction between the list of bands and the eigenvalues of one speed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mismatch {
+pub(crate) struct Mismatch {
     /// Ω.
     pub speed_rad_per_s: f64,
     /// Which kind of band.

@@ -24,7 +24,7 @@ pub struct FullBasis<'a> {
 
 /// A mode that the spectrum of a speed lacks, or has too many.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Miscount {
+pub(crate) struct Miscount {
     /// Ω.
     pub speed_rad_per_s: f64,
     /// Between which frequencies, in rad/s.

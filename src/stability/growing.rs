@@ -15,7 +15,7 @@ use crate::spectrum::{
 
 /// Growing modes of a plate at a speed, and what was checked of them.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct GrowingModes {
+pub(crate) struct GrowingModes {
     /// How many modes grow; a pair of conjugate eigenvalues is one.
     pub modes: usize,
     /// Re λ of the fastest of them, in 1/s.

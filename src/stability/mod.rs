@@ -46,7 +46,8 @@ pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::DENSE_LADDER;
 pub(crate) use basis::resolved_plate;
-pub use certificate::{Certificate, Mismatch};
+pub use certificate::Certificate;
+pub(crate) use certificate::Mismatch;
 pub use chart::StabilityChart;
 #[doc(hidden)]
 pub use chart::chart;
@@ -56,8 +57,8 @@ pub use estimate::Estimates;
 pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
-pub use full_basis::Miscount;
-pub use growing::GrowingModes;
+pub(crate) use full_basis::Miscount;
+pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use onsets::Onsets;
 #[doc(hidden)]

@@ -52,7 +52,7 @@ impl From<c64> for Growth {
 
 /// One speed of a cut: eigenvalues and time history.
 #[derive(Debug, Clone)]
-pub struct CutHistory {
+pub(crate) struct CutHistory {
     /// Speed and forces.
     pub run: CutRun,
     /// Eigenvalues without the forces.

@@ -23,31 +23,25 @@ mod sinusoids;
 mod teeth;
 mod verdict_map;
 
-pub use cut::CutHistory;
-#[doc(hidden)]
-pub use cut::{Growth, cut_history};
+pub(crate) use cut::CutHistory;
+pub(crate) use cut::{Growth, cut_history};
 pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
-#[doc(hidden)]
-pub use newmark::{Motion, Newmark};
+pub(crate) use newmark::{Motion, Newmark};
 pub(crate) use on_spline::{OnSpline, on_spline};
-#[doc(hidden)]
-pub use propagator::{Propagator, State};
-pub use response::ResponseMap;
+pub(crate) use propagator::{Propagator, State};
+pub(crate) use response::ResponseMap;
 pub(crate) use response::response_map;
-pub use runup::RunUpHistory;
-#[doc(hidden)]
-pub use runup::run_up;
+pub(crate) use runup::RunUpHistory;
+pub(crate) use runup::run_up;
 pub(crate) use runup::{BandGrowth, band_growths};
-#[doc(hidden)]
-pub use saw_in_cut::SawInCut;
-pub use scenario::{Cutting, CuttingRun, RunningUp};
+pub(crate) use saw_in_cut::SawInCut;
+pub(crate) use scenario::CuttingRun;
+pub use scenario::{Cutting, RunningUp};
 #[doc(hidden)]
 pub use sinusoids::{FitError, fitted_growth};
-#[doc(hidden)]
-pub use teeth::{ToothPassing, tooth_passing};
-pub use verdict_map::VerdictMap;
-#[doc(hidden)]
-pub use verdict_map::verdict_map;
+pub(crate) use teeth::{ToothPassing, tooth_passing};
+pub(crate) use verdict_map::VerdictMap;
+pub(crate) use verdict_map::verdict_map;
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
@@ -101,3 +95,8 @@ pub enum TransientError {
         step_s: f64,
     },
 }
+
+#[cfg(test)]
+mod moving_loads_tests;
+#[cfg(test)]
+mod tests;

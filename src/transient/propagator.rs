@@ -43,12 +43,6 @@ impl State {
             velocity: DVector::zeros(order),
         }
     }
-
-    /// Deflection read by a probe: Σ qᵢ cᵢ.
-    pub fn read(&self, probe: &Col<f64>) -> f64 {
-        let terms = self.displacement.iter().zip(probe.iter());
-        terms.map(|(q, c)| q * c).sum()
-    }
 }
 
 impl Propagator {

@@ -13,7 +13,7 @@ use super::runup::reduced_blade;
 
 /// |w/F| over speed and frequency.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ResponseMap {
+pub(crate) struct ResponseMap {
     /// Speeds.
     pub speed_rad_per_s: Vec<f64>,
     /// Frequencies of the force.

@@ -17,7 +17,7 @@ use super::{Motion, Newmark, TransientError};
 
 /// Deflection over the run-up.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RunUpHistory {
+pub(crate) struct RunUpHistory {
     /// Speeds of the record, in rad/s.
     pub speed_rad_per_s: Vec<f64>,
     /// Deflection at the probe.

@@ -2,7 +2,7 @@
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange};
+use crate::scene::{Cut, CutRun, RunUp, Scene, SceneError, SpeedRange};
 use crate::spectrum::Mode;
 use crate::stability::{Analysis, ChosenBasis};
 
@@ -22,12 +22,12 @@ pub struct Cutting {
     /// The cut.
     pub cut: Cut,
     /// One entry a speed.
-    pub runs: Vec<CuttingRun>,
+    pub(crate) runs: Vec<CuttingRun>,
 }
 
 /// One speed of a cut.
 #[derive(Debug, Clone)]
-pub struct CuttingRun {
+pub(crate) struct CuttingRun {
     /// Eigenvalues and time history.
     pub history: CutHistory,
     /// What the passing of the teeth changes.
@@ -53,16 +53,16 @@ const MAP_TURN_DEG: (f64, f64) = (30.0, 2.5);
 const MAP_LOAD: (f64, f64) = (1.5, 0.1);
 
 impl Cutting {
-    /// Computes the speeds of a cut.
+    /// Computes speeds of the scene's cut, see [`Cut::runs_at`].
     ///
     /// # Errors
     /// [`TransientError`].
     pub fn new(
         scene: &Scene,
-        cut: &Cut,
         runs: &[CutRun],
         progress: Progress<'_>,
     ) -> Result<Self, TransientError> {
+        let cut = scene.needed_cut().map_err(SceneError::from)?;
         let plate = chosen_plate(scene, runs)?;
         let turns: Vec<f64> = match scene.guides().is_empty() {
             // Turned by any angle, a saw without guides is the same.
@@ -120,11 +120,11 @@ pub struct RunningUp {
     /// Modes and bands over the speeds of the run-up.
     pub analysis: Analysis,
     /// Deflection at the probe.
-    pub history: RunUpHistory,
+    pub(crate) history: RunUpHistory,
     /// What each band of the analysis does to it.
     pub growths: Vec<BandGrowth>,
     /// Response over speed and frequency.
-    pub response: ResponseMap,
+    pub(crate) response: ResponseMap,
 }
 
 /// Speeds and frequencies of the response map.
@@ -133,15 +133,12 @@ const MAP_SIZE: (usize, usize) = (200, 150);
 const SHOWN_MODES: usize = 6;
 
 impl RunningUp {
-    /// Computes a run-up.
+    /// Computes the scene's run-up.
     ///
     /// # Errors
     /// [`TransientError`].
-    pub fn new(
-        scene: &Scene,
-        runup: &RunUp,
-        progress: Progress<'_>,
-    ) -> Result<Self, TransientError> {
+    pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, TransientError> {
+        let runup = scene.needed_runup().map_err(SceneError::from)?;
         let swept = scene.idling()?.swept(runup.speeds)?;
         let analysis = Analysis::new(&swept)?;
         let model = &analysis.model;

@@ -15,7 +15,7 @@ use super::{Growth, TransientError};
 
 /// Growth rates of one speed on a grid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct VerdictMap {
+pub(crate) struct VerdictMap {
     /// By how much all guides are moved around the axis.
     pub turns_rad: Vec<f64>,
     /// Multiples of the radial and tangential forces.

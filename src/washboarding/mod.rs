@@ -32,8 +32,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::Mat;
 use rayon::prelude::*;
 
-pub use self::boundary::Boundary;
-pub use self::modes::{Pattern, WashboardMode};
+pub(crate) use self::boundary::Boundary;
+pub(crate) use self::modes::WashboardMode;
 
 use self::basis::Motions;
 use self::count::LoopGains;
@@ -41,7 +41,7 @@ use self::delayed::DelayedSaw;
 use self::modes::described;
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Cut, CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboarding};
+use crate::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboarding};
 use crate::spectrum::{Cancellation, SpectrumError};
 use crate::stability::AnalysisError;
 
@@ -97,7 +97,7 @@ pub struct Washboard {
     /// Speed, forces and feed of the cut.
     pub run: CutRun,
     /// The delayed force.
-    pub washboarding: Washboarding,
+    pub(crate) washboarding: Washboarding,
     /// Frequency in space up to which the modes are complete.
     pub complete_to_rad_per_s: f64,
     /// Frequency up to which they would have to be, for the fastest speed of the diagram.
@@ -110,11 +110,11 @@ pub struct Washboard {
     /// The same without the delayed force.
     pub growing_without: usize,
     /// Modes at the speed of the cut, the fastest growing first.
-    pub modes: Vec<WashboardMode>,
+    pub(crate) modes: Vec<WashboardMode>,
     /// Least cutting stiffness at which a motion grows, at the speed of the cut.
-    pub boundary: Option<Boundary>,
+    pub(crate) boundary: Option<Boundary>,
     /// The same over the speed.
-    pub lobes: Vec<LobePoint>,
+    pub(crate) lobes: Vec<LobePoint>,
     /// Cutting stiffness up to which it was looked for.
     pub ceiling_n_per_m: f64,
     /// Least cutting stiffness at which a mode beyond `complete_to_rad_per_s` may grow, by its
@@ -124,7 +124,7 @@ pub struct Washboard {
 
 /// The boundary at one speed.
 #[derive(Debug, Clone, Copy)]
-pub struct LobePoint {
+pub(crate) struct LobePoint {
     /// Rotation speed.
     pub speed_rad_per_s: f64,
     /// Least cutting stiffness at which a motion grows; `None` where there is none up to the ceiling.
@@ -146,16 +146,18 @@ const JUMP: f64 = 0.03;
 const CEILING: f64 = 1e3;
 
 impl Washboard {
-    /// Looks at the washboarding of a saw at one speed of its cut, and around it.
+    /// Looks at the washboarding of a saw at one speed of the scene's cut, see [`Cut::at_rpm`](crate::scene::Cut::at_rpm), and
+    /// around it.
     ///
     /// # Errors
     /// [`WashboardError`].
     pub fn new(
         scene: &Scene,
-        (cut, washboarding): (&Cut, &Washboarding),
         run: &CutRun,
         progress: Progress<'_>,
     ) -> Result<Self, WashboardError> {
+        let cut = scene.needed_washboarding().map_err(SceneError::from)?;
+        let washboarding = cut.needed_washboarding().map_err(SceneError::from)?;
         let idling = scene.idling()?;
         let motions = Motions::new(&idling, cut, washboarding, run, DIAGRAM[1])?;
         let at = |speed: f64| motions.delayed_at(washboarding, speed);

@@ -13,7 +13,7 @@ use crate::spectrum::{ModeName, classify, split};
 
 /// A mode with the delayed force.
 #[derive(Debug, Clone)]
-pub struct WashboardMode {
+pub(crate) struct WashboardMode {
     /// λ, Im λ ≥ 0.
     pub lambda: c64,
     /// λ without the delayed force; `None` for a mode that only the delay makes.
@@ -26,7 +26,7 @@ pub struct WashboardMode {
 
 /// The waves that a motion leaves on the board.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pattern {
+pub(crate) struct Pattern {
     /// The multiple of the tooth passing frequency next to the frequency of the motion.
     pub multiple: u32,
     /// The frequency less that multiple, in rad/s.

@@ -291,14 +291,12 @@ pub fn survives_analysis(scene: &Scene) -> bool {
 
 /// Everything that `sawflutter washboard` computes; whether it is not refused.
 pub fn survives_washboard(scene: &Scene) -> bool {
-    let named = scene
-        .cut()
-        .and_then(|cut| Some((cut, cut.washboarding.as_ref()?)));
-    let run = named.and_then(|(cut, _)| cut.at_rpm(scene.file().operating_rpm?).ok());
-    let Some((named, run)) = named.zip(run) else {
+    let rpm = scene.file().operating_rpm;
+    let run = scene.cut().zip(rpm).map(|(cut, rpm)| cut.at_rpm(rpm));
+    let Some(Ok(run)) = run else {
         return false;
     };
-    let Ok(found) = Washboard::new(scene, named, &run, &|_, _| ()) else {
+    let Ok(found) = Washboard::new(scene, &run, &|_, _| ()) else {
         return false;
     };
     let report = WashboardReport::new(&found);

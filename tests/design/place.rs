@@ -2,12 +2,11 @@
 //!
 //! Sources: symmetry (guides turned together are the same saw), and brute force.
 
-use std::sync::Mutex;
-
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
-use sawflutter::place::{Demands, Goal, GrowingMap, Options, Placement};
+use sawflutter::place::{Demands, Goal, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
+use sawflutter::report::PlaceReport;
 use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
@@ -167,8 +166,8 @@ fn brute_force_finds_nothing_better() {
     );
     assert!(brute <= 1.005 * best, "{brute} is better than {best}");
     assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
-    let map = found.map.unwrap();
-    assert_eq!((map.x.len(), map.y.len(), map.outcomes.len()), (7, 7, 7));
+    let map = PlaceReport::new(&Demands::default(), &found).map.unwrap();
+    assert_eq!((map.x.len(), map.y.len(), map.goal_rpm.len()), (7, 7, 7));
 }
 
 /// The farther the two pads stand apart, the higher is the lowest critical speed; flutter comes
@@ -252,8 +251,8 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     let (one, three) = (on(1), on(3));
     assert_eq!(one.parameters, three.parameters);
     assert_eq!(one.best, three.best);
-    assert_eq!(one.neighbours, three.neighbours);
-    assert_eq!((one.map, one.evaluations), (three.map, three.evaluations));
+    let report = |found: &Placement| PlaceReport::new(&Demands::default(), found);
+    assert_eq!(report(&one), report(&three));
 }
 
 /// A saw of draft accuracy, with the choice of the basis left to the program.
@@ -348,38 +347,20 @@ fn a_start_outside_the_bounds_is_reported_as_it_is() {
     assert_eq!(found.improved, gained);
 }
 
-/// Goal: what is shown of a map that is being computed is the map that is answered in the end.
 /// Source: flutter speeds of the cells by the library's own parts.
 #[test]
-fn a_map_that_is_watched_grows_cell_by_cell_into_the_map_of_the_result() {
+fn cells_of_the_map_hold_the_flutter_speeds_of_their_saws() {
     const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
     let saw = swept("paper");
     let free = freed(&saw, &[(RADIUS, 0.19, 0.25), (STIFFNESS, 1e7, 3e7)]);
     let options = Options { map: 3, ..quick() };
-    let shown = Mutex::new(Vec::new());
-    let watch = |growing: &GrowingMap| {
-        let known = growing.is_computed.iter().flatten().filter(|is| **is);
-        let mut shown = shown.lock().unwrap();
-        shown.push((known.count(), growing.samples.len(), growing.map.clone()));
-    };
     let demands = Demands::default();
-    let found = Placement::watched(&saw, &free, &demands, &options, &|_, _, _| (), &watch).unwrap();
-    let shown = shown.into_inner().unwrap();
-    let samples = shown.iter().map(|(_, samples, _)| *samples);
-    assert!(samples.take(8).eq(1..=8), "the samples come one by one");
-    let cells: Vec<usize> = shown[8..].iter().map(|(cells, ..)| *cells).collect();
-    // Anew where the map itself has led to a better saw.
-    assert!(
-        cells.chunks(10).all(|map| map.iter().copied().eq(0..=9)),
-        "{cells:?}"
-    );
-    let map = found.map.unwrap();
-    assert_eq!(shown.last().unwrap().2, map);
+    let found = place(&saw, &free, &demands, &options);
+    let map = PlaceReport::new(&demands, &found).map.unwrap();
     for (row, stiffness) in map.y.iter().enumerate() {
         for (column, radius) in map.x.iter().enumerate() {
             let cell = with(&saw, &[(RADIUS, *radius), (STIFFNESS, *stiffness)]);
-            let outcome = map.outcomes[row][column].as_ref().unwrap();
-            let found = rpm(outcome.value_rad_per_s);
+            let found = map.goal_rpm[row][column].unwrap();
             assert_close("flutter", found, flutter_rpm(&cell), 1e-6);
         }
     }

@@ -44,7 +44,7 @@ fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64>
         let whitened = &inverse * -&block.spin * inverse.transpose();
         let eigen = SymmetricEigen::new((&whitened + whitened.transpose()) * 0.5);
         let offset = plate.offset(block.diameters);
-        let values = DVector::from_row_slice(&at_spring[offset..offset + plate.basis.count()]);
+        let values = DVector::from_row_slice(&at_spring[offset..offset + plate.radial_functions()]);
         for (k, mu) in eigen.eigenvalues.iter().enumerate() {
             let shape = inverse.transpose() * eigen.eigenvectors.column(k);
             waves.push(StandingWave {
@@ -201,7 +201,7 @@ pub fn evenly_spaced_pads() -> Row {
         }
         let plate = Plate::new(&scene(&file), Resolution::of(Accuracy::Design));
         let coupling = plate.contact.stiffness().unwrap();
-        let radial = plate.basis.count();
+        let radial = plate.radial_functions();
         // Blocks of cos and sin: 0, 1, 1, 2, 2, …
         let diameters = |i: usize| (i / radial).div_ceil(2);
         let largest = coupling.norm_max();

@@ -60,7 +60,7 @@ fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
 
 /// The tilts w = x and y feel the virial of the tractions, whatever the stress inside.
 fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], tolerance: f64) {
-    let [x, y] = [plate.offset(1), plate.offset(1) + plate.basis.count()];
+    let [x, y] = [plate.offset(1), plate.offset(1) + plate.radial_functions()];
     let blade = &plate.blade;
     let inertia = tilt::inertia_kg_m2(
         blade.inner_radius_m,

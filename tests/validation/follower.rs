@@ -20,7 +20,7 @@ struct FollowerForce {
 impl Contact for FollowerForce {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let values = plate.functions_at(self.radius_m, self.angle_rad);
-        let radial = plate.basis.count();
+        let radial = plate.radial_functions();
         let mut slopes = vec![0.0; values.len()];
         for n in 1..=plate.max_diameters() {
             for cosine in plate.offset(n)..plate.offset(n) + radial {

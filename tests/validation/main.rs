@@ -6,7 +6,6 @@ mod common;
 
 mod annulus;
 mod collar_saw;
-mod cutting;
 mod damping;
 mod edge_load;
 mod even_springs;
@@ -16,7 +15,6 @@ mod follower;
 mod heat_limits;
 mod in_cut;
 mod membrane;
-mod moving_loads;
 mod paper;
 mod paper_free_blade;
 mod rigid_motions;

@@ -90,7 +90,7 @@ fn assert_central_differences(scene: &Scene) -> usize {
     let at = rad_per_s(1800.0);
     let middle = analysis_of(scene);
     let found = sensitivities(&middle, at).unwrap();
-    assert_eq!(found.len(), 3 + 3 * scene.guides().len());
+    assert_eq!(found.len(), 3 + 3 * scene.file().guides.len());
     let share = 0.01;
     // Rounding 1e-11 and truncation (1e-4)² of the differences, over a step of 2e-4.
     let tolerance = 1e-6;

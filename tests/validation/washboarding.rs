@@ -46,9 +46,8 @@ fn report(scene: &Scene) -> WashboardReport {
 
 fn look(scene: &Scene) -> Result<Washboard, WashboardError> {
     let cut = scene.cut().expect("a cut");
-    let delayed = cut.washboarding.as_ref().expect("washboarding");
     let run = cut.at_rpm(scene.file().operating_rpm.expect("a speed"));
-    Washboard::new(scene, (cut, delayed), &run.unwrap(), &|_, _| ())
+    Washboard::new(scene, &run.unwrap(), &|_, _| ())
 }
 
 /// Nodes and weights of Gauss's rule on [−1, 1], by Newton's method on the Legendre polynomial.
@@ -73,7 +72,10 @@ fn gauss(count: usize) -> Vec<[f64; 2]> {
 /// Eigenvalues of the collocated delay, of the whole basis that a report was made with.
 fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c64> {
     let cut = scene.cut().unwrap();
-    let delayed = cut.washboarding.as_ref().unwrap();
+    let typed = scene.file().cut.as_ref().unwrap();
+    let delayed = typed.washboarding.as_ref().unwrap();
+    let of_teeth = f64::from(cut.teeth) * cut.pitch_rad;
+    let arc = delayed.arc_deg.map_or(of_teeth, f64::to_radians);
     let run = cut.at_rpm(report.rpm).unwrap();
     let resolution = Resolution {
         max_diameters: report.max_diameters,
@@ -84,7 +86,7 @@ fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c6
     let order = system.order();
     let mut columns = Mat::zeros(order, ON_ARC);
     for (k, [node, weight]) in gauss(ON_ARC).into_iter().enumerate() {
-        let angle = delayed.angle_rad + 0.5 * delayed.arc_rad * node;
+        let angle = cut.angle_rad + 0.5 * arc * node;
         let functions = plate.functions_at(plate.blade.outer_radius_m, angle);
         for (i, value) in functions.into_iter().enumerate() {
             columns[(i, k)] = value * (0.5 * weight).sqrt();

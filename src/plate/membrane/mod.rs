@@ -149,7 +149,7 @@ impl Part {
 
 impl MembraneStress {
     /// Every stress that a scene names and that is not zero; `None` without any.
-    pub fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
+    pub(crate) fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
         let heat = membrane.temperature.as_ref().map(|temperature| {
             let strain = Eigenstrain::of_heat(blade, temperature, temperature.peak_rise_k);
             (MembraneSource::Heat, strain)
@@ -177,7 +177,7 @@ impl MembraneStress {
     }
 
     /// The stress of a temperature of the given peak alone.
-    pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
+    pub(crate) fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let strain = Eigenstrain::of_heat(blade, temperature, peak_rise_k);
         let part = Part::of_eigenstrain(blade, strain);
         MembraneStress {

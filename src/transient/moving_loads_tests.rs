@@ -1,10 +1,10 @@
 //! Tooth loads that move with the teeth: Floquet multipliers against another integrator.
 
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Cut, CutRun, Scene};
+use crate::system::GyroscopicSystem;
+use crate::transient::{SawInCut, tooth_passing};
 use faer::{Mat, Scale};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Cut, CutRun, Scene};
-use sawflutter::system::GyroscopicSystem;
-use sawflutter::transient::{SawInCut, tooth_passing};
 
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
