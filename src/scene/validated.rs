@@ -85,7 +85,7 @@ impl Scene {
     /// use sawflutter::scene::Scene;
     ///
     /// let saw = Scene::paper().edited(|file| file.guides[0].radius_m = 0.22)?;
-    /// assert_eq!(saw.guides()[0].radius_m, 0.22);
+    /// assert_eq!(saw.file().guides[0].radius_m, 0.22);
     /// assert!(saw.edited(|file| file.blade.thickness_m = -1.0).is_err());
     /// # Ok::<(), sawflutter::scene::SceneError>(())
     /// ```
