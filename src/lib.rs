@@ -24,7 +24,7 @@
 //! The modules stand in the order in which a saw goes through them, and each imports only from
 //! those before it: [`scene`] → [`plate`] → [`system`] →
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`] → `explore`. [`check`], [`fit`] and [`place`] stand after [`stability`],
+//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`],
 //! [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
 //! [`plate`] alone. [`analytical`] imports nothing: closed forms with their sources, which the
 //! tests hold the rest against.
@@ -43,7 +43,7 @@ pub mod check;
 #[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "explore")]
-pub mod explore;
+mod explore;
 pub mod figure;
 pub mod fit;
 pub mod place;

@@ -9,9 +9,9 @@ use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
     WashboardReport,
 };
-use sawflutter::scene::{Freed, NamedBounds, Scene, rad_per_s, rpm};
+use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, sensitivities};
+use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis};
 use sawflutter::transient::{Cutting, RunningUp};
 use sawflutter::washboarding::Washboard;
 use serde::Serialize;
@@ -43,11 +43,7 @@ pub fn analyze(
         let analysis = Analysis::with_options(&scene, options)?;
         let mut report = analysis.report();
         if sensitivity {
-            let at = scene
-                .operating_rad_per_s()
-                .unwrap_or(analysis.range_rad_per_s.0);
-            let found = sensitivities(&analysis, at)?;
-            report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
+            report.sensitivities = SensitivityEntry::all(&analysis)?;
         }
         json(&report)
     })
@@ -65,16 +61,10 @@ pub fn modes(
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |_| {
         let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
-        let (from, to) = chosen.range_rad_per_s;
-        let speed = rad_per_s(at_rpm);
-        // The end of a sweep is not told from its value in rpm.
-        if !(from <= speed * (1.0 + 1e-12) && speed <= to * (1.0 + 1e-12)) {
-            let allowed = format!("within the sweep, {} to {} rpm", rpm(from), rpm(to));
-            let remedy = "name another speed, or a longer sweep in the scene";
-            return Err(Failure::argument("rpm", at_rpm, allowed, remedy));
-        }
+        let range = chosen.range_rad_per_s;
+        let speed = SpeedRange::from(range).speed_at("rpm", at_rpm)?;
         let (plate, critical) = (chosen.plate, chosen.critical);
-        let model = SpectralModel::with_critical(plate, critical, (from, to), Strategy::Reduced)?;
+        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
         let found = model.describe(speed, model.modes(speed)?);
         let entry = |mode| ModeEntry::new(&model.plate, speed, mode);
         json(&found.iter().map(entry).collect::<Vec<_>>())

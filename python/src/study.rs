@@ -70,7 +70,7 @@ impl Study {
                 ranges.iter().flat_map(|(from, to)| *from..*to),
                 Mutex::default(),
             );
-            study::run(&study, Some(1), indices, &|saw| {
+            study.run(Some(1), indices, &|saw| {
                 // A saw that was stopped half-way is none.
                 stopped()?;
                 let mut saws: MutexGuard<'_, Vec<Saw>> = lock(&saws);
@@ -116,7 +116,7 @@ impl Study {
             log.append_processor(&study::processor())?;
             let missing = log.finished().clone().into_missing();
             let log = Mutex::new(log);
-            study::run(&study, None, missing, &|saw| {
+            study.run(None, missing, &|saw| {
                 // A saw that was stopped half-way is none.
                 stopped()?;
                 let mut log = lock(&log);

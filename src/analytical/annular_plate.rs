@@ -19,87 +19,89 @@ pub enum Bore {
     Clamped,
 }
 
-/// The lowest `count` elastic roots λ² = ω b² √(ρh/D), ascending, of n nodal diameters; the s-th
-/// has s nodal circles, for a free bore and n ≤ 1 one more. Rigid heave and tilt of a free plate
-/// (λ = 0) are not among them. `radius_ratio` is a/b.
-///
-/// Valid for 0.001 ≤ a/b ≤ 0.995, n ≤ 64, −0.99 ≤ ν < 0.5 and kb = √λ² < 1000, where the roots
-/// were found right to 1e-10 or better. Beyond what can be computed the list is shorter than
-/// `count`.
-pub fn roots(
-    bore: Bore,
-    radius_ratio: f64,
-    poisson_ratio: f64,
-    nodal_diameters: usize,
-    count: usize,
-) -> Vec<f64> {
-    let at = |k: f64| determinant(bore, radius_ratio, poisson_ratio, nodal_diameters, k);
-    // Below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and ≥ 0.9 n for more,
-    // the umbrella of ν = −0.99 has 1.04. Further below the determinant is rounding.
-    let mut low = f64::max(0.5, 0.6 * nodal_diameters as f64);
-    let mut before = at(low);
-    let mut found = Vec::new();
-    while found.len() < count && low < LARGEST {
-        let high = low + STEP;
-        let after = at(high);
-        if before.is_nan() || after.is_nan() {
-            break;
-        }
-        if before * after < 0.0 {
-            found.push(bisected(low, high, |k| after.signum() * at(k)).powi(2));
-        }
-        (low, before) = (high, after);
-    }
-    found
-}
-
 /// Small beside the distance of two roots of one n in kb, which is π/(1 − a/b) for the higher
 /// ones and above 1 for all.
 const STEP: f64 = 0.1;
 /// Largest kb looked at.
 const LARGEST: f64 = 1000.0;
 
-/// ω = λ² √(D/ρh)/b², in rad/s.
-pub fn frequency_rad_per_s(
-    lambda_squared: f64,
-    rim_radius_m: f64,
-    flexural_rigidity_n_m: f64,
-    mass_per_area_kg_per_m2: f64,
-) -> f64 {
-    lambda_squared * (flexural_rigidity_n_m / mass_per_area_kg_per_m2).sqrt() / rim_radius_m.powi(2)
+/// A thin annular plate with a free rim.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnnularPlate {
+    /// What holds the bore.
+    pub bore: Bore,
+    /// a/b.
+    pub radius_ratio: f64,
+    /// ν.
+    pub poisson_ratio: f64,
 }
 
-/// The determinant of the two conditions at the bore and the two at the rim, rows and columns
-/// scaled to one size; `rim_argument` is kb.
-pub fn determinant(
-    bore: Bore,
-    radius_ratio: f64,
-    poisson_ratio: f64,
-    nodal_diameters: usize,
-    rim_argument: f64,
-) -> f64 {
-    let inner_argument = radius_ratio * rim_argument;
-    let at_bore = functions(nodal_diameters, inner_argument);
-    let at_rim = functions(nodal_diameters, rim_argument);
-    let free = |at: &[Term; 4], x: f64| free_edge(at, nodal_diameters, x, poisson_ratio);
-    let [first, second] = match bore {
-        Bore::Free => free(&at_bore, inner_argument),
-        Bore::Clamped => [
-            at_bore.map(|term| term.at.value),
-            at_bore.map(|term| term.at.slope),
-        ],
-    };
-    let [third, fourth] = free(&at_rim, rim_argument);
-    let mut rows = [first, second, third, fourth];
-    // I and K come without their exponentials: what is left of them between the two edges.
-    let decay = (inner_argument - rim_argument).exp();
-    for row in &mut rows[..2] {
-        row[2] *= decay;
+impl AnnularPlate {
+    /// The lowest `count` elastic roots λ² = ω b² √(ρh/D), ascending, of n nodal diameters; the s-th
+    /// has s nodal circles, for a free bore and n ≤ 1 one more. Rigid heave and tilt of a free plate
+    /// (λ = 0) are not among them.
+    ///
+    /// Valid for 0.001 ≤ a/b ≤ 0.995, n ≤ 64, −0.99 ≤ ν < 0.5 and kb = √λ² < 1000, where the roots
+    /// were found right to 1e-10 or better. Beyond what can be computed the list is shorter than
+    /// `count`.
+    pub fn roots(&self, nodal_diameters: usize, count: usize) -> Vec<f64> {
+        let at = |k: f64| self.determinant(nodal_diameters, k);
+        // Below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and ≥ 0.9 n for more,
+        // the umbrella of ν = −0.99 has 1.04. Further below the determinant is rounding.
+        let mut low = f64::max(0.5, 0.6 * nodal_diameters as f64);
+        let mut before = at(low);
+        let mut found = Vec::new();
+        while found.len() < count && low < LARGEST {
+            let high = low + STEP;
+            let after = at(high);
+            if before.is_nan() || after.is_nan() {
+                break;
+            }
+            if before * after < 0.0 {
+                found.push(bisected(low, high, |k| after.signum() * at(k)).powi(2));
+            }
+            (low, before) = (high, after);
+        }
+        found
     }
-    for row in &mut rows[2..] {
-        row[3] *= decay;
+
+    /// ω = λ² √(D/ρh)/b², in rad/s.
+    pub fn frequency_rad_per_s(
+        lambda_squared: f64,
+        rim_radius_m: f64,
+        flexural_rigidity_n_m: f64,
+        mass_per_area_kg_per_m2: f64,
+    ) -> f64 {
+        lambda_squared * (flexural_rigidity_n_m / mass_per_area_kg_per_m2).sqrt()
+            / rim_radius_m.powi(2)
     }
-    scaled_determinant(rows)
+
+    /// The determinant of the two conditions at the bore and the two at the rim, rows and columns
+    /// scaled to one size; `rim_argument` is kb.
+    pub fn determinant(&self, nodal_diameters: usize, rim_argument: f64) -> f64 {
+        let inner_argument = self.radius_ratio * rim_argument;
+        let at_bore = functions(nodal_diameters, inner_argument);
+        let at_rim = functions(nodal_diameters, rim_argument);
+        let free = |at: &[Term; 4], x: f64| free_edge(at, nodal_diameters, x, self.poisson_ratio);
+        let [first, second] = match self.bore {
+            Bore::Free => free(&at_bore, inner_argument),
+            Bore::Clamped => [
+                at_bore.map(|term| term.at.value),
+                at_bore.map(|term| term.at.slope),
+            ],
+        };
+        let [third, fourth] = free(&at_rim, rim_argument);
+        let mut rows = [first, second, third, fourth];
+        // I and K come without their exponentials: what is left of them between the two edges.
+        let decay = (inner_argument - rim_argument).exp();
+        for row in &mut rows[..2] {
+            row[2] *= decay;
+        }
+        for row in &mut rows[2..] {
+            row[3] *= decay;
+        }
+        scaled_determinant(rows)
+    }
 }
 
 /// One of J, Y, I, K at an edge, and the factor of its Laplacian: ∇²f = ∓f in units of 1/k².

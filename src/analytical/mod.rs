@@ -10,10 +10,8 @@
 //! | natural frequencies of an annular plate at rest | [`annular_plate`] |
 //! | frequencies of a disk so fast that it is a membrane | [`spinning_membrane`] |
 //! | waves of an unguided blade: seen from space, critical speed, onset under damping | [`free_wave`] |
-//! | tilt of a blade under in-plane forces | [`tilt`] |
-//! | stress of a ring under pressure or torque | [`lame_ring`] |
-//! | stress of a rotating annulus | [`rotating_annulus`] |
-//! | stress of a heated annulus | [`heated_annulus`] |
+//! | tilt of a blade under single forces in its plane | [`tilt`] |
+//! | stress of an annulus that rotates, is heated, pulled at its rim or twisted; its tilt | [`annulus`] |
 //! | stress of a disk between two forces | [`pressed_disk`] |
 //! | critical speeds and eigenvalues of a blade on equal, evenly spaced point springs | [`point_springs`] |
 //! | which waves such springs couple, and how fast they then grow | [`wave_coupling`] |
@@ -25,27 +23,16 @@
 //! speed. Tension is positive.
 
 pub mod annular_plate;
+pub mod annulus;
 mod bessel;
 pub mod free_wave;
-pub mod heated_annulus;
-pub mod lame_ring;
 pub mod oscillator;
 pub mod point_springs;
 pub mod pressed_disk;
 pub mod regenerative;
-pub mod rotating_annulus;
 pub mod spinning_membrane;
 pub mod tilt;
 pub mod wave_coupling;
-
-/// Stress that is the same all around, at one radius.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RadialAndHoop {
-    /// σ_rr, in Pa.
-    pub radial_pa: f64,
-    /// σ_θθ, in Pa.
-    pub hoop_pa: f64,
-}
 
 /// The root of a function that is negative towards `low` and positive towards `high`, by halving
 /// to the last digit. It is not evaluated at the ends, which may be poles.

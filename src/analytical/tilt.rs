@@ -7,8 +7,6 @@
 //! Source: the theorem of the mean stress, M. E. Gurtin, *The Linear Theory of Elasticity*,
 //! Encyclopedia of Physics VIa/2 (1972), section 18.
 
-use std::f64::consts::PI;
-
 /// A dead force in the plane of the blade: it keeps its direction in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneForce {
@@ -38,26 +36,12 @@ pub fn stiffness_of_forces_n_m(forces: &[PlaneForce]) -> [f64; 3] {
     sum
 }
 
-/// ∫ ρh x² dA = ρh π (b⁴ − a⁴)/4, in kg·m²: the inertia of the tilt w = x.
-pub fn inertia_kg_m2(bore_radius_m: f64, rim_radius_m: f64, mass_per_area_kg_per_m2: f64) -> f64 {
-    0.25 * PI * mass_per_area_kg_per_m2 * (rim_radius_m.powi(4) - bore_radius_m.powi(4))
-}
-
-/// ω² of the tilt of a resting blade under the tension p at its rim, in 1/s²:
-/// 4 p b²/ρ(b⁴ − a⁴), as long as it hardly bends.
-pub fn frequency_squared_under_rim_tension(
-    bore_radius_m: f64,
-    rim_radius_m: f64,
-    density_kg_per_m3: f64,
-    tension_pa: f64,
-) -> f64 {
-    let fourths = rim_radius_m.powi(4) - bore_radius_m.powi(4);
-    4.0 * tension_pa * rim_radius_m.powi(2) / (density_kg_per_m3 * fourths)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
+    use crate::analytical::annulus::Annulus;
 
     /// Many equal forces outwards are the tension.
     #[test]
@@ -74,8 +58,12 @@ mod tests {
             })
             .collect();
         let [xx, yy, xy] = stiffness_of_forces_n_m(&forces);
-        let expected = frequency_squared_under_rim_tension(a, b, rho, tension);
-        let inertia = inertia_kg_m2(a, b, rho * h);
+        let annulus = Annulus {
+            bore_radius_m: a,
+            rim_radius_m: b,
+        };
+        let expected = annulus.tilt_frequency_squared_under_rim_tension(rho, tension);
+        let inertia = annulus.tilt_inertia_kg_m2(rho * h);
         assert!((xx / inertia / expected - 1.0).abs() < 1e-12);
         assert!((yy / inertia / expected - 1.0).abs() < 1e-12);
         assert!(xy.abs() < 1e-12 * xx);

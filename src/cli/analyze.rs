@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
-use crate::scene::{Scene, rad_per_s};
-use crate::stability::{Analysis, AnalysisOptions, sensitivities};
-use anyhow::{Context, bail};
+use crate::scene::{Scene, SpeedRange};
+use crate::stability::{Analysis, AnalysisOptions};
+use anyhow::Context;
 use clap::Args;
 
 use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
@@ -119,16 +119,12 @@ fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
     let analysis = Analysis::with_options(scene, options)?;
     bar.finish_and_clear();
     let mut report = analysis.report();
-    if let Some(speed) = arguments.at_rpm {
-        let speed = within_sweep(speed, &report)?;
-        report.whirl = Some(WhirlEntry::new(&analysis, rad_per_s(speed))?);
+    if let Some(rpm) = arguments.at_rpm {
+        let speed = SpeedRange::from(analysis.range_rad_per_s).speed_at("--at-rpm", rpm)?;
+        report.whirl = Some(WhirlEntry::new(&analysis, speed)?);
     }
     if arguments.sensitivity {
-        let at = scene
-            .operating_rad_per_s()
-            .unwrap_or(analysis.range_rad_per_s.0);
-        let found = sensitivities(&analysis, at)?;
-        report.sensitivities = found.iter().map(SensitivityEntry::from).collect();
+        report.sensitivities = SensitivityEntry::all(&analysis)?;
     }
     Ok(report)
 }
@@ -140,16 +136,4 @@ fn files(report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     Ok((files, json))
-}
-
-/// A speed asked about, which the modes are known at.
-fn within_sweep(rpm: f64, report: &Report) -> anyhow::Result<f64> {
-    let (from, to) = (report.campbell.from_rpm, report.campbell.to_rpm);
-    if (from..=to).contains(&rpm) {
-        return Ok(rpm);
-    }
-    bail!(
-        "--at-rpm is {rpm}, but must be from {from:.0} to {to:.0}, the speeds of the sweep; name \
-         one of these, or widen `sweep` in the scene"
-    )
 }

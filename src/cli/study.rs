@@ -144,7 +144,7 @@ fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result
     let missing = missing.filter(|index| shard.holds(*index));
     let bar = progress_bar(done, of);
     let log = Mutex::new(log);
-    study::run(study, None, missing, &|saw| {
+    study.run(None, missing, &|saw| {
         let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
         log.append(study, &saw)?;
         bar.inc(1);

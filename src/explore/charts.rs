@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::reply::Refusal;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene};
-use crate::stability::{Analysis, AnalysisOptions, Detail, sensitivities};
+use crate::stability::{Analysis, AnalysisOptions, Detail};
 
 /// Which accuracy a chart is asked for at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -93,10 +93,7 @@ impl Charts {
     pub fn influence(&self, asked: &str) -> Result<Vec<SensitivityEntry>, Refusal> {
         let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let analysis = self.named(chart).ok_or_else(|| Refusal::gone(chart))?;
-        let start = analysis.range_rad_per_s.0;
-        let at = analysis.scene.operating_rad_per_s().unwrap_or(start);
-        let found = sensitivities(&analysis, at).map_err(|error| Refusal::of(&error))?;
-        Ok(found.iter().map(SensitivityEntry::from).collect())
+        SensitivityEntry::all(&analysis).map_err(|error| Refusal::of(&error))
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {

@@ -16,4 +16,4 @@ mod reply;
 mod server;
 mod task;
 
-pub use server::{ExploreError, Options, serve};
+pub use server::{Options, serve};

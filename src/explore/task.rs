@@ -14,7 +14,7 @@ use crate::report::{
     CutReport, FitReport, GrowingMapEntry, PlaceReport, RunUpReport, WashboardReport,
 };
 use crate::scene::{Freed, Scene, SceneFile};
-use crate::study::{self, Saw, Study, StudyFile, StudyReport};
+use crate::study::{Saw, Study, StudyFile, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
@@ -232,7 +232,7 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> 
         });
         Ok::<_, std::convert::Infallible>(())
     };
-    let Ok(()) = study::run(&study, None, 0..study.count(), &done);
+    let Ok(()) = study.run(None, 0..study.count(), &done);
     let saws = saws.into_inner().unwrap_or_else(|e| e.into_inner());
     let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
     answer(&report, report.summary(), None)

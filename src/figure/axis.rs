@@ -208,6 +208,14 @@ pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
     }
 }
 
+/// Draws a horizontal axis with numbers and, below them, its name.
+pub fn draw_named(sheet: &mut Sheet, axis: &Axis, y: f64, name: &str) {
+    draw_horizontal(sheet, axis, y, true);
+    let [left, right] = axis.places();
+    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
+    sheet.text([0.5 * (left + right), y + 42.0], letters, name);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

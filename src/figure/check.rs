@@ -1,11 +1,11 @@
 //! Limits and what was found, each on its own line over the same axis of speeds.
 
-use super::axis::{Axis, Spread, draw_horizontal};
+use super::axis::{Axis, Spread, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE,
-    FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
+    ALARM, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, GRID,
+    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
 };
 use super::{bands, heading};
 use crate::report::{CheckReport, CriterionEntry};
@@ -36,11 +36,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     let operating = speed.at(report.operating_rpm);
     let line = [[operating, TOP], [operating, bottom]];
     sheet.line(line, Stroke::solid(INK, HAIRLINE));
-    draw_horizontal(&mut sheet, &speed, bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = 0.5 * (LEFT + RIGHT);
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([centre, bottom + 42.0], letters, name);
+    draw_named(&mut sheet, &speed, bottom, "rotation speed Ω\u{2003}[rpm]");
     draw_key(&mut sheet, bottom + BELOW - 22.0);
     sheet
 }

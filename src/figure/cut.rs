@@ -1,13 +1,13 @@
 //! The deflection before, during and after the cut, one panel a speed, as in the paper's
 //! Figures 16 and 17.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_named, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
 use super::style::{
-    ALARM, AXIS_SIZE, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, shorten, tint,
+    ALARM, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
+    SUBTITLE_SIZE, Weight, shorten, tint,
 };
 use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, Verdict};
 
@@ -61,10 +61,7 @@ fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
     }
     let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
-    draw_horizontal(sheet, &time, panel.bottom, true);
-    let middle = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (panel.left + panel.right) / 2.0;
-    sheet.text([centre, panel.bottom + 42.0], middle, "time\u{2003}[s]");
+    draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(per_metre * w)];
     draw_envelope(sheet, panel, run, place);
     let record = run.time_s.iter().zip(&run.deflection_m);

@@ -1,13 +1,13 @@
 //! The verdict over guide angle and load level, one panel a speed.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::columns::{Columns, axis_over, name_of_row};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{
-    AXIS_SIZE, CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET,
-    SUBTITLE_SIZE, Weight, shorten,
+    CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
+    Weight, shorten,
 };
 use crate::report::{CutReport, CutRunEntry};
 
@@ -50,18 +50,10 @@ pub fn sheet(report: &CutReport) -> Sheet {
         draw_map(&mut sheet, index, run, shade);
         draw_own_point(&mut sheet, &PANELS.panel(index), report, run);
     }
-    let first = PANELS.panel(0);
-    let scale = Frame {
-        left: SCALE[0],
-        top: first.top + 10.0,
-        right: SCALE[1],
-        bottom: first.bottom,
-    };
-    let axis = Axis::new([0.0, fastest], [scale.bottom, scale.top], Spread::Linear);
     draw_scale(
         &mut sheet,
-        &scale,
-        &axis,
+        (&PANELS.panel(0), 10.0, SCALE),
+        [0.0, fastest],
         "growth [1/s]",
         (shade, |v| Some(tick_label(v))),
     );
@@ -101,15 +93,8 @@ fn draw_map(sheet: &mut Sheet, index: usize, run: &CutRunEntry, shade: impl Fn(f
         },
     );
     let name = "angle of the first guide, the cut at its own\u{2003}[°]";
-    draw_level_axis(sheet, panel, &angle, name);
+    draw_named(sheet, &angle, panel.bottom, name);
     draw_forces(sheet, panel, run);
-}
-
-fn draw_level_axis(sheet: &mut Sheet, panel: &Frame, axis: &Axis, name: &str) {
-    draw_horizontal(sheet, axis, panel.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (panel.left + panel.right) / 2.0;
-    sheet.text([centre, panel.bottom + 42.0], letters, name);
 }
 
 /// The speed and the forces of a panel, as its title.
@@ -142,7 +127,7 @@ fn over_load(report: &CutReport) -> Sheet {
             panel,
             name_of_row(index, "growth\u{2003}[1/s]"),
         );
-        draw_level_axis(&mut sheet, panel, &level, LOAD);
+        draw_named(&mut sheet, &level, panel.bottom, LOAD);
         let threshold = growth.at(report.flutter_threshold_per_s);
         let dashed = Stroke {
             dash: Some(FINE_DASH),

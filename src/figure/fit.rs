@@ -1,14 +1,14 @@
 //! Measured points over the fitted curves, and what is left between them.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
 use super::campbell::draw_measured_mark;
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Frame, Sheet, Stroke};
 use super::clip::clip;
 use super::heading;
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE,
-    INK, LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
+    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE, INK,
+    LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
 };
 use crate::report::{FitReport, ResidualEntry};
 
@@ -107,11 +107,7 @@ fn draw_axes(sheet: &mut Sheet, speed: &Axis, frequency: &Axis, residual: &Axis)
     ];
     sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
     draw_horizontal(sheet, speed, UPPER.bottom, false);
-    draw_horizontal(sheet, speed, LOWER.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = (LOWER.left + LOWER.right) / 2.0;
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, LOWER.bottom + 42.0], letters, name);
+    draw_named(sheet, speed, LOWER.bottom, "rotation speed Ω\u{2003}[rpm]");
 }
 
 fn facts(report: &FitReport) -> String {

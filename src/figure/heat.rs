@@ -1,6 +1,6 @@
 //! Colour over a grid.
 
-use super::axis::Axis;
+use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
 
@@ -60,15 +60,23 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A bar that tells what the colours mean, upright, with labels of some ticks at its right.
+/// A bar that tells what the colours mean, upright, `below` the top of its panel and down to its bottom, between
+/// two places across, with labels of some ticks at its right.
 pub fn draw_scale(
     sheet: &mut Sheet,
-    frame: &Frame,
-    axis: &Axis,
+    (panel, below, [left, right]): (&Frame, f64, [f64; 2]),
+    ends: [f64; 2],
     name: &str,
     (colour, label): (impl Fn(f64) -> Colour, impl Fn(f64) -> Option<String>),
 ) {
     const BARS: usize = 80;
+    let frame = Frame {
+        left,
+        top: panel.top + below,
+        right,
+        bottom: panel.bottom,
+    };
+    let axis = Axis::new(ends, [frame.bottom, frame.top], Spread::Linear);
     let [low, high] = axis.values();
     let height = (frame.bottom - frame.top) / BARS as f64;
     for bar in 0..BARS {
@@ -77,7 +85,7 @@ pub fn draw_scale(
         let cell = Frame {
             top: bottom - height,
             bottom,
-            ..*frame
+            ..frame
         };
         sheet.fill(cell, colour(value));
     }

@@ -1,11 +1,11 @@
 //! The speeds at which a saw is unstable, idling and under the forces of a cut, one above the other.
 
-use super::axis::{Axis, Spread, draw_horizontal};
+use super::axis::{Axis, Spread, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
-    AXIS_SIZE, BETWEEN_FACTS, DIVERGENCE_SHADE, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK,
-    LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE,
+    BETWEEN_FACTS, DIVERGENCE_SHADE, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK, LABEL_SIZE,
+    MARGIN, QUIET, STRONG_CURVE,
 };
 use super::{bands, heading};
 use crate::report::{InCutEntry, InstabilityEntry, Report};
@@ -67,10 +67,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
         sheet.text([x, TOP - 10.0], letters, &format!("operating {rpm:.0}"));
     }
-    draw_horizontal(&mut sheet, &speed, bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([0.5 * (LEFT + RIGHT), bottom + 42.0], letters, name);
+    draw_named(&mut sheet, &speed, bottom, "rotation speed Ω\u{2003}[rpm]");
     draw_key(&mut sheet);
     Some(sheet)
 }

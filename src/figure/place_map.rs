@@ -1,9 +1,9 @@
 //! The goal over two numbers of a guide: axes, cells and the scale of their colours.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
+use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::{AXIS_SIZE, Colour, INK};
+use super::style::Colour;
 use crate::report::{GoalEntry, MapEntry};
 
 const WIDTH: u32 = 1100;
@@ -146,20 +146,10 @@ pub fn draw_panel(
         draw_vertical(sheet, &y.axis, &PANEL, &y.name(path));
     }
     draw_grid(sheet, (&x.axis, &x.values), (&y.axis, &y.values), colour);
-    draw_horizontal(sheet, &x.axis, PANEL.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = (PANEL.left + PANEL.right) / 2.0;
-    sheet.text([middle, PANEL.bottom + 42.0], letters, &x.name(&map.x_path));
-    let scale = Frame {
-        left: SCALE[0],
-        top: PANEL.top + 20.0,
-        right: SCALE[1],
-        bottom: PANEL.bottom,
-    };
-    let ends = [shades.low, shades.high];
-    let axis = Axis::new(ends, [scale.bottom, scale.top], Spread::Linear);
+    draw_named(sheet, &x.axis, PANEL.bottom, &x.name(&map.x_path));
     let label = |rpm: f64| Some(tick_label(rpm));
     let shade = |rpm: f64| shades.colour(rpm);
-    draw_scale(sheet, &scale, &axis, "rpm", (shade, label));
+    let (place, ends) = ((&PANEL, 20.0, SCALE), [shades.low, shades.high]);
+    draw_scale(sheet, place, ends, "rpm", (shade, label));
     (x, y)
 }

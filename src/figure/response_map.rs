@@ -1,13 +1,14 @@
 //! The response at the probe over speed and frequency, with the branches on top, as in the
 //! paper's Figure 15.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, tick_label};
+use super::axis::{Axis, draw_named, draw_vertical, tick_label};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
+use super::columns::axis_over;
 use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::{AXIS_SIZE, Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, Weight, shorten};
+use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, Weight, shorten};
 use crate::report::RunUpReport;
 
 const WIDTH: u32 = 1200;
@@ -36,8 +37,8 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     let title = "Response at the probe over speed and frequency";
     heading::draw(&mut sheet, title, &report.scene.name);
     let response = &report.response;
-    let speed = along(&response.rpm, [PANEL.left, PANEL.right]);
-    let frequency = along(&response.frequency_hz, [PANEL.bottom, PANEL.top]);
+    let speed = axis_over(&response.rpm, [PANEL.left, PANEL.right]);
+    let frequency = axis_over(&response.frequency_hz, [PANEL.bottom, PANEL.top]);
     // Millimetres per newton on a logarithmic scale, from the strongest three decades down.
     let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
     let all = response.receptance_m_per_n.iter().flatten();
@@ -65,29 +66,12 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
         },
     );
     draw_branches(&mut sheet, report, &speed, &frequency);
-    draw_horizontal(&mut sheet, &speed, PANEL.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (PANEL.left + PANEL.right) / 2.0;
     let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([centre, PANEL.bottom + 42.0], letters, name);
-    let scale = Frame {
-        left: SCALE[0],
-        top: PANEL.top + 20.0,
-        right: SCALE[1],
-        bottom: PANEL.bottom,
-    };
-    let decades = [strongest - DECADES, strongest];
-    let axis = Axis::new(decades, [scale.bottom, scale.top], Spread::Linear);
-    draw_scale(&mut sheet, &scale, &axis, "mm/N", (shade, decade));
+    draw_named(&mut sheet, &speed, PANEL.bottom, name);
+    let (place, ends) = ((&PANEL, 20.0, SCALE), [strongest - DECADES, strongest]);
+    draw_scale(&mut sheet, place, ends, "mm/N", (shade, decade));
     draw_key(&mut sheet, report);
     sheet
-}
-
-/// The axis of ascending values.
-fn along(values: &[f64], places: [f64; 2]) -> Axis {
-    let first = values.first().copied().unwrap_or(0.0);
-    let last = values.last().copied().unwrap_or(1.0);
-    Axis::new([first, last], places, Spread::Linear)
 }
 
 /// The value of a whole power of ten; the ticks between have no label.

@@ -1,14 +1,14 @@
 //! The deflection over speed while the saw runs up, as in the paper's Figure 13.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_named, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::columns::draw_end_of_model;
 use super::declutter::{Wish, push_apart};
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET, Weight, text_width,
+    ALARM, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
+    Weight, text_width,
 };
 use super::{bands, heading};
 use crate::report::RunUpReport;
@@ -42,11 +42,8 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     let found = report.bands.iter().map(|entry| &entry.band);
     bands::shade(&mut sheet, &speed, found, &[PANEL]);
     draw_vertical(&mut sheet, &deflection, &PANEL, "deflection\u{2003}[mm]");
-    draw_horizontal(&mut sheet, &speed, PANEL.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (PANEL.left + PANEL.right) / 2.0;
     let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([centre, PANEL.bottom + 42.0], letters, name);
+    draw_named(&mut sheet, &speed, PANEL.bottom, name);
     label_critical_speeds(&mut sheet, report, &speed);
     draw_record(&mut sheet, report, &speed, &deflection);
     if let Some(until_rpm) = report.linear_until_rpm {

@@ -1,11 +1,11 @@
 //! Where the centre of the blade wanders on its arbor, one panel a speed.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_named, draw_vertical};
 use super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::columns::{Columns, name_of_row};
 use super::style::{
-    AXIS_SIZE, CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING,
-    SUBTITLE_SIZE, Weight, tint,
+    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, Weight,
+    tint,
 };
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
@@ -45,11 +45,12 @@ fn draw_orbit(sheet: &mut Sheet, index: usize, run: &CutRunEntry, spline: &Splin
     let y = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
     let name = "a quarter turn further\u{2003}[mm]";
     draw_vertical(sheet, &y, panel, name_of_row(index, name));
-    draw_horizontal(sheet, &x, panel.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = 0.5 * (panel.left + panel.right);
-    let at = [centre, panel.bottom + 42.0];
-    sheet.text(at, letters, "centre towards the cut\u{2003}[mm]");
+    draw_named(
+        sheet,
+        &x,
+        panel.bottom,
+        "centre towards the cut\u{2003}[mm]",
+    );
     for [from, to] in [
         [[x.at(0.0), panel.top], [x.at(0.0), panel.bottom]],
         [[panel.left, y.at(0.0)], [panel.right, y.at(0.0)]],

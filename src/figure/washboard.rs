@@ -1,7 +1,7 @@
 //! The lobe diagram: from which cutting stiffness on a motion grows, over the speed, and at which
 //! frequency.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::heading;
@@ -174,11 +174,8 @@ fn draw_frequencies(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis) {
             sheet.disc([speed.at(*rpm), frequency.at(hz)], 2.2, FLUTTER);
         }
     }
-    draw_horizontal(sheet, speed, FREQUENCY.bottom, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = 0.5 * (LOBES.left + LOBES.right);
     let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, FREQUENCY.bottom + 42.0], letters, name);
+    draw_named(sheet, speed, FREQUENCY.bottom, name);
 }
 
 /// The saw at its speed with its cutting stiffness.

@@ -67,26 +67,38 @@ impl Search<'_> {
         Tried::new(shares, outcome.as_ref())
     }
 
+    /// What `count` saws are worth, in their order, computed on all threads.
+    fn outcomes<T: Send>(
+        &self,
+        count: usize,
+        shares_of: impl Fn(usize) -> Vec<f64> + Sync,
+        see: See<'_>,
+        kept: impl Fn(Vec<f64>, Option<Outcome>) -> T + Sync,
+    ) -> Vec<T> {
+        let done = AtomicUsize::new(0);
+        let one = |index: usize| {
+            let shares = shares_of(index);
+            let outcome = self.outcome(&shares);
+            see(Seen {
+                done: done.fetch_add(1, Ordering::Relaxed) + 1,
+                index,
+                shares: &shares,
+                outcome: outcome.as_ref(),
+            });
+            kept(shares, outcome)
+        };
+        (0..count).into_par_iter().map(one).collect()
+    }
+
     /// `count` samples of the box, the scene's own first, best first.
     pub fn sample(&self, own: &[f64], count: usize, see: See<'_>) -> Vec<Tried> {
-        let done = AtomicUsize::new(0);
-        let mut tried: Vec<Tried> = (0..count)
-            .into_par_iter()
-            .map(|index| {
-                let shares = match index.checked_sub(1) {
-                    None => own.to_vec(),
-                    Some(index) => spread(self.freed.len(), 0, index),
-                };
-                let outcome = self.outcome(&shares);
-                see(Seen {
-                    done: done.fetch_add(1, Ordering::Relaxed) + 1,
-                    index,
-                    shares: &shares,
-                    outcome: outcome.as_ref(),
-                });
-                Tried::new(shares, outcome.as_ref())
-            })
-            .collect();
+        let shares_of = |index: usize| match index.checked_sub(1) {
+            None => own.to_vec(),
+            Some(index) => spread(self.freed.len(), 0, index),
+        };
+        let mut tried = self.outcomes(count, shares_of, see, |shares, outcome| {
+            Tried::new(shares, outcome.as_ref())
+        });
         // Stable, so that equals stay in their order whatever thread was first.
         tried.sort_by(|x, y| x.cost.total_cmp(&y.cost));
         tried
@@ -138,26 +150,16 @@ impl Search<'_> {
         (y, y_shares): (Option<usize>, &[f64]),
         see: See<'_>,
     ) -> Vec<Vec<Option<Outcome>>> {
-        let total = x_shares.len() * y_shares.len();
-        let done = AtomicUsize::new(0);
-        let flat: Vec<Option<Outcome>> = (0..total)
-            .into_par_iter()
-            .map(|index| {
-                let mut shares = at.to_vec();
-                shares[x] = x_shares[index % x_shares.len()];
-                if let Some(y) = y {
-                    shares[y] = y_shares[index / x_shares.len()];
-                }
-                let outcome = self.outcome(&shares);
-                see(Seen {
-                    done: done.fetch_add(1, Ordering::Relaxed) + 1,
-                    index,
-                    shares: &shares,
-                    outcome: outcome.as_ref(),
-                });
-                outcome
-            })
-            .collect();
+        let shares_of = |index: usize| {
+            let mut shares = at.to_vec();
+            shares[x] = x_shares[index % x_shares.len()];
+            if let Some(y) = y {
+                shares[y] = y_shares[index / x_shares.len()];
+            }
+            shares
+        };
+        let count = x_shares.len() * y_shares.len();
+        let flat = self.outcomes(count, shares_of, see, |_, outcome| outcome);
         flat.chunks(x_shares.len()).map(<[_]>::to_vec).collect()
     }
 }

@@ -98,11 +98,10 @@ impl UniformStress {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analytical::RadialAndHoop;
-    use crate::analytical::rotating_annulus::{stress_with_free_edges, stress_with_held_bore};
+    use crate::analytical::annulus::{Annulus, RadialAndHoop};
     use crate::scene::Scene;
 
-    type ClosedForm = fn(f64, f64, f64, f64, f64) -> RadialAndHoop;
+    type ClosedForm = fn(&Annulus, f64, f64, f64) -> RadialAndHoop;
 
     fn blade(bore: Bore) -> Blade {
         Blade {
@@ -114,14 +113,21 @@ mod tests {
     #[test]
     fn the_stress_is_that_of_the_textbook() {
         for (in_plane, textbook) in [
-            (InPlane::Free, stress_with_free_edges as ClosedForm),
-            (InPlane::Fixed, stress_with_held_bore),
+            (
+                InPlane::Free,
+                Annulus::stress_of_rotation_with_free_edges as ClosedForm,
+            ),
+            (InPlane::Fixed, Annulus::stress_of_rotation_with_held_bore),
         ] {
             let blade = blade(Bore::Clamped(in_plane));
             let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+            let annulus = Annulus {
+                bore_radius_m: a,
+                rim_radius_m: b,
+            };
             let stress = CentrifugalStress::new(&blade);
             for r in [a, 0.15, 0.2, 0.31, b] {
-                let expected = textbook(a, b, blade.material.poisson_ratio, 1.0, r);
+                let expected = textbook(&annulus, blade.material.poisson_ratio, 1.0, r);
                 let error = (stress.radial_m2(r) - expected.radial_pa)
                     .hypot(stress.hoop_m2(r) - expected.hoop_pa);
                 assert!(error < 1e-14 * b * b, "{in_plane:?} at {r} m: {error:e}");

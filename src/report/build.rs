@@ -15,7 +15,7 @@ use super::{
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, WorkCounters};
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity};
+use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
 const LEAST_SHARE: f64 = 1e-4;
@@ -108,6 +108,20 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
         rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
         paths: paths.collect(),
     })
+}
+
+impl SensitivityEntry {
+    /// Those of an analysis, with the eigenvalues at the operating speed, or at the start of the sweep
+    /// where the scene has none; the most influential on the lowest critical speed first.
+    ///
+    /// # Errors
+    /// [`SensitivityError`].
+    pub fn all(analysis: &Analysis) -> Result<Vec<Self>, SensitivityError> {
+        let start = analysis.range_rad_per_s.0;
+        let at = analysis.scene.operating_rad_per_s().unwrap_or(start);
+        let found = analysis.sensitivities(at)?;
+        Ok(found.iter().map(Self::from).collect())
+    }
 }
 
 impl From<&Sensitivity> for SensitivityEntry {

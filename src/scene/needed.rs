@@ -2,7 +2,8 @@
 
 use super::check::MAX_RPM;
 use super::{
-    Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, Washboarding, rad_per_s,
+    Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, SpeedRange, Washboarding,
+    rad_per_s, rpm,
 };
 
 impl Scene {
@@ -90,6 +91,40 @@ impl Cut {
             return Err(RefusedValue::missing("cut.speeds", allowed, remedy).into());
         }
         Ok(runs)
+    }
+}
+
+impl From<(f64, f64)> for SpeedRange {
+    /// From the first to the last speed, in rad/s.
+    fn from((from_rad_per_s, to_rad_per_s): (f64, f64)) -> Self {
+        SpeedRange {
+            from_rad_per_s,
+            to_rad_per_s,
+        }
+    }
+}
+
+/// As a speed in rpm is told: its last digits are those of the conversion.
+fn told(rad_per_s: f64) -> f64 {
+    (1e3 * rpm(rad_per_s)).round() / 1e3
+}
+
+impl SpeedRange {
+    /// The speed of an argument in rpm, in rad/s.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where it is not within the range.
+    pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
+        let speed = rad_per_s(rpm);
+        let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
+        // The end of a sweep is not told from its value in rpm.
+        if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
+            return Ok(speed);
+        }
+        let (from, to) = (told(from), told(to));
+        let allowed = format!("from {from} to {to}, the speeds of the sweep");
+        let remedy = "name one of these, or widen `sweep` in the scene";
+        Err(RefusedValue::new(key, rpm, allowed, remedy))
     }
 }
 

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::*;
+use crate::analytical::annulus::Annulus;
 use crate::analytical::tilt;
 use crate::plate::{EdgeStress, Plate, Resolution, edge_stiffness};
 use crate::scene::{SplineFile, rad_per_s};
@@ -244,8 +245,12 @@ fn tilts_feel_the_virial_of_cut_and_contacts() {
         .iter()
         .map(|f| force(a, f.angle_rad, f.radial_n, f.tangential_n));
     let forces: Vec<tilt::PlaneForce> = rim.into_iter().chain(bore).collect();
+    let annulus = Annulus {
+        bore_radius_m: a,
+        rim_radius_m: b,
+    };
     let virial = tilt::stiffness_of_forces_n_m(&forces);
-    let inertia = tilt::inertia_kg_m2(a, b, blade.mass_per_area_kg_per_m2());
+    let inertia = annulus.tilt_inertia_kg_m2(blade.mass_per_area_kg_per_m2());
     let [i, j] = [plate.offset(1), plate.offset(1) + 5];
     let found = [stiffness[(i, i)], stiffness[(j, j)], stiffness[(i, j)]];
     let scale = virial.iter().fold(0.0, |max: f64, v| max.max(v.abs())) / inertia;

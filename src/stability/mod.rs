@@ -64,11 +64,11 @@ pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
 pub(crate) use root::{Look, bracketed};
-pub use sensitivity::{Sensitivity, SensitivityError, sensitivities};
+pub use sensitivity::{Sensitivity, SensitivityError};
 #[cfg(feature = "cli")]
 pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]
 pub use undamped::undamped_bands;
-pub use verdict::{StabilityState, Verdict, verdict};
-pub(crate) use verdict::{flutter_onsets, safe_window};
+pub use verdict::{StabilityState, Verdict};
+pub(crate) use verdict::{flutter_onsets, safe_window, verdict};

@@ -8,7 +8,7 @@ use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::plate::Plate;
-use crate::scene::{Scene, SpeedRange};
+use crate::scene::Scene;
 use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
@@ -37,15 +37,8 @@ impl Onsets {
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails.
-    pub(super) fn idling(
-        scene: &Scene,
-        (from_rad_per_s, to_rad_per_s): (f64, f64),
-    ) -> Result<Self, AnalysisError> {
-        let range = SpeedRange {
-            from_rad_per_s,
-            to_rad_per_s,
-        };
-        Self::new(&scene.idling()?.swept(range)?)
+    pub(super) fn idling(scene: &Scene, range: (f64, f64)) -> Result<Self, AnalysisError> {
+        Self::new(&scene.idling()?.swept(range.into())?)
     }
 
     /// Finds the onsets of a saw over the speeds of its scene.

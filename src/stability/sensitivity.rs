@@ -61,69 +61,71 @@ struct Variation {
     by: By,
 }
 
-/// Effects of each number of a scene on its critical speeds, on the onsets of its bands, and on the
-/// eigenvalues at one speed; most influential on the lowest critical speed first.
-///
-/// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω).
-/// Critical speeds and the onsets of undamped bands move by dΩ = −xᴴ(dL)x / xᴴ(∂L/∂Ω)x, at λ = 0 and
-/// at the λ = iω where two modes coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*,
-/// 1966).
-///
-/// # Errors
-/// [`SensitivityError`].
-pub fn sensitivities(
-    analysis: &Analysis,
-    modes_at_rad_per_s: f64,
-) -> Result<Vec<Sensitivity>, SensitivityError> {
-    let scene = &analysis.scene;
-    let modes = analysis.model.modes(modes_at_rad_per_s)?;
-    let modes = analysis.model.describe(modes_at_rad_per_s, modes);
-    let mergings: Vec<Option<Merging>> = analysis
-        .chart
-        .instabilities
-        .iter()
-        .map(|band| Merging::new(analysis, band))
-        .collect::<Result<_, _>>()?;
-    let mut all = Vec::new();
-    for variation in Variation::of_scene(scene.file()) {
-        let changes = variation.of_matrices(scene, &analysis.model.plate)?;
-        let relative = |merging: &Merging| {
-            let system = &analysis.model.components[merging.component].full;
-            let change = &changes[merging.component];
-            merging.change(system, change) / merging.speed
-        };
-        let critical = analysis.model.critical.iter();
-        all.push(Sensitivity {
-            critical_speeds: critical
-                .take_while(|c| c.speed_rad_per_s <= analysis.range_rad_per_s.1)
-                .map(|c| relative(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
-                .collect(),
-            onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
-            eigenvalues: modes
-                .iter()
-                .map(|m| {
-                    let component = &analysis.model.components[m.mode.component];
-                    let x = component.coordinates(&m.shape);
-                    let change = &changes[m.mode.component];
-                    derivative::with_change(
-                        &component.full,
-                        modes_at_rad_per_s,
-                        m.mode.lambda,
-                        &x,
-                        change,
-                    )
-                })
-                .collect(),
-            parameter: variation.parameter.path().to_owned(),
-            change: match variation.by {
-                By::Percent => "1 %",
-                By::One(unit) => unit,
-            },
-        });
+impl Analysis {
+    /// Effects of each number of a scene on its critical speeds, on the onsets of its bands, and on the
+    /// eigenvalues at one speed; most influential on the lowest critical speed first.
+    ///
+    /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω).
+    /// Critical speeds and the onsets of undamped bands move by dΩ = −xᴴ(dL)x / xᴴ(∂L/∂Ω)x, at λ = 0 and
+    /// at the λ = iω where two modes coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*,
+    /// 1966).
+    ///
+    /// # Errors
+    /// [`SensitivityError`].
+    pub fn sensitivities(
+        &self,
+        modes_at_rad_per_s: f64,
+    ) -> Result<Vec<Sensitivity>, SensitivityError> {
+        let scene = &self.scene;
+        let modes = self.model.modes(modes_at_rad_per_s)?;
+        let modes = self.model.describe(modes_at_rad_per_s, modes);
+        let mergings: Vec<Option<Merging>> = self
+            .chart
+            .instabilities
+            .iter()
+            .map(|band| Merging::new(self, band))
+            .collect::<Result<_, _>>()?;
+        let mut all = Vec::new();
+        for variation in Variation::of_scene(scene.file()) {
+            let changes = variation.of_matrices(scene, &self.model.plate)?;
+            let relative = |merging: &Merging| {
+                let system = &self.model.components[merging.component].full;
+                let change = &changes[merging.component];
+                merging.change(system, change) / merging.speed
+            };
+            let critical = self.model.critical.iter();
+            all.push(Sensitivity {
+                critical_speeds: critical
+                    .take_while(|c| c.speed_rad_per_s <= self.range_rad_per_s.1)
+                    .map(|c| relative(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
+                    .collect(),
+                onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
+                eigenvalues: modes
+                    .iter()
+                    .map(|m| {
+                        let component = &self.model.components[m.mode.component];
+                        let x = component.coordinates(&m.shape);
+                        let change = &changes[m.mode.component];
+                        derivative::with_change(
+                            &component.full,
+                            modes_at_rad_per_s,
+                            m.mode.lambda,
+                            &x,
+                            change,
+                        )
+                    })
+                    .collect(),
+                parameter: variation.parameter.path().to_owned(),
+                change: match variation.by {
+                    By::Percent => "1 %",
+                    By::One(unit) => unit,
+                },
+            });
+        }
+        let influence = |s: &Sensitivity| s.critical_speeds.first().map_or(0.0, |c| c.abs());
+        all.sort_by(|x, y| influence(y).total_cmp(&influence(x)));
+        Ok(all)
     }
-    let influence = |s: &Sensitivity| s.critical_speeds.first().map_or(0.0, |c| c.abs());
-    all.sort_by(|x, y| influence(y).total_cmp(&influence(x)));
-    Ok(all)
 }
 
 impl Variation {

@@ -66,7 +66,6 @@ pub use report::{
 };
 #[doc(hidden)]
 pub use rows::Rows;
-pub use run::run;
 pub use saw::{Found, Outcome, Saw};
 #[doc(hidden)]
 pub use sum::sum_up;

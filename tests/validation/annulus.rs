@@ -7,7 +7,7 @@
 
 use crate::common::{AnnulusRoot, Worst, of_diameters, reference_model, relative_error};
 use proptest::prelude::*;
-use sawflutter::analytical::annular_plate::{Bore, frequency_rad_per_s, roots};
+use sawflutter::analytical::annular_plate::{AnnularPlate, Bore};
 use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
 use sawflutter::spectrum::ModeKind;
 
@@ -95,11 +95,16 @@ fn third_root_of_either_annulus() {
     }
 }
 
-fn bore(bc: &str) -> Bore {
-    match bc {
+fn plate(bc: &str, radius_ratio: f64, poisson_ratio: f64) -> AnnularPlate {
+    let bore = match bc {
         "FF" => Bore::Free,
         "CF" => Bore::Clamped,
         other => panic!("unknown condition {other}"),
+    };
+    AnnularPlate {
+        bore,
+        radius_ratio,
+        poisson_ratio,
     }
 }
 
@@ -113,7 +118,7 @@ fn the_determinant_in_double_precision_has_the_roots_of_the_tables() {
     ] {
         let mut worst = Worst::default();
         for root in crate::common::table::<AnnulusRoot>(name) {
-            let found = roots(bore(&root.bc), root.ratio, root.nu, root.n, root.s + 1);
+            let found = plate(&root.bc, root.ratio, root.nu).roots(root.n, root.s + 1);
             let found = found.get(root.s).copied().unwrap_or(f64::NAN);
             worst.add(relative_error(found, root.lambda2), || format!("{root:?}"));
         }
@@ -142,10 +147,10 @@ proptest! {
                 .map(|mode| mode.frequency_rad_per_s())
                 .collect();
             let multiplicity = if n == 0 { 1 } else { 2 };
-            let expected = roots(bore(bc), ratio, nu, n, 2);
+            let expected = plate(bc, ratio, nu).roots(n, 2);
             prop_assert_eq!(expected.len(), 2);
             for (s, root) in expected.into_iter().enumerate() {
-                let expected = frequency_rad_per_s(
+                let expected = AnnularPlate::frequency_rad_per_s(
                     root,
                     blade.outer_radius_m,
                     blade.flexural_rigidity_n_m(),

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Col, Mat, Side};
+use sawflutter::analytical::annulus::Annulus;
 use sawflutter::analytical::tilt;
 use sawflutter::plate::{BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
 use sawflutter::scene::{Blade, Scene};
@@ -62,11 +63,11 @@ fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
 fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], tolerance: f64) {
     let [x, y] = [plate.offset(1), plate.offset(1) + plate.radial_functions()];
     let blade = &plate.blade;
-    let inertia = tilt::inertia_kg_m2(
-        blade.inner_radius_m,
-        blade.outer_radius_m,
-        blade.mass_per_area_kg_per_m2(),
-    );
+    let annulus = Annulus {
+        bore_radius_m: blade.inner_radius_m,
+        rim_radius_m: blade.outer_radius_m,
+    };
+    let inertia = annulus.tilt_inertia_kg_m2(blade.mass_per_area_kg_per_m2());
     let expected = virial.map(|moment| moment / inertia);
     let found = [stiffness[(x, x)], stiffness[(y, y)], stiffness[(x, y)]];
     let scale = expected.iter().fold(0.0, |max: f64, v| max.max(v.abs()));

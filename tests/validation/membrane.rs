@@ -12,7 +12,7 @@ use sawflutter::check::{Check, Limits};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{InPlane, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
-use sawflutter::stability::{Analysis, AnalysisError, HeatLimits, sensitivities};
+use sawflutter::stability::{Analysis, AnalysisError, HeatLimits};
 
 use super::saws::{collar, dense_analysis, heated, rolled, scene_with};
 
@@ -151,7 +151,7 @@ fn the_krein_index_holds_under_membrane_stress() {
     assert!((lowest(&analysis) - lowest(&plain)).abs() > 5.0);
 }
 
-/// The numbers of the block appear among the sensitivities, with the derivative of the lowest
+/// The numbers of the block appear among the with the derivative of the lowest
 /// critical speed that central differences of whole scenes give.
 #[test]
 fn sensitivities_to_heat_and_tension() {
@@ -161,7 +161,7 @@ fn sensitivities_to_heat_and_tension() {
     });
     let scene = scene_with(&Scene::paper(), membrane);
     let analysis = dense_analysis(&scene, SMALL, [300.0, 2000.0], 12);
-    let found = sensitivities(&analysis, rad_per_s(400.0)).unwrap();
+    let found = analysis.sensitivities(rad_per_s(400.0)).unwrap();
     let of_membrane: Vec<_> = found
         .iter()
         .filter(|s| s.parameter.starts_with("membrane."))

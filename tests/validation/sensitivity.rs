@@ -4,7 +4,7 @@
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{GuideFile, Parameter, RimFile, Scene, ThicknessRow, rad_per_s};
 use sawflutter::spectrum::SpectralModel;
-use sawflutter::stability::{Analysis, sensitivities};
+use sawflutter::stability::Analysis;
 
 use super::saws::dense_analysis;
 
@@ -65,7 +65,9 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
         });
     });
     let stepped = stepped.unwrap();
-    let found = sensitivities(&analysis_of(&stepped), rad_per_s(1000.0)).unwrap();
+    let found = analysis_of(&stepped)
+        .sensitivities(rad_per_s(1000.0))
+        .unwrap();
     let critical = |scene: &Scene| SpectralModel::critical_speeds(&Plate::new(scene, RESOLUTION));
     let middle = critical(&stepped).unwrap();
     let share = 0.01;
@@ -89,7 +91,7 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
 fn assert_central_differences(scene: &Scene) -> usize {
     let at = rad_per_s(1800.0);
     let middle = analysis_of(scene);
-    let found = sensitivities(&middle, at).unwrap();
+    let found = middle.sensitivities(at).unwrap();
     assert_eq!(found.len(), 3 + 3 * scene.file().guides.len());
     let share = 0.01;
     // Rounding 1e-11 and truncation (1e-4)² of the differences, over a step of 2e-4.

@@ -6,7 +6,7 @@ use faer::{Mat, Side};
 
 use super::tests::LOADS;
 use super::*;
-use crate::analytical::{RadialAndHoop, lame_ring, tilt};
+use crate::analytical::annulus::{Annulus, RadialAndHoop};
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 
@@ -37,8 +37,15 @@ fn uniform_tension(blade: &Blade, pressure_pa: f64, forces: usize) -> Vec<RimFor
         .collect()
 }
 
+fn annulus(blade: &Blade) -> Annulus {
+    Annulus {
+        bore_radius_m: blade.inner_radius_m,
+        rim_radius_m: blade.outer_radius_m,
+    }
+}
+
 fn lame(blade: &Blade, pressure_pa: f64, r: f64) -> RadialAndHoop {
-    lame_ring::stress_under_rim_tension(blade.inner_radius_m, blade.outer_radius_m, pressure_pa, r)
+    annulus(blade).stress_under_rim_tension(pressure_pa, r)
 }
 
 /// K of the axisymmetric stress of Lamé's ring for n, as `HarmonicBlock` would build it.
@@ -106,12 +113,12 @@ fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64
 #[test]
 fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
     let plate = free_plate(8);
-    let (a, b) = (plate.blade.inner_radius_m, plate.blade.outer_radius_m);
+    let annulus = annulus(&plate.blade);
     let pressure = 10.0;
     let loads = uniform_tension(&plate.blade, pressure, 11);
     let stiffness = edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &loads, 10));
     let density = plate.blade.material.density_kg_per_m3;
-    let exact = tilt::frequency_squared_under_rim_tension(a, b, density, pressure);
+    let exact = annulus.tilt_frequency_squared_under_rim_tension(density, pressure);
     let found = squared_frequencies(&plate, &stiffness, 1)[0];
     assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
 
@@ -138,7 +145,7 @@ fn a_torque_is_pure_shear() {
     let stress = EdgeStress::new(&blade, &LOADS, 12);
     let torque = blade.outer_radius_m * LOADS.iter().map(|load| load.tangential_n).sum::<f64>();
     for r in [blade.inner_radius_m, 0.2, blade.outer_radius_m] {
-        let exact = lame_ring::shear_under_torque_pa(torque, blade.thickness_m, r);
+        let exact = Annulus::shear_under_torque_pa(torque, blade.thickness_m, r);
         let [shear, _] = stress.harmonic(0, r).shear_pa;
         assert!((shear / exact - 1.0).abs() < 1e-14, "{shear} {exact}");
     }
