@@ -1,4 +1,4 @@
-//! Who may talk to the server: pages that it has served itself, on this computer.
+//! Which requests are answered: those of pages that the server has served itself, on this computer.
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
@@ -12,7 +12,7 @@ pub struct Door {
 }
 
 impl Door {
-    /// The door of a port.
+    /// The names of a port.
     pub fn new(port: u16) -> Self {
         Door {
             hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
@@ -52,7 +52,7 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
     font-src 'self'; img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; \
     form-action 'none'; frame-ancestors 'none'";
 
-/// Turns strangers away, and says to the browser what the page may do.
+/// Refuses requests that come from elsewhere, and tells the browser what the page may load.
 pub async fn guard(State(door): State<Door>, request: Request, next: Next) -> Response {
     let mut response = match door.refusal(request.headers()) {
         Some(reason) => (StatusCode::FORBIDDEN, reason).into_response(),

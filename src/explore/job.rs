@@ -99,8 +99,8 @@ mod tests {
         builder.enable_all().build().unwrap()
     }
 
-    /// A computation that would never end by itself ends with the wish for it, and the one
-    /// that waited behind it begins.
+    /// A computation that would never end by itself ends when nobody waits for it any more, and the
+    /// one queued behind it begins.
     #[test]
     fn what_nobody_waits_for_is_stopped_and_makes_room() {
         let jobs = Jobs::default();

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const GRACE: Duration = Duration::from_secs(3);
 /// Pages are looked at so often.
 const LOOK: Duration = Duration::from_millis(500);
-/// A page in the background may be let speak once a minute only.
+/// A browser may run the timers of a page in the background once a minute only.
 const SILENCE: Duration = Duration::from_secs(150);
 
 /// Pages that are open, by the names that they gave themselves.

@@ -34,7 +34,7 @@ pub struct Options {
 /// Why the page could not be served.
 #[derive(Debug, thiserror::Error)]
 pub enum ExploreError {
-    /// The port is taken, or not ours to take.
+    /// The port is taken, or the system does not grant it.
     #[error("cannot listen on 127.0.0.1:{port}; leave --port out to take a free one")]
     Listen {
         /// The port asked for.
@@ -131,7 +131,8 @@ async fn start(State(desk): State<Desk>) -> Response {
     json(StatusCode::OK, &*desk.start)
 }
 
-/// Computations that were done and that were stopped, to see that nothing stale is computed.
+/// Numbers of computations that were done and that were stopped: tests see by them that nothing
+/// outdated is computed.
 async fn jobs(State(desk): State<Desk>) -> Response {
     let [finished, stopped] = desk.jobs.counts();
     json(

@@ -54,10 +54,10 @@ impl Figure {
 
 /// A report that can be drawn.
 pub trait Figures {
-    /// Names of the figures that such a report may have.
+    /// Names of the files of every figure that such a report may have, PNG and SVG.
     const NAMES: &'static [[&'static str; 2]];
 
-    /// The figures that this one has something to show in.
+    /// The figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
 }
 
@@ -189,7 +189,8 @@ pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
     }
 }
 
-/// Errors and times of the settings that were measured of a scene.
+/// The figure of a comparison of run time and accuracy, from [`tradeoff`](crate::stability::tradeoff):
+/// true error over time, both on logarithmic scales.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
     Figure {
         names: ["tradeoff.png", "tradeoff.svg"],

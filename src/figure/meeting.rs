@@ -1,4 +1,4 @@
-//! How two modes behave where they meet, between the speeds that were computed.
+//! How two modes behave where they coalesce, between the speeds that were computed.
 //!
 //! Growth rate inside the band and half the distance of the frequencies outside it
 //! are one function: its square goes smoothly through zero at both ends of the

@@ -1,4 +1,4 @@
-//! The colours of the figures, for whoever draws a saw by other means.
+//! The colours of the figures, for other programs that draw the same data.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! Where the centre of the blade wanders on its arbor, one panel a speed.
+//! The orbit of the centre of the blade on its arbor, one panel a speed.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical};
 use super::canvas::{Anchor, Lettering, Sheet, Stroke};

@@ -43,6 +43,7 @@ use crate::stability::ChosenBasis;
 
 pub use demands::{Demands, Goal, Options};
 use growing::Grower;
+#[cfg(feature = "explore")]
 pub(crate) use growing::GrowingMap;
 pub(crate) use growing::Watch;
 pub(crate) use map::Map;

@@ -1,5 +1,5 @@
-//! Branches of the Campbell diagram as the report has them, each with one number and one name
-//! wherever it is met.
+//! Branches of the Campbell diagram as the report has them, each with one number and one name in every
+//! output.
 
 use std::f64::consts::TAU;
 

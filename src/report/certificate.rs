@@ -8,20 +8,23 @@ use serde::{Deserialize, Serialize};
 use crate::scene::rpm;
 use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, StabilityChart};
 
-/// The Krein index and the list of bands held against the spectrum, see [`crate::stability`].
+/// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on
+/// the whole basis and by the growth found at single speeds; and how much of the sweep is proven to
+/// have no other band. See [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateEntry {
     /// What was found, in a sentence.
     pub statement: String,
-    /// Speeds at which the index was compared; for damped scenes, which have none, speeds at
-    /// which the number of growing modes was held against that of the bands.
+    /// Number of speeds at which the Krein index was compared; for damped scenes, which have none,
+    /// of speeds at which the number of growing modes was compared with that of the bands.
     pub speeds_checked: usize,
-    /// Speeds at which it did not match, not even on the whole basis; expected 0.
+    /// Number of speeds at which it did not match, not even on the whole basis; expected 0.
     pub krein_violations: usize,
     /// These speeds.
     pub violating_rpm: Vec<f64>,
-    /// Counts on the whole basis, which know nothing of the reduced model, that modes were held against.
+    /// Number of counts of eigenvalues on the whole basis, independent of the reduced model, that
+    /// the modes were compared with.
     pub full_basis_counts: usize,
     /// Modes that these counts say are missing, or too many; expected none.
     pub miscounted_modes: Vec<MiscountEntry>,

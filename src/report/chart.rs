@@ -13,7 +13,7 @@ pub struct CampbellEntry {
     pub from_rpm: f64,
     /// Last speed.
     pub to_rpm: f64,
-    /// Highest frequency to which the branches are complete.
+    /// Frequency up to which the branches are complete.
     pub complete_to_hz: f64,
     /// Tracked branches, by frequency at their lowest speed.
     pub branches: Vec<BranchEntry>,
@@ -25,7 +25,7 @@ pub struct CampbellEntry {
 pub struct BranchEntry {
     /// 1, 2, 3 … in the order of the list.
     pub branch: usize,
-    /// What the branch is called wherever it is met, by its mode at the first of its speeds: of
+    /// Name of the branch in every output, by its mode at the first of its speeds: of
     /// a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters",
     /// or shares of harmonics where none dominates.
     pub name: String,

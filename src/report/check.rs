@@ -24,7 +24,7 @@ pub struct CheckReport {
     pub operating_rpm: f64,
     /// Largest share of the lowest critical speed that it may be.
     pub margin: f64,
-    /// Last speed of the sweep: nothing is seen beyond it.
+    /// Last speed of the sweep; nothing is known beyond it.
     pub to_rpm: f64,
     /// Critical speeds within the sweep, ascending.
     pub critical_speeds_rpm: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct CheckReport {
     pub max_rim_m_per_s: f64,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
-    /// Numbers that no saw has.
+    /// Remarks on numbers of the scene that are unusual for a saw.
     pub warnings: Vec<String>,
 }
 
@@ -64,9 +64,9 @@ pub struct RimStiffnessEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionEntry {
-    /// The limit in a word.
+    /// Short name of the limit, for programs.
     pub key: String,
-    /// What is compared.
+    /// What is compared, in words.
     pub name: String,
     /// What was found; none where there is no such speed within the sweep.
     pub found_rpm: Option<f64>,

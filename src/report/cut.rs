@@ -1,4 +1,4 @@
-//! `cut.json`: what the saw does in the cut.
+//! `cut.json`: stability and deflection of the saw in the cut.
 
 mod certificate;
 mod criteria;
@@ -29,7 +29,7 @@ pub struct CutReport {
     pub degrees_of_freedom: usize,
     /// Growth rate from which a cut is called unstable.
     pub flutter_threshold_per_s: f64,
-    /// Deflection beyond which none is given, for the linear model ends there.
+    /// Largest deflection that is given: beyond it the linear model does not hold.
     pub linear_limit_m: f64,
     /// Angles of the teeth in the cut.
     pub tooth_angles_deg: Vec<f64>,
@@ -117,7 +117,7 @@ pub struct ByPowerEntry {
     pub growth_per_s: f64,
 }
 
-/// What it changes that the loads pass with the teeth.
+/// The effect of loads that move with the teeth, compared with loads that stand still.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToothPassingEntry {

@@ -30,7 +30,7 @@ pub struct FitReport {
     pub degrees_of_freedom: usize,
     /// Root mean square of computed minus measured frequencies.
     pub rms_hz: f64,
-    /// The same before.
+    /// The same of the scene before the fit.
     pub rms_before_hz: f64,
     /// Measured and computed frequencies, pair by pair.
     pub residuals: Vec<ResidualEntry>,
@@ -81,9 +81,9 @@ pub struct ResidualEntry {
     pub place: usize,
     /// Measured.
     pub measured_hz: f64,
-    /// Computed before.
+    /// Computed with the numbers before the fit.
     pub before_hz: f64,
-    /// Computed after.
+    /// Computed with the numbers found.
     pub fitted_hz: f64,
     /// False for a speed that was left out of the fit.
     pub fitted: bool,

@@ -19,7 +19,7 @@ pub struct InCutEntry {
     pub tangential_n_per_tooth: f64,
     /// Force towards the axis on each.
     pub radial_n_per_tooth: f64,
-    /// The saw without them; null in a sketch.
+    /// The saw without them; null in a sketch, a chart of few speeds.
     pub idling: Option<IdlingEntry>,
 }
 

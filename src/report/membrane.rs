@@ -51,7 +51,7 @@ pub struct HeatEntry {
 pub struct HeatLimitEntry {
     /// Peak of the profile.
     pub rise_k: f64,
-    /// Nodal diameters of the shape that gives way.
+    /// Nodal diameters of the shape that buckles, or of the wave that stands still.
     pub nodal_diameters: usize,
     /// Its nodal circles.
     pub nodal_circles: usize,

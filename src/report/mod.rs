@@ -3,7 +3,8 @@
 //!
 //! In goes an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a fit, a
 //! placement or the history of a cut; out comes what is written as JSON, in rpm, Hz and 1/s, with the
-//! names of modes in words. Nothing is computed here that could fail.
+//! names of modes in words. A report solves no eigenproblem: what it says was computed before. Only
+//! [`WhirlEntry`] and [`SensitivityEntry`] are computed when they are asked for.
 
 mod branches;
 mod build;
@@ -72,11 +73,12 @@ pub struct Report {
     pub modes_at_rest: Vec<RestMode>,
     /// Every critical speed up to the end of the sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
-    /// Every band of instability within the sweep, ascending.
+    /// The bands of instability found within the sweep, by onset; `certificate` says how much of
+    /// the sweep is proven to have no other.
     pub instabilities: Vec<InstabilityEntry>,
     /// Lowest speed at which flutter counts: see `counted_rpm` of the bands.
     pub flutter_speed_rpm: Option<f64>,
-    /// Onset of the first flutter band of all, whatever its growth.
+    /// Onset of the first flutter band, weak ones included.
     pub first_merge_rpm: Option<f64>,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
@@ -93,14 +95,16 @@ pub struct Report {
     pub whirl: Option<WhirlEntry>,
     /// How fine the computation was, and how far it may be off.
     pub accuracy: AccuracyEntry,
-    /// Eigenproblems that the chart took.
+    /// Number of eigenproblems solved for the chart.
     pub work: WorkEntry,
-    /// Proof that no unstable or reflected mode was missed.
+    /// What was checked of the list of bands: how much of the sweep is proven to have no
+    /// instability that is not listed, which part was searched without proof, and what did not
+    /// agree.
     pub certificate: CertificateEntry,
     /// Branches over speed.
     pub campbell: CampbellEntry,
-    /// The two modes that meet at the flutter speed (or at the first merging), followed
-    /// through it in the complex plane.
+    /// Eigenvalues of the two modes that coalesce at the flutter speed, or at the onset of the
+    /// first flutter band where none counts, over the speeds around it.
     pub root_loci: Option<RootLociEntry>,
     /// Stress of heat, roll tension and manufacture, when the scene names one.
     pub membrane: Option<MembraneEntry>,
@@ -147,7 +151,7 @@ pub struct InstabilityEntry {
     pub peak_growth_per_s: f64,
     /// Frequency at the peak.
     pub frequency_hz: f64,
-    /// Numbers of the branches that meet; none where no chart was drawn.
+    /// Numbers of the branches that become unstable; none where no chart was drawn.
     pub branches: Vec<usize>,
     /// Their names.
     pub modes: Vec<String>,
@@ -210,7 +214,8 @@ pub struct AccuracyEntry {
     /// Estimated relative error of the lowest frequencies at rest, measured on a larger basis.
     #[serde(default)]
     pub estimated_resting_error: Option<f64>,
-    /// The same of the frequencies that are drawn, each relative to what it is seen from the blade.
+    /// Estimated relative error of the frequencies that are drawn, each relative to the frequency
+    /// of its wave on the blade.
     #[serde(default)]
     pub estimated_drawn_error: Option<f64>,
 }
@@ -221,12 +226,13 @@ pub struct AccuracyEntry {
 pub struct WorkEntry {
     /// Of the whole basis: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
-    /// Those among them that went by the blocks of the blade and the columns of its guides, in a time linear
-    /// in the number of functions; edge loads and dampers leave no such structure.
+    /// Those among them that used the block structure of the blade and the few columns of its
+    /// guides, in a time linear in the number of functions; scenes with edge loads or dampers have
+    /// no such structure.
     pub structured_solves: usize,
     /// Dense, of the projected matrices.
     pub reduced_solves: usize,
-    /// Dense, of the few states between two speeds.
+    /// Dense, of the Hamiltonian reduction between two speeds.
     pub local_solves: usize,
     /// Pairs of modes refined by inverse iteration, with a factorization each.
     pub refined_pairs: usize,

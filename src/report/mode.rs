@@ -30,7 +30,7 @@ pub struct ModeEntry {
     pub krein_sign: i8,
     /// Radii of the profiles.
     pub radius_m: Vec<f64>,
-    /// Harmonics that can be seen, largest first.
+    /// Harmonics with a share in the energy large enough to be visible, largest first.
     pub harmonics: Vec<WaveEntry>,
 }
 

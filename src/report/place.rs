@@ -1,4 +1,4 @@
-//! `place.json`: the best place for the guides, what is next door, and a map.
+//! `place.json`: the best place for the guides, what saws close to it are worth, and a map.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct PlaceReport {
     pub scene: SceneFile,
     /// What was made large.
     pub goal: GoalEntry,
-    /// Least lowest critical speed that was asked for.
+    /// Lower limit of the first critical speed, if one was asked for.
     pub min_critical_rpm: Option<f64>,
     /// Whether the best saw keeps it.
     pub kept: bool,
@@ -27,7 +27,7 @@ pub struct PlaceReport {
     pub improved: bool,
     /// First speed of the sweep, the same for every saw.
     pub from_rpm: f64,
-    /// Last speed of the sweep: no flutter is seen beyond it.
+    /// Last speed of the sweep; flutter beyond it is not known.
     pub to_rpm: f64,
     /// Growth rate from which a band counts as flutter of the saw.
     pub flutter_threshold_per_s: f64,
@@ -41,11 +41,11 @@ pub struct PlaceReport {
     pub best: OutcomeEntry,
     /// Bands of the best saw.
     pub bands: Vec<InstabilityEntry>,
-    /// Whether a little more or less of a number costs much.
+    /// Whether a small change of a number loses much of the goal.
     pub fragile: bool,
     /// The worst of the saws a little off the best one.
     pub worst_neighbour: Option<NeighbourEntry>,
-    /// Its worth over that of the best saw.
+    /// Its goal divided by that of the best saw.
     pub worst_neighbour_share: f64,
     /// Bands that nearly reach the threshold and begin before the flutter speed.
     pub almost: Vec<InstabilityEntry>,
@@ -95,7 +95,7 @@ pub struct PlacedEntry {
     pub more_rpm: Option<f64>,
 }
 
-/// What a saw is worth.
+/// The goal of one saw, and the speeds that decide it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutcomeEntry {
@@ -118,7 +118,7 @@ pub struct OutcomeEntry {
 pub struct NeighbourEntry {
     /// Values of the numbers, in their order.
     pub values: Vec<f64>,
-    /// What it is worth; none where there is no such saw.
+    /// Its goal; none where there is no such saw.
     pub outcome: Option<OutcomeEntry>,
 }
 

@@ -1,4 +1,5 @@
-//! What a report says about itself: the terms that are in, and how far it can be trusted.
+//! The terms of the equation of motion that were assembled, whether the tolerance was reached, and
+//! remarks on the validity of the result.
 
 use std::f64::consts::TAU;
 

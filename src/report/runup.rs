@@ -27,7 +27,7 @@ pub struct RunUpReport {
     pub rate_rpm_per_s: f64,
     /// Step of the integration.
     pub step_s: f64,
-    /// Deflection beyond which none is given, for the linear model ends there.
+    /// Largest deflection that is given: beyond it the linear model does not hold.
     pub linear_limit_m: f64,
     /// Speed at which it is exceeded at the probe, where the record ends; null when it is not.
     pub linear_until_rpm: Option<f64>,
@@ -55,7 +55,8 @@ pub struct RunUpBand {
     pub band: InstabilityEntry,
     /// Time that the run-up spends in it.
     pub time_s: f64,
-    /// Re λ integrated over that time: the motion grows by no more than e to this power.
+    /// Largest Re λ integrated over that time: a mode that follows the speed grows by e to this
+    /// power.
     pub growth_exponent: f64,
     /// Largest deflection at the probe within the band over that in as many speeds before;
     /// null where the linear model ends before the band does.

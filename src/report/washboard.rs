@@ -1,5 +1,5 @@
-//! `washboard.json`: whether the teeth set the blade swinging, each on the surface left by the one
-//! before.
+//! `washboard.json`: whether the cutting force, which depends on the surface left by the tooth before,
+//! makes a motion of the blade grow.
 
 use std::f64::consts::TAU;
 
@@ -40,8 +40,8 @@ pub struct WashboardReport {
     pub critical_stiffness_n_per_m: Option<f64>,
     /// Frequency at which it then begins to.
     pub critical_frequency_hz: Option<f64>,
-    /// Eigenvalues in the right half plane by the argument principle, which an oscillation has two of;
-    /// null where one lies on the imaginary axis.
+    /// Eigenvalues in the right half plane, counted by the argument principle, two for each
+    /// oscillation; null where one lies on the imaginary axis.
     pub growing_eigenvalues: Option<usize>,
     /// The same without the delayed force.
     pub growing_eigenvalues_without: usize,

@@ -3,8 +3,8 @@
 //! In goes a [`Scene`](crate::scene::Scene); out comes an [`Analysis`]: critical speeds, every band of
 //! divergence and flutter with its edges (rad/s), its largest growth rate (1/s) and frequency
 //! (rad/s), the branches of the Campbell diagram, estimated errors, and a [`Certificate`] that says
-//! what was proven. [`Onsets`] is the same without a chart, for many saws; [`verdict`] is the one
-//! place that decides whether a speed is stable.
+//! what was proven. [`Onsets`] is the same without a chart, for many saws; [`Analysis::verdict`] says
+//! whether a speed is stable.
 
 mod analysis;
 mod band;
