@@ -146,7 +146,7 @@ class Instability(Entry):
     """Frequency at the peak."""
 
     branches: IntArray
-    """Numbers of the branches that meet; none where no chart was drawn."""
+    """Numbers of the branches that become unstable; none where no chart was drawn."""
 
     modes: tuple[str, ...]
     """Their names."""
@@ -199,7 +199,7 @@ class InCut(Entry):
     """Force towards the axis on each."""
 
     idling: Idling | None
-    """The saw without them; null in a sketch."""
+    """The saw without them; null in a sketch, a chart of few speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -354,8 +354,8 @@ class AccuracyEntry(Entry):
     basis."""
 
     estimated_drawn_error: float | None
-    """The same of the frequencies that are drawn, each relative to what it is seen from the
-    blade."""
+    """Estimated relative error of the frequencies that are drawn, each relative to the
+    frequency of its wave on the blade."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -366,14 +366,15 @@ class Work(Entry):
     """Of the whole basis: Krylov iterations with a factorization each, or dense ones."""
 
     structured_solves: int
-    """Those among them that went by the blocks of the blade and the columns of its guides, in a
-    time linear in the number of functions; edge loads and dampers leave no such structure."""
+    """Those among them that used the block structure of the blade and the few columns of its
+    guides, in a time linear in the number of functions; scenes with edge loads or dampers have
+    no such structure."""
 
     reduced_solves: int
     """Dense, of the projected matrices."""
 
     local_solves: int
-    """Dense, of the few states between two speeds."""
+    """Dense, of the Hamiltonian reduction between two speeds."""
 
     refined_pairs: int
     """Pairs of modes refined by inverse iteration, with a factorization each."""
@@ -425,25 +426,26 @@ class Mismatch(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Entry):
-    """The Krein index and the list of bands held against the spectrum, see
-    [crate::stability]."""
+    """Checks of the list of bands against the spectrum, by the Krein index, by counts of
+    eigenvalues on the whole basis and by the growth found at single speeds; and how much of the
+    sweep is proven to have no other band. See [crate::stability]."""
 
     statement: str
     """What was found, in a sentence."""
 
     speeds_checked: int
-    """Speeds at which the index was compared; for damped scenes, which have none, speeds at
-    which the number of growing modes was held against that of the bands."""
+    """Number of speeds at which the Krein index was compared; for damped scenes, which have
+    none, of speeds at which the number of growing modes was compared with that of the bands."""
 
     krein_violations: int
-    """Speeds at which it did not match, not even on the whole basis; expected 0."""
+    """Number of speeds at which it did not match, not even on the whole basis; expected 0."""
 
     violating_rpm: FloatArray
     """These speeds."""
 
     full_basis_counts: int
-    """Counts on the whole basis, which know nothing of the reduced model, that modes were held
-    against."""
+    """Number of counts of eigenvalues on the whole basis, independent of the reduced model,
+    that the modes were compared with."""
 
     miscounted_modes: tuple[Miscount, ...]
     """Modes that these counts say are missing, or too many; expected none."""
@@ -488,9 +490,9 @@ class Branch(BranchMethods):
     """1, 2, 3 … in the order of the list."""
 
     name: str
-    """What the branch is called wherever it is met, by its mode at the first of its speeds: of
-    a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters", or
-    shares of harmonics where none dominates."""
+    """Name of the branch in every output, by its mode at the first of its speeds: of a blade
+    without guides "2 diameters, backward"; of a guided one at rest "2 diameters", or shares of
+    harmonics where none dominates."""
 
     label: str
     """Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45
@@ -535,7 +537,7 @@ class Campbell(Entry):
     """Last speed."""
 
     complete_to_hz: float
-    """Highest frequency to which the branches are complete."""
+    """Frequency up to which the branches are complete."""
 
     branches: tuple[Branch, ...]
     """Tracked branches, by frequency at their lowest speed."""
@@ -585,7 +587,7 @@ class HeatLimit(Entry):
     """Peak of the profile."""
 
     nodal_diameters: int
-    """Nodal diameters of the shape that gives way."""
+    """Nodal diameters of the shape that buckles, or of the wave that stands still."""
 
     nodal_circles: int
     """Its nodal circles."""
@@ -702,13 +704,14 @@ class CampbellReport(Entry):
     """Every critical speed up to the end of the sweep, ascending."""
 
     instabilities: tuple[Instability, ...]
-    """Every band of instability within the sweep, ascending."""
+    """The bands of instability found within the sweep, by onset; `certificate` says how much of
+    the sweep is proven to have no other."""
 
     flutter_speed_rpm: float | None
     """Lowest speed at which flutter counts: see `counted_rpm` of the bands."""
 
     first_merge_rpm: float | None
-    """Onset of the first flutter band of all, whatever its growth."""
+    """Onset of the first flutter band, weak ones included."""
 
     flutter_threshold_per_s: float
     """Growth rate from which a band counts as flutter of the saw."""
@@ -731,17 +734,19 @@ class CampbellReport(Entry):
     """How fine the computation was, and how far it may be off."""
 
     work: Work
-    """Eigenproblems that the chart took."""
+    """Number of eigenproblems solved for the chart."""
 
     certificate: Certificate
-    """Proof that no unstable or reflected mode was missed."""
+    """What was checked of the list of bands: how much of the sweep is proven to have no
+    instability that is not listed, which part was searched without proof, and what did not
+    agree."""
 
     campbell: Campbell
     """Branches over speed."""
 
     root_loci: RootLoci | None
-    """The two modes that meet at the flutter speed (or at the first merging), followed through
-    it in the complex plane."""
+    """Eigenvalues of the two modes that coalesce at the flutter speed, or at the onset of the
+    first flutter band where none counts, over the speeds around it."""
 
     membrane: Membrane | None
     """Stress of heat, roll tension and manufacture, when the scene names one."""
@@ -758,10 +763,10 @@ class Criterion(Entry):
     """One limit and what was found."""
 
     key: str
-    """The limit in a word."""
+    """Short name of the limit, for programs."""
 
     name: str
-    """What is compared."""
+    """What is compared, in words."""
 
     found_rpm: float | None
     """What was found; none where there is no such speed within the sweep."""
@@ -809,7 +814,7 @@ class CheckReport(Entry):
     """Largest share of the lowest critical speed that it may be."""
 
     to_rpm: float
-    """Last speed of the sweep: nothing is seen beyond it."""
+    """Last speed of the sweep; nothing is known beyond it."""
 
     critical_speeds_rpm: FloatArray
     """Critical speeds within the sweep, ascending."""
@@ -840,7 +845,7 @@ class CheckReport(Entry):
     """Estimated relative error of the critical speeds."""
 
     warnings: tuple[str, ...]
-    """Numbers that no saw has."""
+    """Remarks on numbers of the scene that are unusual for a saw."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -905,7 +910,7 @@ class ByPower(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ToothPassing(Entry):
-    """What it changes that the loads pass with the teeth."""
+    """The effect of loads that move with the teeth, compared with loads that stand still."""
 
     tooth_frequency_hz: float
     """Teeth passing a second."""
@@ -1104,7 +1109,7 @@ class CutReport(Entry):
     """Growth rate from which a cut is called unstable."""
 
     linear_limit_m: float
-    """Deflection beyond which none is given, for the linear model ends there."""
+    """Largest deflection that is given: beyond it the linear model does not hold."""
 
     tooth_angles_deg: FloatArray
     """Angles of the teeth in the cut."""
@@ -1160,10 +1165,10 @@ class Residual(Entry):
     """Measured."""
 
     before_hz: float
-    """Computed before."""
+    """Computed with the numbers before the fit."""
 
     fitted_hz: float
-    """Computed after."""
+    """Computed with the numbers found."""
 
     fitted: bool
     """False for a speed that was left out of the fit."""
@@ -1232,7 +1237,7 @@ class FitReport(Entry):
     """Root mean square of computed minus measured frequencies."""
 
     rms_before_hz: float
-    """The same before."""
+    """The same of the scene before the fit."""
 
     residuals: tuple[Residual, ...]
     """Measured and computed frequencies, pair by pair."""
@@ -1313,7 +1318,7 @@ class Mode(ModeMethods):
     """Radii of the profiles."""
 
     harmonics: tuple[Wave, ...]
-    """Harmonics that can be seen, largest first."""
+    """Harmonics with a share in the energy large enough to be visible, largest first."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1350,7 +1355,7 @@ class Placed(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outcome(Entry):
-    """What a saw is worth."""
+    """The goal of one saw, and the speeds that decide it."""
 
     goal_rpm: float
     """What is made large: the flutter speed, the end of the sweep where there is none, or the
@@ -1377,7 +1382,7 @@ class Neighbour(Entry):
     """Values of the numbers, in their order."""
 
     outcome: Outcome | None
-    """What it is worth; none where there is no such saw."""
+    """Its goal; none where there is no such saw."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1417,7 +1422,7 @@ class PlaceReport(Entry):
     """What was made large."""
 
     min_critical_rpm: float | None
-    """Least lowest critical speed that was asked for."""
+    """Lower limit of the first critical speed, if one was asked for."""
 
     kept: bool
     """Whether the best saw keeps it."""
@@ -1431,7 +1436,7 @@ class PlaceReport(Entry):
     """First speed of the sweep, the same for every saw."""
 
     to_rpm: float
-    """Last speed of the sweep: no flutter is seen beyond it."""
+    """Last speed of the sweep; flutter beyond it is not known."""
 
     flutter_threshold_per_s: float
     """Growth rate from which a band counts as flutter of the saw."""
@@ -1452,13 +1457,13 @@ class PlaceReport(Entry):
     """Bands of the best saw."""
 
     fragile: bool
-    """Whether a little more or less of a number costs much."""
+    """Whether a small change of a number loses much of the goal."""
 
     worst_neighbour: Neighbour | None
     """The worst of the saws a little off the best one."""
 
     worst_neighbour_share: float
-    """Its worth over that of the best saw."""
+    """Its goal divided by that of the best saw."""
 
     almost: tuple[Instability, ...]
     """Bands that nearly reach the threshold and begin before the flutter speed."""
@@ -1490,7 +1495,8 @@ class RunUpBand(Entry):
     """Time that the run-up spends in it."""
 
     growth_exponent: float
-    """Re λ integrated over that time: the motion grows by no more than e to this power."""
+    """Largest Re λ integrated over that time: a mode that follows the speed grows by e to this
+    power."""
 
     seen_amplification: float | None
     """Largest deflection at the probe within the band over that in as many speeds before; null
@@ -1537,7 +1543,7 @@ class RunUpReport(Entry):
     """Step of the integration."""
 
     linear_limit_m: float
-    """Deflection beyond which none is given, for the linear model ends there."""
+    """Largest deflection that is given: beyond it the linear model does not hold."""
 
     linear_until_rpm: float | None
     """Speed at which it is exceeded at the probe, where the record ends; null when it is
@@ -1910,8 +1916,8 @@ class WashboardReport(Entry):
     """Frequency at which it then begins to."""
 
     growing_eigenvalues: int | None
-    """Eigenvalues in the right half plane by the argument principle, which an oscillation has
-    two of; null where one lies on the imaginary axis."""
+    """Eigenvalues in the right half plane, counted by the argument principle, two for each
+    oscillation; null where one lies on the imaginary axis."""
 
     growing_eigenvalues_without: int
     """The same without the delayed force."""
