@@ -29,15 +29,14 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use faer::{Mat, c64};
-use nalgebra::DMatrix;
 
 pub use self::damped::DampedBasis;
 pub use self::harmonic::Harmonic;
 pub use self::matrices::{ShiftedBlock, ShiftedBlocks};
 
 use self::coupling::{Columns, Coupling, LOOKS, in_waves};
-use self::jacobi::Eigenvectors;
-use self::waves::Waves;
+use self::jacobi::LEFT;
+use self::waves::{FreeWaves, Waves};
 use super::component::frequency_scale;
 use super::hermitian::negative_eigenvalues;
 use crate::plate::{HarmonicBlock, Plate};
@@ -52,7 +51,7 @@ pub struct WholeBasis {
 /// Share of T = B(0) + σ that rounding may change L by.
 const ROUNDING: f64 = 1e-11;
 /// A wave with a stiffness of so many times (ω + nΩ)² is as good as at rest, in each look.
-const STIFF: [Option<f64>; LOOKS] = [Some(1e2), Some(1e4)];
+const STIFF: [f64; LOOKS] = [1e2, 1e4];
 /// Share of the speed beyond which a line is so long that more columns do not help.
 const LONG: f64 = 1e-3;
 
@@ -112,10 +111,9 @@ impl WholeBasis {
 
     /// What counts at a speed have in common.
     pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
-        let stiffness = |h: &Harmonic| &h.rest + &h.tension * speed_rad_per_s.powi(2);
         AtSpeed {
             speed_rad_per_s,
-            blocks: self.harmonics.iter().map(stiffness).collect(),
+            free: OnceLock::new(),
             waves: Default::default(),
         }
     }
@@ -158,69 +156,65 @@ impl WholeBasis {
         bound: Bound,
         look: usize,
     ) -> Option<usize> {
-        let speeds = [a, b].map(|at| at.speed_rad_per_s);
-        let rest = match &self.coupling {
-            Coupling::Columns(columns) => columns.rests[look].1,
-            Coupling::Dense(_) => 0.0,
-        };
+        let at = if bound == Bound::Low { a } else { b };
+        let blocks = self.bounded_blocks([a, b], line, bound);
+        match &self.coupling {
+            Coupling::Columns(columns) => {
+                let (count, rest) = columns.rests[look];
+                let waves = at.waves[look].get_or_init(|| {
+                    let free = at.free.get_or_init(|| self.free_waves(at.speed_rad_per_s));
+                    let is_stiff = |harmonic: usize, stiffness: f64| {
+                        let turning = self.harmonics[harmonic].fast_turning(at.speed_rad_per_s);
+                        stiffness > STIFF[look] * turning
+                    };
+                    Waves::new(free, columns.resting.subcols(0, count), is_stiff)
+                });
+                waves.count(&self.harmonics, &blocks, bound, rest)
+            }
+            Coupling::Dense(coupling) => {
+                let mut matrix = coupling.clone();
+                self.add_blocks(&mut matrix, at.speed_rad_per_s, &blocks);
+                negative_eigenvalues(&matrix)
+            }
+        }
+    }
+
+    fn bounded_blocks(
+        &self,
+        ends: [&AtSpeed; 2],
+        line: [f64; 2],
+        bound: Bound,
+    ) -> Vec<BoundedBlock> {
+        let speeds = ends.map(|at| at.speed_rad_per_s);
         let blocks = self.harmonics.iter().map(|h| {
             let n = h.diameters as f64;
             let of = |n: f64| bound.of_square([0, 1].map(|end| line[end] + n * speeds[end]));
             let more = h.shortfall * (speeds[1].powi(2) - speeds[0].powi(2));
             let shift = h.shift + h.shortfall * speeds[1].powi(2);
-            let share = bound.sign() * ROUNDING;
+            let share = bound.sign() * (ROUNDING + h.radial() as f64 * LEFT);
             BoundedBlock {
                 share,
                 more: share * shift + bound.sign() * more,
                 turning: [of(n), of(-n)],
             }
         });
-        let blocks: Vec<BoundedBlock> = blocks.collect();
-        let at = if bound == Bound::Low { a } else { b };
-        match &self.coupling {
-            Coupling::Columns(columns) => {
-                let waves = at.waves[look][bound as usize].get_or_init(|| {
-                    let free = self.free_waves(at.speed_rad_per_s, bound.share(rest));
-                    let waves = Waves::new(&free, columns, columns.rests[look].0);
-                    match STIFF[look] {
-                        Some(stiff) => {
-                            waves.with_stiff_together(&self.harmonics, at.speed_rad_per_s, stiff)
-                        }
-                        None => waves,
-                    }
-                });
-                waves.count(&self.harmonics, &blocks, bound)
-            }
-            Coupling::Dense(coupling) => {
-                let mut matrix = coupling.clone();
-                self.add_blocks(&mut matrix, &at.blocks, &blocks);
-                negative_eigenvalues(&matrix)
-            }
-        }
+        blocks.collect()
     }
 
-    /// The waves of every block at a speed, with a share of the weights added to it, in those at rest.
-    fn free_waves(&self, speed_rad_per_s: f64, share: f64) -> Vec<Eigenvectors> {
-        let square = speed_rad_per_s.powi(2);
-        let turned = self.harmonics.iter().map(|h| {
-            let mut turned = &h.resting_tension * square;
-            for (i, own) in h.resting.eigenvalues.iter().enumerate() {
-                turned[(i, i)] += own + share * h.weights[i];
-            }
-            turned
-        });
-        turned.map(Eigenvectors::of).collect()
+    fn free_waves(&self, speed_rad_per_s: f64) -> Vec<FreeWaves> {
+        let of = |h: &Harmonic| FreeWaves::new(h, speed_rad_per_s);
+        self.harmonics.iter().map(of).collect()
     }
 
     fn add_blocks(
         &self,
         matrix: &mut Mat<c64>,
-        stiffness: &[DMatrix<f64>],
+        speed_rad_per_s: f64,
         bounds: &[BoundedBlock],
     ) {
         let mut first = 0;
-        let blocks = self.harmonics.iter().zip(stiffness).zip(bounds);
-        for ((harmonic, stiffness), bound) in blocks {
+        for (harmonic, bound) in self.harmonics.iter().zip(bounds) {
+            let stiffness = &harmonic.rest + &harmonic.tension * speed_rad_per_s.powi(2);
             for sign in harmonic.signs() {
                 for (k, column) in stiffness.column_iter().enumerate() {
                     for (j, value) in column.iter().enumerate() {
@@ -235,13 +229,14 @@ impl WholeBasis {
     }
 }
 
-/// B_n at a speed, and its waves once they are asked for.
+/// A speed, and what counts at it have in common once it is asked for.
 #[derive(Debug)]
 pub struct AtSpeed {
     speed_rad_per_s: f64,
-    blocks: Vec<DMatrix<f64>>,
-    /// Of each look, for both bounds.
-    waves: [[OnceLock<Waves>; 2]; LOOKS],
+    /// Of every harmonic.
+    free: OnceLock<Vec<FreeWaves>>,
+    /// Of each look.
+    waves: [OnceLock<Waves>; LOOKS],
 }
 
 /// Of a bound (1 + share) B_n + more − (ω ± nΩ)².
@@ -263,14 +258,6 @@ impl Bound {
         match self {
             Bound::Low => -1.0,
             Bound::High => 1.0,
-        }
-    }
-
-    /// Share of the weights to add for what the columns leave out.
-    fn share(self, rest: f64) -> f64 {
-        match self {
-            Bound::Low => 0.0,
-            Bound::High => rest,
         }
     }
 

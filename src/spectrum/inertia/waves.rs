@@ -1,10 +1,12 @@
 //! L in the waves of the free blade, of which B_n is diagonal.
 
+use std::sync::OnceLock;
+
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::{Accum, Mat, Par, Scale, c64};
+use faer::{Accum, Mat, MatRef, Par, Scale, c64};
+use nalgebra::{DMatrix, DVector};
 
-use super::coupling::Columns;
 use super::jacobi::Eigenvectors;
 use super::{Bound, BoundedBlock, Harmonic};
 use crate::spectrum::hermitian::negative_eigenvalues;
@@ -12,158 +14,131 @@ use crate::spectrum::hermitian::negative_eigenvalues;
 /// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.
 const RESONANT: f64 = 1e5;
 
-/// The waves of a speed.
+/// The waves of a harmonic at a speed, in those at rest.
+#[derive(Debug)]
+pub struct FreeWaves {
+    of: Eigenvectors,
+    /// A diagonal matrix in these waves that is no smaller than the weights.
+    weights: Vec<f64>,
+}
+
+impl FreeWaves {
+    pub fn new(harmonic: &Harmonic, speed_rad_per_s: f64) -> Self {
+        let mut block = &harmonic.resting_tension * speed_rad_per_s.powi(2);
+        for (i, own) in harmonic.resting.eigenvalues.iter().enumerate() {
+            block[(i, i)] += own;
+        }
+        let of = Eigenvectors::of(block);
+        let weights = diagonal_bound(&harmonic.weights, &of.vectors);
+        FreeWaves { of, weights }
+    }
+}
+
+/// d of VᵀWV ≤ diag(d), W diagonal and positive: scaled to a diagonal of ones its eigenvalues are at most the sums of its
+/// rows (Gershgorin).
+fn diagonal_bound(weights: &[f64], vectors: &DMatrix<f64>) -> Vec<f64> {
+    let roots = DVector::from_iterator(weights.len(), weights.iter().map(|w| w.sqrt()));
+    let scaled = DMatrix::from_diagonal(&roots) * vectors;
+    let turned = scaled.tr_mul(&scaled);
+    let size = |i: usize| turned[(i, i)].sqrt();
+    let row = |i: usize| (0..weights.len()).map(move |k| (i, k));
+    let sum = |i: usize| -> f64 { row(i).map(|(i, k)| turned[(i, k)].abs() / size(k)).sum() };
+    (0..weights.len()).map(|i| size(i) * sum(i)).collect()
+}
+
+/// The waves of all harmonics at a speed.
 #[derive(Debug)]
 pub struct Waves {
-    rows: Vec<Row>,
+    /// Those that every count takes one by one.
+    soft: Rows,
+    /// Those that it takes together.
+    stiff: Rows,
+    /// PᴴB⁻¹P of the stiff ones, real, of which the lower triangle, for both bounds: D is nearly their stiffness B.
+    stiff_compliance: [OnceLock<Mat<f64>>; 2],
+    /// Least stiffness of the stiff ones of each harmonic.
+    least: Vec<f64>,
+}
+
+/// Some waves, and P in them.
+#[derive(Debug)]
+struct Rows {
+    waves: Vec<Row>,
     /// Rows of the columns for cosines, and below them for sines.
     both: Mat<f64>,
-    /// The stiff ones, where they are taken together.
-    stiff: Option<Stiff>,
 }
 
 /// e^{inθ} and e^{−inθ} of one eigenvalue of a block.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 struct Row {
     /// Index of its harmonic.
     harmonic: usize,
     /// The eigenvalue.
     stiffness: f64,
+    /// What a share of is added to it for what the columns leave out.
+    weight: f64,
     /// |p|², its squares in both rows of the columns.
     size: f64,
 }
 
-/// Waves of which D is nearly their stiffness B: PᴴD⁻¹P is that of B, times a factor.
-#[derive(Debug)]
-struct Stiff {
-    /// PᴴB⁻¹P, real; its lower triangle.
-    compliance: Mat<f64>,
-    /// Least stiffness of each harmonic.
-    least: Vec<f64>,
+impl Row {
+    fn bounded(&self, bound: Bound, rest: f64) -> f64 {
+        match bound {
+            Bound::Low => self.stiffness,
+            Bound::High => self.stiffness + rest * self.weight,
+        }
+    }
 }
 
-impl Waves {
-    /// With the first columns alone.
-    pub fn new(free: &[Eigenvectors], columns: &Columns, count: usize) -> Self {
-        let total = columns.resting.nrows() / 2;
-        let mut both = Mat::zeros(2 * total, count);
-        let mut rows = Vec::with_capacity(total);
-        for (harmonic, block) in free.iter().enumerate() {
-            let (row, radial) = (rows.len(), block.values.len());
-            let turn = Mat::from_fn(radial, radial, |i, j| block.vectors[(j, i)]);
+impl Rows {
+    /// All of them, with columns that are given in the waves at rest.
+    fn all(free: &[FreeWaves], columns: MatRef<'_, f64>) -> Self {
+        let total = columns.nrows() / 2;
+        let mut both = Mat::zeros(2 * total, columns.ncols());
+        let mut waves = Vec::with_capacity(total);
+        for (harmonic, FreeWaves { of, weights }) in free.iter().enumerate() {
+            let (row, radial) = (waves.len(), weights.len());
+            let turn = MatRef::from_column_major_slice(of.vectors.as_slice(), radial, radial);
             for first in [row, total + row] {
-                let own = columns.resting.get(first..first + radial, ..count);
                 let turned = both.subrows_mut(first, radial);
-                matmul(turned, Accum::Replace, &turn, own, 1.0, Par::Seq);
+                let own = columns.subrows(first, radial);
+                matmul(turned, Accum::Replace, turn.transpose(), own, 1.0, Par::Seq);
             }
-            rows.extend(block.values.iter().map(|&stiffness| Row {
+            waves.extend(of.values.iter().zip(weights).map(|(&stiffness, &weight)| Row {
                 harmonic,
                 stiffness,
+                weight,
                 size: 0.0,
             }));
         }
-        for k in 0..count {
+        for k in 0..both.ncols() {
             let (cosine, sine) = both.col_as_slice(k).split_at(total);
-            for (row, (x, y)) in rows.iter_mut().zip(cosine.iter().zip(sine)) {
+            for (row, (x, y)) in waves.iter_mut().zip(cosine.iter().zip(sine)) {
                 row.size += x * x + y * y;
             }
         }
-        Waves {
-            rows,
-            both,
-            stiff: None,
-        }
+        Rows { waves, both }
     }
 
-    /// The same with its stiff waves taken together, so that a count takes the others alone. They are those with a stiffness
-    /// of so many times (ω + nΩ)².
-    pub fn with_stiff_together(
-        self,
-        harmonics: &[Harmonic],
-        speed_rad_per_s: f64,
-        stiff: f64,
-    ) -> Self {
-        let total = self.rows.len();
-        let is_stiff = |row: &Row| {
-            let turning = harmonics[row.harmonic].fast_turning(speed_rad_per_s);
-            row.stiffness > stiff * turning && row.size < 0.5 * RESONANT * row.stiffness
-        };
-        let (stiff, soft): (Vec<usize>, Vec<usize>) =
-            (0..total).partition(|&row| is_stiff(&self.rows[row]));
-        let mut least = vec![f64::INFINITY; harmonics.len()];
-        let mut scaled = Mat::zeros(2 * stiff.len(), self.both.ncols());
-        for (i, &place) in stiff.iter().enumerate() {
-            let row = &self.rows[place];
-            least[row.harmonic] = least[row.harmonic].min(row.stiffness);
-            let waves = harmonics[row.harmonic].signs().count() as f64;
-            let root = (waves / row.stiffness).sqrt();
-            for (to, from) in [(i, place), (stiff.len() + i, total + place)] {
-                let scaled = scaled.row_mut(to);
-                faer::zip!(scaled, self.both.row(from))
-                    .for_each(|faer::unzip!(to, from)| *to = root * from);
+    fn picked(&self, places: &[usize]) -> Self {
+        let (total, count) = (self.waves.len(), places.len());
+        let mut both = Mat::zeros(2 * count, self.both.ncols());
+        for k in 0..both.ncols() {
+            let (cosine, sine) = self.both.col_as_slice(k).split_at(total);
+            let (own_cosine, own_sine) = both.col_as_slice_mut(k).split_at_mut(count);
+            for (i, &place) in places.iter().enumerate() {
+                own_cosine[i] = cosine[place];
+                own_sine[i] = sine[place];
             }
         }
-        let mut compliance = Mat::zeros(scaled.ncols(), scaled.ncols());
-        add_lower_product(&mut compliance, &scaled, &scaled);
-        let both = Mat::from_fn(2 * soft.len(), self.both.ncols(), |i, k| {
-            match i.checked_sub(soft.len()) {
-                Some(i) => self.both[(total + soft[i], k)],
-                None => self.both[(soft[i], k)],
-            }
-        });
-        let mut kept = soft.into_iter().peekable();
-        let rows = self.rows.into_iter().enumerate();
-        let rows = rows.filter(|(row, _)| kept.next_if_eq(row).is_some());
-        Waves {
-            rows: rows.map(|(_, row)| row).collect(),
+        Rows {
+            waves: places.iter().map(|&place| self.waves[place]).collect(),
             both,
-            stiff: Some(Stiff { compliance, least }),
         }
-    }
-
-    /// n₋(A + PPᴴ) of a bound by way of −1 − PᴴA⁻¹P over the waves that are eliminated, bordered by those that
-    /// are next to resonance. `None` where it is not certain.
-    pub fn count(
-        &self,
-        harmonics: &[Harmonic],
-        bounds: &[BoundedBlock],
-        bound: Bound,
-    ) -> Option<usize> {
-        let count = self.rows.len();
-        // Sum and difference of 1/d of the waves e^{inθ} and e^{−inθ}.
-        let (mut sum, mut difference) = (vec![0.0; count], vec![0.0; count]);
-        let mut resonant: Vec<Resonant> = Vec::new();
-        let mut negative = 0;
-        for (place, row) in self.rows.iter().enumerate() {
-            let bound = &bounds[row.harmonic];
-            let stiffness = (1.0 + bound.share) * row.stiffness + bound.more;
-            for sign in harmonics[row.harmonic].signs() {
-                let turned = [1.0, -1.0][sign];
-                let d = stiffness - bound.turning[sign];
-                if row.size > RESONANT * d.abs() {
-                    resonant.push(Resonant {
-                        row: place,
-                        turned,
-                        d,
-                    });
-                    continue;
-                }
-                negative += usize::from(d < 0.0);
-                sum[place] += 1.0 / d;
-                difference[place] += turned / d;
-            }
-        }
-        let mut compliance = Mat::zeros(self.both.ncols(), self.both.ncols());
-        if let Some(stiff) = &self.stiff {
-            compliance = Scale(1.0 / stiff.share(bounds, bound)?) * &stiff.compliance;
-        }
-        let core = self.core([&sum, &difference], &resonant, compliance);
-        (negative + negative_eigenvalues(&core)?).checked_sub(self.both.ncols())
     }
 
     /// Each row of the columns times its weight, of cosines and of sines.
     fn scaled(&self, weights: [&[f64]; 2]) -> Mat<f64> {
-        let (rows, count) = (self.rows.len(), self.both.ncols());
+        let (rows, count) = (self.waves.len(), self.both.ncols());
         let mut scaled = Mat::zeros(2 * rows, count);
         for k in 0..count {
             let own = self.both.col_as_slice(k);
@@ -178,6 +153,106 @@ impl Waves {
         }
         scaled
     }
+}
+
+impl Waves {
+    /// Of columns that are given in the waves at rest. Those of which harmonic and stiffness say that they are stiff are
+    /// taken together.
+    pub fn new(
+        free: &[FreeWaves],
+        columns: MatRef<'_, f64>,
+        is_stiff: impl Fn(usize, f64) -> bool,
+    ) -> Self {
+        let all = Rows::all(free, columns);
+        let is_stiff = |place: &usize| {
+            let row = &all.waves[*place];
+            is_stiff(row.harmonic, row.stiffness) && row.size < 0.5 * RESONANT * row.stiffness
+        };
+        let (stiff, soft): (Vec<usize>, Vec<usize>) =
+            (0..all.waves.len()).partition(|place| is_stiff(place));
+        let mut least = vec![f64::INFINITY; free.len()];
+        for &place in &stiff {
+            let row = &all.waves[place];
+            least[row.harmonic] = least[row.harmonic].min(row.stiffness);
+        }
+        Waves {
+            soft: all.picked(&soft),
+            stiff: all.picked(&stiff),
+            stiff_compliance: Default::default(),
+            least,
+        }
+    }
+
+    /// n₋(A + PPᴴ) of a bound by way of −1 − PᴴA⁻¹P over the waves that are eliminated, bordered by those that
+    /// are next to resonance. `None` where it is not certain.
+    pub fn count(
+        &self,
+        harmonics: &[Harmonic],
+        bounds: &[BoundedBlock],
+        bound: Bound,
+        rest: f64,
+    ) -> Option<usize> {
+        let count = self.soft.waves.len();
+        // Sum and difference of 1/d of the waves e^{inθ} and e^{−inθ}.
+        let (mut sum, mut difference) = (vec![0.0; count], vec![0.0; count]);
+        let mut resonant: Vec<Resonant> = Vec::new();
+        let mut negative = 0;
+        for (place, row) in self.soft.waves.iter().enumerate() {
+            let block = &bounds[row.harmonic];
+            let stiffness = (1.0 + block.share) * row.bounded(bound, rest) + block.more;
+            for sign in harmonics[row.harmonic].signs() {
+                let turned = [1.0, -1.0][sign];
+                let d = stiffness - block.turning[sign];
+                if row.size > RESONANT * d.abs() {
+                    resonant.push(Resonant {
+                        row: place,
+                        turned,
+                        d,
+                    });
+                    continue;
+                }
+                negative += usize::from(d < 0.0);
+                sum[place] += 1.0 / d;
+                difference[place] += turned / d;
+            }
+        }
+        let stiff = self.stiff_compliance[bound as usize]
+            .get_or_init(|| self.stiff_compliance(harmonics, bound, rest));
+        let stiff = Scale(1.0 / self.stiff_share(bounds, bound)?) * stiff;
+        let columns = stiff.ncols();
+        let core = self.core([&sum, &difference], &resonant, stiff);
+        (negative + negative_eigenvalues(&core)?).checked_sub(columns)
+    }
+
+    fn stiff_compliance(&self, harmonics: &[Harmonic], bound: Bound, rest: f64) -> Mat<f64> {
+        let root = |row: &Row| {
+            let waves = harmonics[row.harmonic].signs().count() as f64;
+            (waves / row.bounded(bound, rest)).sqrt()
+        };
+        let roots: Vec<f64> = self.stiff.waves.iter().map(root).collect();
+        let scaled = self.stiff.scaled([&roots, &roots]);
+        let mut compliance = Mat::zeros(scaled.ncols(), scaled.ncols());
+        add_lower_product(&mut compliance, &scaled, &scaled);
+        compliance
+    }
+
+    /// The least D/B of a lower bound, the largest of an upper one. `None` where a wave is not stiff at all.
+    fn stiff_share(&self, bounds: &[BoundedBlock], bound: Bound) -> Option<f64> {
+        let of = |(block, least): (&BoundedBlock, &f64)| {
+            let [x, y] = block.turning;
+            let added = match bound {
+                Bound::Low => (block.more - x.max(y)).min(0.0),
+                Bound::High => (block.more - x.min(y)).max(0.0),
+            };
+            1.0 + block.share + added / least
+        };
+        let shares = bounds.iter().zip(&self.least).map(of);
+        let share = match bound {
+            Bound::Low => shares.fold(f64::INFINITY, f64::min),
+            Bound::High => shares.fold(0.0, f64::max),
+        };
+        (share > 0.5).then_some(share)
+    }
 
     /// [[D, P], [Pᴴ, −1 − PᴴA⁻¹P]], D and P of the resonant waves, each scaled to the length of its row;
     /// its lower triangle. `real` is the share of the stiff waves in PᴴA⁻¹P.
@@ -187,13 +262,14 @@ impl Waves {
         resonant: &[Resonant],
         mut real: Mat<f64>,
     ) -> Mat<c64> {
-        let (rows, count) = (self.rows.len(), self.both.ncols());
-        let (cosine, sine) = self.both.split_at_row(rows);
+        let Rows { waves, both } = &self.soft;
+        let (rows, count) = (waves.len(), both.ncols());
+        let (cosine, sine) = both.split_at_row(rows);
         // CᵀΣC + SᵀΣS, of which the lower triangle, and SᵀΔC.
-        let mut scaled = self.scaled([sum, sum]);
-        add_lower_product(&mut real, &self.both, &scaled);
+        let mut scaled = self.soft.scaled([sum, sum]);
+        add_lower_product(&mut real, both, &scaled);
         for k in 0..count {
-            let own = &self.both.col_as_slice(k)[..rows];
+            let own = &both.col_as_slice(k)[..rows];
             let scaled = scaled.col_as_slice_mut(k)[..rows].iter_mut();
             for ((scaled, x), w) in scaled.zip(own).zip(difference) {
                 *scaled = x * w;
@@ -204,7 +280,7 @@ impl Waves {
         let near = resonant.len();
         let mut core = Mat::zeros(near + count, near + count);
         for (i, wave) in resonant.iter().enumerate() {
-            let size = self.rows[wave.row].size.sqrt();
+            let size = waves[wave.row].size.sqrt();
             let factor = if size > 0.0 { 1.0 / size } else { 1.0 };
             core[(i, i)] = c64::new(factor * factor * wave.d, 0.0);
             for k in 0..count {
@@ -220,26 +296,6 @@ impl Waves {
             }
         }
         core
-    }
-}
-
-impl Stiff {
-    /// The least D/B of a lower bound, the largest of an upper one. `None` where a wave is not stiff at all.
-    fn share(&self, bounds: &[BoundedBlock], bound: Bound) -> Option<f64> {
-        let of = |(block, least): (&BoundedBlock, &f64)| {
-            let [x, y] = block.turning;
-            let added = match bound {
-                Bound::Low => (block.more - x.max(y)).min(0.0),
-                Bound::High => (block.more - x.min(y)).max(0.0),
-            };
-            1.0 + block.share + added / least
-        };
-        let shares = bounds.iter().zip(&self.least).map(of);
-        let share = match bound {
-            Bound::Low => shares.fold(f64::INFINITY, f64::min),
-            Bound::High => shares.fold(0.0, f64::max),
-        };
-        (share > 0.5).then_some(share)
     }
 }
 
