@@ -76,15 +76,10 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     terms
 }
 
-/// Largest estimated error of what the tolerance is promised for.
-fn promised_error(analysis: &Analysis) -> Option<f64> {
-    let at_rest = analysis.estimates.as_ref().map_or(0.0, |e| e.at_rest);
-    Some(analysis.estimated_relative_error?.max(at_rest))
-}
-
 /// Whether the estimated error is within the tolerance asked for.
 pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
-    promised_error(analysis).is_some_and(|error| error <= scene.tolerance())
+    let error = analysis.promised_error();
+    error.is_some_and(|error| error <= scene.tolerance())
 }
 
 /// Limits of the model that this scene comes near to.
@@ -112,14 +107,31 @@ pub fn warnings(
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
-    let error = promised_error(analysis)?;
-    (!reached(scene, analysis)).then(|| {
-        format!(
-            "the tolerance {:e} is out of reach of {} functions; reached: {error:.1e}",
-            scene.tolerance(),
-            analysis.model.plate.degrees_of_freedom()
-        )
-    })
+    if reached(scene, analysis) {
+        return None;
+    }
+    let error = analysis.promised_error()?;
+    let functions = analysis.model.plate.degrees_of_freedom();
+    let tolerance = scene.tolerance();
+    let Some(found) = analysis.out_of_reach else {
+        return Some(format!(
+            "the tolerance {tolerance:e} is out of reach of {functions} functions; reached: {error:.1e}"
+        ));
+    };
+    let most = match found.is_dense {
+        true => " (the most for a saw with damping or forces at the rim)",
+        false => "",
+    };
+    let guide = found.guide.map_or(String::new(), |guide| {
+        format!("; guides[{guide}] bends the blade most sharply, and more area or less stiffness of it helps")
+    });
+    let needed = found.functions.map_or(String::new(), |needed| {
+        let hundreds = 100.0 * (needed / 100.0).ceil();
+        format!("; by the fall of the error some {hundreds} functions would reach it")
+    });
+    Some(format!(
+        "the tolerance {tolerance:e} is out of reach of {functions} functions{most}; reached: {error:.1e}{guide}{needed}"
+    ))
 }
 
 fn uncalibrated(scene: &Scene) -> Option<String> {

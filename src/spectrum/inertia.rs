@@ -206,12 +206,7 @@ impl WholeBasis {
         self.harmonics.iter().map(of).collect()
     }
 
-    fn add_blocks(
-        &self,
-        matrix: &mut Mat<c64>,
-        speed_rad_per_s: f64,
-        bounds: &[BoundedBlock],
-    ) {
+    fn add_blocks(&self, matrix: &mut Mat<c64>, speed_rad_per_s: f64, bounds: &[BoundedBlock]) {
         let mut first = 0;
         for (harmonic, bound) in self.harmonics.iter().zip(bounds) {
             let stiffness = &harmonic.rest + &harmonic.tension * speed_rad_per_s.powi(2);

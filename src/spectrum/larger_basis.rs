@@ -143,6 +143,17 @@ impl LargerBasis {
     ) -> Mat<f64> {
         self.added[component].softening(speed_rad_per_s, columns)
     }
+
+    /// What one part of the stiffness alone, given on the larger basis, would take off a frequency's square, qᵀK_cn S⁻¹ K_nc q.
+    /// `None` of a saw without the structure of a guided blade.
+    pub fn softening_by(&self, component: usize, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
+        let AddedFunctions::Structured { larger, kept } = &self.added[component] else {
+            return None;
+        };
+        let mut force = part * widened(larger, kept, shape);
+        kept.iter().for_each(|&place| force[(place, 0)] = 0.0);
+        Some((force.transpose() * larger.solve(&force))[(0, 0)])
+    }
 }
 
 impl AddedFunctions {
@@ -203,21 +214,24 @@ fn force_on_new(
     speed_rad_per_s: f64,
     columns: &Mat<f64>,
 ) -> Mat<f64> {
-    let mut wide = Mat::zeros(larger.inverse.order(), columns.ncols());
-    let rows = |k: usize| {
-        kept.iter()
-            .enumerate()
-            .map(move |(row, &place)| (row, place, k))
-    };
-    for (row, place, k) in (0..columns.ncols()).flat_map(rows) {
-        wide[(place, k)] = columns[(row, k)];
-    }
+    let wide = widened(larger, kept, columns);
     let product = larger.basis.times(wide.as_ref());
     let mut force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
-    for (_, place, k) in (0..columns.ncols()).flat_map(rows) {
-        force[(place, k)] = 0.0;
+    for k in 0..columns.ncols() {
+        kept.iter().for_each(|&place| force[(place, k)] = 0.0);
     }
     force
+}
+
+/// Columns of the old functions in the unknowns of the larger basis.
+fn widened(larger: &StructuredStiffness, kept: &[usize], columns: &Mat<f64>) -> Mat<f64> {
+    let mut wide = Mat::zeros(larger.inverse.order(), columns.ncols());
+    for k in 0..columns.ncols() {
+        for (row, &place) in kept.iter().enumerate() {
+            wide[(place, k)] = columns[(row, k)];
+        }
+    }
+    wide
 }
 
 impl DenseFunctions {

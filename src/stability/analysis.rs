@@ -13,6 +13,7 @@ use super::heat::HeatLimits;
 use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
+use super::out_of_reach::OutOfReach;
 use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
 use crate::campbell::Progress;
 use crate::scene::{Accuracy, Scene, rpm};
@@ -108,6 +109,8 @@ pub struct Analysis {
     pub estimated_relative_error: Option<f64>,
     /// Estimated errors of single numbers.
     pub estimates: Option<Estimates>,
+    /// What keeps the estimated errors above the tolerance of the scene, where they are and the chart is drawn in full.
+    pub out_of_reach: Option<OutOfReach>,
     /// The modes at rest, ascending.
     pub modes_at_rest: Vec<DescribedMode>,
     /// λ of the mode that grows fastest at the operating speed, or decays most slowly, where
@@ -178,6 +181,7 @@ impl Analysis {
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
+            out_of_reach: None,
             model,
             range_rad_per_s: range,
             chart,
@@ -197,7 +201,30 @@ impl Analysis {
         if let Some(listed) = listed {
             analysis.close_list(listed)?;
         }
+        if detail == Detail::Full {
+            analysis.out_of_reach = analysis.explained()?;
+        }
         Ok(analysis)
+    }
+
+    /// Largest estimated relative error of what the tolerance is promised for: critical speeds within the range and
+    /// frequencies at rest.
+    pub fn promised_error(&self) -> Option<f64> {
+        let at_rest = self.estimates.as_ref().map_or(0.0, |e| e.at_rest);
+        Some(self.estimated_relative_error?.max(at_rest))
+    }
+
+    fn explained(&self) -> Result<Option<OutOfReach>, AnalysisError> {
+        match (&self.estimates, self.promised_error()) {
+            (Some(estimates), Some(error)) => OutOfReach::of(
+                &self.scene,
+                &self.model.plate,
+                self.range_rad_per_s.1,
+                estimates,
+                error,
+            ),
+            _ => Ok(None),
+        }
     }
 
     /// Refines the mode at the operating speed, the last eigenvalue listed.

@@ -44,7 +44,7 @@ const fn steps_ahead(rung: usize) -> usize {
 /// what two steps ahead tell, on the smallest sizes.
 pub(super) const REMAINDER: Tuned = Tuned::new("stability/basis::REMAINDER", 1.8);
 /// Modes at rest that keep the tolerance: those that a chart shows.
-const MODES_AT_REST: usize = 12;
+pub(super) const MODES_AT_REST: usize = 12;
 /// The error is taken to fall by a factor between these from one size to the next. Over
 /// pads of 1e4 to 1e9 N/m and bores of 0.1 to 0.8 it did so by 0.01 to 0.75; where it
 /// falls faster, the estimate is too large, which is harmless.
@@ -180,7 +180,7 @@ pub(crate) fn resolved_plate(
 }
 
 /// The size that the error of a size of the ladder is measured against.
-fn ahead(rung: usize) -> Resolution {
+pub(super) fn ahead(rung: usize) -> Resolution {
     let mut sizes = LADDER
         .into_iter()
         .chain(BEYOND)

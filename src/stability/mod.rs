@@ -30,6 +30,7 @@ mod loci;
 mod matching;
 mod maximum;
 mod onsets;
+mod out_of_reach;
 mod pair_continuation;
 mod proof;
 mod root;
@@ -63,6 +64,7 @@ pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
+pub use out_of_reach::OutOfReach;
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};
 #[cfg(feature = "cli")]

@@ -73,6 +73,7 @@ pub fn dense_analysis(
         root_loci: None,
         estimated_relative_error: None,
         estimates: None,
+        out_of_reach: None,
         modes_at_rest: Vec::new(),
         fastest_operating: None,
         listed_backward_error: None,

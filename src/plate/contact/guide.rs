@@ -14,12 +14,14 @@ use super::{Contact, ContactTerms};
 /// The mean of φᵢφⱼ over the pad, times its stiffness, is K_g; times its damping, C.
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
-        let coupling = coupling(plate, self.angle_rad, circles(plate, self).into_iter());
-        if self.stiffness_n_per_m > 0.0 {
-            terms.add_symmetric_stiffness(Scale(self.stiffness_n_per_m) * &coupling);
-        }
+        let mut coupling = coupling(plate, self.angle_rad, circles(plate, self).into_iter());
         if self.damping_n_s_per_m > 0.0 {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
+        }
+        if self.stiffness_n_per_m > 0.0 {
+            // In place: of a large basis one copy is hundreds of megabytes.
+            coupling *= Scale(self.stiffness_n_per_m);
+            terms.add_symmetric_stiffness(coupling);
         }
     }
 }

@@ -91,8 +91,8 @@ impl ContactTerms {
 const ROUNDING: f64 = 1e-12;
 
 fn add(sum: &mut Option<Mat<f64>>, term: Mat<f64>) {
-    *sum = Some(match sum.take() {
-        Some(sum) => sum + term,
-        None => term,
-    });
+    match sum {
+        Some(sum) => *sum += term,
+        None => *sum = Some(term),
+    }
 }

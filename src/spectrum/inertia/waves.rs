@@ -103,12 +103,17 @@ impl Rows {
                 let own = columns.subrows(first, radial);
                 matmul(turned, Accum::Replace, turn.transpose(), own, 1.0, Par::Seq);
             }
-            waves.extend(of.values.iter().zip(weights).map(|(&stiffness, &weight)| Row {
-                harmonic,
-                stiffness,
-                weight,
-                size: 0.0,
-            }));
+            waves.extend(
+                of.values
+                    .iter()
+                    .zip(weights)
+                    .map(|(&stiffness, &weight)| Row {
+                        harmonic,
+                        stiffness,
+                        weight,
+                        size: 0.0,
+                    }),
+            );
         }
         for k in 0..both.ncols() {
             let (cosine, sine) = both.col_as_slice(k).split_at(total);

@@ -1,0 +1,132 @@
+//! Why a tolerance is out of reach of the largest basis: which guide bends the blade too sharply, and how many
+//! functions would follow it.
+
+use faer::{Col, Mat};
+
+use super::basis::{DENSE_LADDER, LADDER, MODES_AT_REST, REMAINDER, ahead};
+use super::error::AnalysisError;
+use super::estimate::Estimates;
+use crate::plate::{Contact, ContactTerms, Plate, Resolution};
+use crate::scene::{Guide, Scene};
+use crate::spectrum::{Assembled, LargerBasis};
+
+/// What keeps an analysis from the tolerance of its scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutOfReach {
+    /// Largest estimated relative error of critical speeds and frequencies at rest.
+    pub error: f64,
+    /// Index of the guide that takes the largest part in it.
+    pub guide: Option<usize>,
+    /// So many functions would reach it, if the error falls on by the power of their number by which it fell over the last
+    /// two sizes; `None` where that is far off.
+    pub functions: Option<f64>,
+    /// Whether larger bases are there, but not for a saw with damping or forces at the rim.
+    pub is_dense: bool,
+}
+
+/// Sizes over which the fall of the error is looked at.
+const STEPS_BACK: usize = 2;
+/// Numbers of functions beyond this are no advice.
+const MOST_FUNCTIONS: f64 = 1e6;
+
+impl OutOfReach {
+    /// Of a saw in the basis that was chosen for it, with the largest estimated error of what the tolerance is promised
+    /// for; `None` where that is reached.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] when an eigenproblem of a smaller basis fails.
+    pub fn of(
+        scene: &Scene,
+        plate: &Plate,
+        to_rad_per_s: f64,
+        estimates: &Estimates,
+        error: f64,
+    ) -> Result<Option<Self>, AnalysisError> {
+        let size = plate.resolution;
+        let is_own = |own: &(usize, usize)| *own == (size.max_diameters, size.radial_functions);
+        let rung = LADDER.iter().position(is_own).unwrap_or(0);
+        if error <= scene.tolerance() || rung < STEPS_BACK {
+            return Ok(None);
+        }
+        let coarse = Smaller::new(scene, rung - STEPS_BACK, to_rad_per_s)?;
+        let critical = estimates.critical.iter().copied();
+        let fine = critical.fold(estimates.at_rest, f64::max);
+        let orders = [&coarse.plate, plate].map(|plate| plate.degrees_of_freedom() as f64);
+        let power = (coarse.error / fine).ln() / (orders[1] / orders[0]).ln();
+        let functions = orders[1] * (error / scene.tolerance()).powf(1.0 / power);
+        let is_advice = power > 0.0 && functions < MOST_FUNCTIONS;
+        Ok(Some(OutOfReach {
+            error,
+            guide: coarse.sharpest(scene.guides()),
+            functions: is_advice.then_some(functions),
+            is_dense: rung + 1 == DENSE_LADDER.len(),
+        }))
+    }
+}
+
+/// The same saw on fewer functions.
+struct Smaller {
+    plate: Plate,
+    finer: Plate,
+    larger: LargerBasis,
+    /// Largest error of a critical speed within the range, or of a frequency at rest.
+    error: f64,
+    /// The wave that has it.
+    component: usize,
+    shape: Col<f64>,
+}
+
+impl Smaller {
+    fn new(scene: &Scene, rung: usize, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
+        let (max_diameters, radial_functions) = LADDER[rung];
+        let resolution = Resolution {
+            max_diameters,
+            radial_functions,
+        };
+        let plate = Plate::new(scene, resolution);
+        let finer = Plate::new(scene, ahead(rung));
+        let larger = LargerBasis::new(&plate, &finer)?;
+        let assembled = Assembled::of(&plate);
+        let critical = assembled.critical_speeds(&plate, Some(&|_| to_rad_per_s))?;
+        let within = critical.into_iter();
+        let within = within.filter(|c| c.speed_rad_per_s <= to_rad_per_s);
+        let within = within.map(|c| {
+            let error = larger.critical_error(&assembled.components, &c);
+            (error, c.component, c.shape)
+        });
+        let resting = assembled.modes_at_rest(MODES_AT_REST)?.into_iter();
+        let resting = resting.map(|mode| {
+            let error = larger.resting_error(&mode);
+            (error, mode.component, mode.shape)
+        });
+        let all = within.chain(resting);
+        let worst = all.max_by(|x, y| x.0.total_cmp(&y.0));
+        let none = || (0.0, 0, Col::zeros(plate.degrees_of_freedom()));
+        let (error, component, shape) = worst.unwrap_or_else(none);
+        Ok(Smaller {
+            plate,
+            finer,
+            larger,
+            error: REMAINDER.get() * error,
+            component,
+            shape,
+        })
+    }
+
+    /// The guide of which the force on the functions that are lacking gives way most.
+    fn sharpest(&self, guides: &[Guide]) -> Option<usize> {
+        let shape = Mat::from_fn(self.shape.nrows(), 1, |i, _| self.shape[i]);
+        let share = |guide: &Guide| {
+            let mut terms = ContactTerms::default();
+            guide.add_to(&self.finer, &mut terms);
+            let stiffness = terms.stiffness()?;
+            self.larger.softening_by(self.component, stiffness, &shape)
+        };
+        let shares = guides.iter().map(share);
+        let shares = shares
+            .enumerate()
+            .filter_map(|(k, share)| Some((k, share?)));
+        let sharpest = shares.max_by(|x, y| x.1.total_cmp(&y.1));
+        sharpest.map(|(guide, _)| guide)
+    }
+}
