@@ -8,19 +8,23 @@ use serde::{Deserialize, Serialize};
 
 use super::reply::Refusal;
 use crate::report::{Report, SensitivityEntry};
-use crate::scene::{Accuracy, Scene};
+use crate::scene::Scene;
 use crate::stability::{Analysis, AnalysisOptions, Detail};
 
 /// Which accuracy a chart is asked for at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fidelity {
-    /// Draft, whatever the scene says, and drawn at fewer speeds: for a saw that is just being
+    /// To [`DRAFT_TOLERANCE`], whatever the scene says, and drawn at fewer speeds: for a saw that is just being
     /// changed.
     Draft,
     /// The scene's own.
     Scene,
 }
+
+/// Of critical speeds and frequencies at rest, relative: less than the width of the strokes that show them, and half of the
+/// time that one half as large takes.
+const DRAFT_TOLERANCE: f64 = 2e-2;
 
 #[derive(Serialize)]
 struct Chart<'a> {
@@ -62,8 +66,7 @@ impl Charts {
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
             Fidelity::Draft => {
-                scene = scene
-                    .edited(|file| (file.accuracy, file.tolerance) = (Accuracy::Draft, None))?;
+                scene = scene.edited(|file| file.tolerance = Some(DRAFT_TOLERANCE))?;
                 Detail::Sketch
             }
             Fidelity::Scene => Detail::Full,

@@ -209,7 +209,7 @@ pub struct AccuracyEntry {
     pub tolerance: f64,
     /// Whether the estimate is within the tolerance: the largest basis may fall short of it.
     pub reached: bool,
-    /// Estimated relative error of the critical speeds, extrapolated from coarser bases.
+    /// Estimated relative error of the critical speeds within the range, from what a larger basis would change.
     pub estimated_relative_error: Option<f64>,
     /// Estimated relative error of the lowest frequencies at rest, measured on a larger basis.
     #[serde(default)]

@@ -104,8 +104,7 @@ pub struct Analysis {
     pub first_merge_rad_per_s: Option<f64>,
     /// The eigenvalues of the band at the flutter speed, or of the first of all.
     pub root_loci: Option<RootLoci>,
-    /// Estimated relative error of the critical speeds within the range, extrapolated from
-    /// coarser bases.
+    /// Estimated relative error of the critical speeds within the range, from what a larger basis would change.
     pub estimated_relative_error: Option<f64>,
     /// Estimated errors of single numbers.
     pub estimates: Option<Estimates>,

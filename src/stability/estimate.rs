@@ -63,8 +63,8 @@ impl BandError {
 /// speeds do: on twelve drawn saws the true error was up to 2.9 times what it tells.
 const GROWTH_REMAINDER: Tuned = Tuned::new("stability/estimate::GROWTH_REMAINDER", 3.0);
 /// Share of the error of a critical speed that the difference of two of them keeps where what a larger basis tells of both cancels:
-/// of 176 bands of drawn saws the growth of one, a thousandth of its speed wide, was off by four times its estimate without it.
-const WIDTH_REMAINDER: Tuned = Tuned::new("stability/estimate::WIDTH_REMAINDER", 0.02);
+/// of 176 bands of drawn saws the growth of two, less than a hundredth of their speed wide, was off by 0.07 of it.
+const WIDTH_REMAINDER: Tuned = Tuned::new("stability/estimate::WIDTH_REMAINDER", 0.1);
 /// Where the drawn frequencies are looked at, as shares of the range: speeds that a chart has
 /// however closely it is drawn.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];

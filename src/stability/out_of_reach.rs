@@ -3,10 +3,11 @@
 
 use faer::{Col, Mat};
 
-use super::basis::{DENSE_LADDER, LADDER, MODES_AT_REST, REMAINDER, ahead};
+use super::basis::{MODES_AT_REST, REMAINDER};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
-use crate::plate::{Contact, ContactTerms, Plate, Resolution};
+use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution};
+use crate::plate::{Contact, ContactTerms, Plate};
 use crate::scene::{Guide, Scene};
 use crate::spectrum::{Assembled, LargerBasis};
 
@@ -42,8 +43,7 @@ impl OutOfReach {
         estimates: &Estimates,
         error: f64,
     ) -> Result<Option<Self>, AnalysisError> {
-        let size = plate.resolution;
-        let is_own = |own: &(usize, usize)| *own == (size.max_diameters, size.radial_functions);
+        let is_own = |size: &(usize, usize)| resolution(*size) == plate.resolution;
         let rung = LADDER.iter().position(is_own).unwrap_or(0);
         if error <= scene.tolerance() || rung < STEPS_BACK {
             return Ok(None);
@@ -78,12 +78,7 @@ struct Smaller {
 
 impl Smaller {
     fn new(scene: &Scene, rung: usize, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
-        let (max_diameters, radial_functions) = LADDER[rung];
-        let resolution = Resolution {
-            max_diameters,
-            radial_functions,
-        };
-        let plate = Plate::new(scene, resolution);
+        let plate = Plate::new(scene, resolution(LADDER[rung]));
         let finer = Plate::new(scene, ahead(rung));
         let larger = LargerBasis::new(&plate, &finer)?;
         let assembled = Assembled::of(&plate);

@@ -7,9 +7,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::InstabilityKind;
-use super::basis::{ChosenBasis, DENSE_LADDER, LADDER, PAST_THE_RANGE};
+use super::basis::{ChosenBasis, PAST_THE_RANGE};
 use super::chart::{StabilityChart, chart};
 use super::error::AnalysisError;
+use super::ladder::{DENSE_LADDER, LADDER};
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
@@ -53,10 +54,10 @@ pub struct Setting {
     pub on_front: bool,
 }
 
-/// Sizes of the bases: those that a tolerance chooses from, but the least and the largest.
-const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0.split_at(1).1;
+/// Sizes of the bases: those that a tolerance chooses from, but the largest.
+const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0;
 /// Those of them that a dense eigenproblem of the order of the basis is asked of.
-const SINGLE_SIZES: &[(usize, usize)] = DENSE_LADDER.split_at(1).1;
+const SINGLE_SIZES: &[(usize, usize)] = DENSE_LADDER;
 /// The whole basis at every speed takes a hundred times as long: two sizes show it.
 const DENSE_SIZES: usize = 2;
 /// What counts as the truth: the largest basis.
