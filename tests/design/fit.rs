@@ -8,7 +8,7 @@ use crate::common::{assert_close, scene};
 use rayon::prelude::*;
 use sawflutter::fit::{Fit, FitError, Measurement, Options, Row};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{FitReport, StartEntry};
+use sawflutter::report::FitReport;
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 use std::f64::consts::TAU;
@@ -74,10 +74,12 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
     // 5 mm and 10 % off the rounded one.
     assert_close("radius", fit.parameters[0].value, 0.2, 0.04);
     assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.15);
-    // Every start, the farthest included, leads there.
-    let starts = FitReport::new(&fit).starts;
-    let reached = |start: &StartEntry| start.rms_hz.is_some_and(|rms| rms < 0.985);
-    assert!(starts.iter().all(reached), "{starts:?}");
+    // Every start, the farthest included, leads there; on the coarser basis of the starts the minimum is higher by as much as
+    // its rounding above costs.
+    for start in FitReport::new(&fit).starts {
+        let rms_hz = start.rms_hz.expect("an end");
+        assert!((rms_hz - fit.rms_hz).abs() < 0.003, "{rms_hz}");
+    }
 }
 
 /// Frequencies of the lowest modes, one row a speed.
