@@ -19,7 +19,7 @@ pub struct OutOfReach {
     /// Index of the guide that takes the largest part in it.
     pub guide: Option<usize>,
     /// So many functions would reach it, if the error falls on by the power of their number by which it fell over the last
-    /// two sizes; `None` where that is far off.
+    /// two sizes: right to a factor of two. `None` where that is far off.
     pub functions: Option<f64>,
     /// Whether larger bases are there, but not for a saw with damping or forces at the rim.
     pub is_dense: bool,

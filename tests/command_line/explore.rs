@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
+use sawflutter::scene::{Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
 use sawflutter::stability::Analysis;
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -112,9 +112,7 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     assert_eq!(answer.status, 200);
     let mut found = answer.json();
     let paper_saw = Scene::paper();
-    let scene = paper_saw
-        .edited(|saw| saw.accuracy = Accuracy::Draft)
-        .unwrap();
+    let scene = paper_saw.edited(|saw| saw.tolerance = Some(2e-2)).unwrap();
     let analysis = Analysis::new(&scene).unwrap();
     let report: Report = serde_json::from_value(found["report"].take()).unwrap();
     // Drawn at fewer speeds, but found by the same search on the same basis.

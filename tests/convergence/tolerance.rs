@@ -190,3 +190,34 @@ fn onsets_keep_the_tolerance() {
         worst.assert_at_most(&format!("onsets at {tolerance}"), tolerance);
     }
 }
+
+/// A saw with damping has no more than 732 functions. Of its two pads the small stiff one bends the blade more sharply than these
+/// follow, and without damping the same saw takes as many functions as the fall of the error promised, to a factor of two.
+#[test]
+fn what_is_out_of_reach_names_the_pad_and_the_functions_that_would_do() {
+    let saw = |damping_n_s_per_m: f64| {
+        let scene = Scene::paper().edited(|saw| {
+            let mut small = saw.guides[0];
+            small.angle_deg += 180.0;
+            small.stiffness_n_per_m = 1e8;
+            (small.radial_length_m, small.tangential_length_m) = (0.06, 0.06);
+            saw.guides.push(small);
+            saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
+            saw.tolerance = Some(1e-3);
+            (saw.cut, saw.measured) = (None, None);
+        });
+        Analysis::new(&scene.unwrap()).unwrap()
+    };
+    let damped = saw(10.0);
+    assert_eq!(damped.model.plate.degrees_of_freedom(), 732);
+    let found = damped.out_of_reach.expect("out of reach");
+    assert_eq!(found.guide, Some(1));
+    assert!(found.is_dense);
+    let undamped = saw(0.0);
+    assert_eq!(undamped.out_of_reach, None);
+    let needed = undamped.model.plate.degrees_of_freedom() as f64;
+    let told = found.functions.expect("a number of functions");
+    println!("{told} told, {needed} needed; {:.1e}", found.error);
+    // Sizes are steps of 1.5, and the power by which the error falls is that of the sizes before.
+    assert!((0.6..2.0).contains(&(told / needed)), "{told} {needed}");
+}
