@@ -41,6 +41,11 @@ impl Assembled {
         self.structure.is_some() || self.components.len() > 1
     }
 
+    /// The structure and the one component that has it.
+    fn structured(&self) -> Option<(&StructuredStiffness, &Component)> {
+        Some((self.structure.as_ref()?, self.components.first()?))
+    }
+
     /// The critical speeds of the plate up to a limit, which may depend on the lowest, and the lowest; all without
     /// a limit. Ascending.
     ///
@@ -53,12 +58,9 @@ impl Assembled {
         limit_rad_per_s: Option<&dyn Fn(f64) -> f64>,
     ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         Cancellation::current().check()?;
-        let structured = self.structure.as_ref().and_then(|structure| {
-            let [only] = self.components.as_slice() else {
-                return None;
-            };
-            critical_speeds_by(structure, only, limit_rad_per_s?)
-        });
+        let structured = self.structured();
+        let structured = structured
+            .and_then(|(structure, only)| critical_speeds_by(structure, only, limit_rad_per_s?));
         let found = match structured {
             Some(found) => Ok(vec![found]),
             None => self
@@ -77,13 +79,8 @@ impl Assembled {
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
     pub fn modes_at_rest(&self, count: usize) -> Result<Vec<RestingMode>, SpectrumError> {
-        let structured = self.structure.as_ref().and_then(|structure| {
-            let [only] = self.components.as_slice() else {
-                return None;
-            };
-            modes_at_rest_by(structure, only, count)
-        });
-        match structured {
+        let structured = self.structured();
+        match structured.and_then(|(structure, only)| modes_at_rest_by(structure, only, count)) {
             Some(found) => Ok(found),
             None => modes_at_rest(&self.components, count),
         }

@@ -52,8 +52,9 @@ impl WholeBasis {
         })
     }
 
-    /// K₀ with all columns that there are: what a larger basis would change is small, and stiff guides take part in it. Heave and tilt may have no stiffness but that of the guides: the
-    /// blocks hold them, and columns take away what they add. `None` as for [`Self::shifted`].
+    /// K₀ with all columns that there are: what a larger basis would change is small, and stiff guides take part in
+    /// it. Heave and tilt may have no stiffness but that of the guides: the blocks hold them, and columns take away
+    /// what they add. `None` as for [`Self::shifted`].
     pub fn at_rest(&self) -> Option<ShiftedBlocks> {
         let Coupling::Columns(columns) = &self.coupling else {
             return None;
