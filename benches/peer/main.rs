@@ -19,8 +19,8 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 const STUDY_TOLERANCE: f64 = 6e-3;
 const SWEEP: usize = 201;
 const LOW_MODES: usize = 6;
-/// (n_max, J) of 85, 264, 490 and 1001 functions.
-const SIZES: [(usize, usize); 4] = [(8, 5), (16, 8), (24, 10), (38, 13)];
+/// (n_max, J) of 85 to 4230 functions.
+const SIZES: [(usize, usize); 6] = [(8, 5), (16, 8), (24, 10), (38, 13), (56, 25), (70, 30)];
 
 fn main() {
     let repeats = std::env::var("REPEATS").map_or(5, |text| text.parse().unwrap_or(5));
@@ -143,7 +143,8 @@ fn range() -> (f64, f64) {
 
 fn charted(resolution: Resolution) -> Result<(), Failure> {
     let plate = Plate::new(&Scene::paper(), resolution);
-    let model = SpectralModel::new(plate, range(), Strategy::Reduced)?;
+    let critical = SpectralModel::critical_speeds_up_to(&plate, 1.05 * range().1)?;
+    let model = SpectralModel::with_critical(plate, critical, range(), Strategy::Reduced)?;
     chart(&model, range(), 51, &|_, _| ())?;
     Ok(())
 }

@@ -347,7 +347,8 @@ class AccuracyEntry(Entry):
     """Whether the estimate is within the tolerance: the largest basis may fall short of it."""
 
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds within the range, from what a larger basis would change."""
+    """Estimated relative error of the critical speeds within the range, from what a larger
+    basis would change."""
 
     estimated_resting_error: float | None
     """Estimated relative error of the lowest frequencies at rest, measured on a larger

@@ -28,7 +28,7 @@ const METHODS: [Method; 4] = [
 
 pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, "What digits cost", scene);
+    heading::draw(&mut sheet, "Computing time over true error", scene);
     let decades = |value: fn(&Setting) -> f64| {
         let logs = settings.iter().map(|s| value(s).max(1e-12).log10());
         let low = logs.clone().fold(f64::INFINITY, f64::min).floor();

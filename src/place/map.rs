@@ -4,7 +4,7 @@ use crate::campbell::even_speeds;
 
 use super::Progress;
 use super::growing::Grower;
-use super::outcome::{Outcome, REFUSED};
+use super::outcome::Outcome;
 use super::search::{Search, Tried};
 
 /// The goal over two freed numbers, the others as they were best when it was drawn. On the
@@ -23,6 +23,8 @@ pub(crate) struct Map {
     pub outcomes: Vec<Vec<Option<Outcome>>>,
     shares: [Vec<f64>; 2],
     axes: (usize, Option<usize>),
+    /// Shares of all numbers, of which the others stay where they are.
+    at: Vec<f64>,
 }
 
 /// The numbers to draw a map over: radius and angle of a pad if both are free, then others.
@@ -68,6 +70,7 @@ impl Map {
             outcomes: vec![vec![None; even.len()]; y_shares.len()],
             shares: [even, y_shares],
             axes: (x, y),
+            at: Vec::new(),
         }
     }
 
@@ -80,6 +83,7 @@ impl Map {
         grower: &Grower<'_>,
     ) -> Self {
         grower.begun(&self);
+        self.at = at.to_vec();
         let total = self.x.len() * self.y.len();
         let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
         self.outcomes = search.grid(at, (x, x_shares), (y, y_shares), &|seen| {
@@ -95,20 +99,23 @@ impl Map {
         [value(self.axes.0), self.axes.1.map_or(0.0, value)]
     }
 
-    /// The best saw of the map; `at` has the shares of the other numbers.
-    pub(super) fn cheapest(&self, at: &[f64]) -> Option<Tried> {
-        let cost = |o: &Option<Outcome>| o.as_ref().map_or(REFUSED, Outcome::cost);
-        let cells = self.outcomes.iter().enumerate().flat_map(|(row, of_row)| {
-            let cells = of_row.iter().enumerate();
-            cells.map(move |(column, outcome)| (cost(outcome), row, column))
-        });
-        let (cost, row, column) = cells.min_by(|x, y| x.0.total_cmp(&y.0))?;
-        let mut shares = at.to_vec();
-        shares[self.axes.0] = self.shares[0][column];
-        if let Some(y) = self.axes.1 {
-            shares[y] = self.shares[1][row];
-        }
-        Some(Tried { shares, cost })
+    /// The saws of the map, best first.
+    pub(super) fn cells(&self) -> Vec<Tried> {
+        let of_row = |(row, outcomes): (usize, &Vec<Option<Outcome>>)| -> Vec<Tried> {
+            let columns = outcomes.iter().enumerate();
+            let cell = |(column, outcome): (usize, &Option<Outcome>)| {
+                let mut shares = self.at.clone();
+                shares[self.axes.0] = self.shares[0][column];
+                if let Some(y) = self.axes.1 {
+                    shares[y] = self.shares[1][row];
+                }
+                Tried::new(shares, outcome.as_ref())
+            };
+            columns.map(cell).collect()
+        };
+        let mut cells: Vec<Tried> = self.outcomes.iter().enumerate().flat_map(of_row).collect();
+        cells.sort_by(|x, y| x.cost.total_cmp(&y.cost));
+        cells
     }
 }
 

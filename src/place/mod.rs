@@ -201,7 +201,9 @@ impl Placement {
             question: &question,
             evaluations: &evaluations,
         };
-        let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
+        let cells = map.as_ref().map_or(Vec::new(), Map::cells);
+        let budget = options.refine / SETTLED;
+        let settled = settle(&fine, &candidates, &cells, budget, progress);
         let before = fine.question.ask(scene)?;
         let tried = evaluations.load(Ordering::Relaxed);
         let chosen = Choice::between(scene, &freed, settled, before.clone(), tried)?;
@@ -269,7 +271,7 @@ fn look_everywhere(
     for _ in 0..if options.map < 2 { 0 } else { MAP_ROUNDS } {
         let map_of = Map::unknown(search, options.map);
         let drawn = map_of.drawn(search, &best.shares, progress, &grower);
-        let on_map = drawn.cheapest(&best.shares);
+        let on_map = cheapest(&drawn.cells());
         map = Some(drawn);
         match on_map {
             Some(better) if better.cost < best.cost => {

@@ -47,7 +47,7 @@ pub struct Seen<'a> {
 pub type See<'a> = &'a (dyn Fn(Seen<'_>) + Sync);
 
 impl Tried {
-    fn new(shares: Vec<f64>, outcome: Option<&Outcome>) -> Self {
+    pub fn new(shares: Vec<f64>, outcome: Option<&Outcome>) -> Self {
         let cost = outcome.map_or(REFUSED, Outcome::cost);
         Tried { shares, cost }
     }

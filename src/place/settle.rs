@@ -14,6 +14,9 @@ use super::{IDLE, PlaceError, Progress, cheapest};
 /// First and last steps of the refinement on that basis, as shares of the bounds.
 const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
 
+/// No more cells of a map are held against the candidates.
+const MOST_CELLS: usize = 64;
+
 /// The saw that is answered.
 pub struct Choice {
     pub scene: Scene,
@@ -81,19 +84,26 @@ pub fn basis_of_all(
         .unwrap_or(own))
 }
 
-/// Holds the candidates against each other on the basis asked for, and refines the best of them
-/// there until direct search finds nothing better.
+/// Holds the candidates against each other on the basis asked for, and with them the cells of the map, best first, that the coarse
+/// model holds for better than the best of these: next to a jump of the flutter speed all candidates may stand on the wrong
+/// side. Refines the best until direct search finds nothing better.
 pub fn settle(
     search: &Search<'_>,
     candidates: &[Tried],
+    cells: &[Tried],
     budget: u64,
     progress: Progress<'_>,
 ) -> Option<(Tried, Outcome)> {
     progress("refinement", 0, 1);
-    let settled: Vec<Tried> = candidates
-        .par_iter()
-        .map(|candidate| search.tried(candidate.shares.clone()))
-        .collect();
+    let on_this_basis = |some: &[Tried]| -> Vec<Tried> {
+        let tried = some.par_iter();
+        let tried = tried.map(|candidate| search.tried(candidate.shares.clone()));
+        tried.collect()
+    };
+    let mut settled = on_this_basis(candidates);
+    let best = cheapest(&settled)?;
+    let better = cells.partition_point(|cell| cell.cost < best.cost);
+    settled.extend(on_this_basis(&cells[..better.min(MOST_CELLS)]));
     let start = cheapest(&settled)?;
     let best = search.refine(&start, FINE_STEPS, budget);
     let outcome = search.outcome(&best.shares);

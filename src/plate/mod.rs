@@ -46,15 +46,15 @@ pub struct Resolution {
     pub radial_functions: usize,
 }
 
-/// Most diameters and most radial functions that may be asked for: beyond them digits are lost or
-/// memory is.
-const LARGEST: (usize, usize) = (64, 30);
+/// Most diameters and most radial functions that may be asked for, those of the finest basis that a tolerance chooses:
+/// beyond them memory is short.
+const LARGEST: (usize, usize) = (70, 30);
 
 impl Resolution {
     /// A basis as asked for.
     ///
     /// # Errors
-    /// [`RefusedValue`] where it is too small to bend, or larger than doubles and memory allow.
+    /// [`RefusedValue`] where it is too small to bend, or larger than memory allows.
     pub fn new(max_diameters: usize, radial_functions: usize) -> Result<Self, RefusedValue> {
         let (diameters, functions) = LARGEST;
         if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {

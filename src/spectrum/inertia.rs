@@ -19,6 +19,7 @@
 
 mod coupling;
 mod damped;
+mod free_waves;
 mod harmonic;
 mod jacobi;
 mod matrices;
@@ -35,8 +36,9 @@ pub use self::harmonic::Harmonic;
 pub use self::matrices::{ShiftedBlock, ShiftedBlocks};
 
 use self::coupling::{Columns, Coupling, LOOKS, in_waves};
+use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
-use self::waves::{FreeWaves, Waves};
+use self::waves::Waves;
 use super::component::frequency_scale;
 use super::hermitian::negative_eigenvalues;
 use crate::plate::{HarmonicBlock, Plate};

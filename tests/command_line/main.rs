@@ -12,6 +12,8 @@ mod faults;
 mod growth;
 mod input;
 mod membrane;
+#[cfg(target_os = "linux")]
+mod memory;
 mod program;
 mod refusals;
 mod scenes;

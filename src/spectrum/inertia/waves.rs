@@ -5,46 +5,13 @@ use std::sync::OnceLock;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, MatRef, Par, Scale, c64};
-use nalgebra::{DMatrix, DVector};
 
-use super::jacobi::Eigenvectors;
+use super::free_waves::FreeWaves;
 use super::{Bound, BoundedBlock, Harmonic};
 use crate::spectrum::hermitian::negative_eigenvalues;
 
 /// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.
 const RESONANT: f64 = 1e5;
-
-/// The waves of a harmonic at a speed, in those at rest.
-#[derive(Debug)]
-pub struct FreeWaves {
-    of: Eigenvectors,
-    /// A diagonal matrix in these waves that is no smaller than the weights.
-    weights: Vec<f64>,
-}
-
-impl FreeWaves {
-    pub fn new(harmonic: &Harmonic, speed_rad_per_s: f64) -> Self {
-        let mut block = &harmonic.resting_tension * speed_rad_per_s.powi(2);
-        for (i, own) in harmonic.resting.eigenvalues.iter().enumerate() {
-            block[(i, i)] += own;
-        }
-        let of = Eigenvectors::of(block);
-        let weights = diagonal_bound(&harmonic.weights, &of.vectors);
-        FreeWaves { of, weights }
-    }
-}
-
-/// d of VᵀWV ≤ diag(d), W diagonal and positive: scaled to a diagonal of ones its eigenvalues are at most the sums of its
-/// rows (Gershgorin).
-fn diagonal_bound(weights: &[f64], vectors: &DMatrix<f64>) -> Vec<f64> {
-    let roots = DVector::from_iterator(weights.len(), weights.iter().map(|w| w.sqrt()));
-    let scaled = DMatrix::from_diagonal(&roots) * vectors;
-    let turned = scaled.tr_mul(&scaled);
-    let size = |i: usize| turned[(i, i)].sqrt();
-    let row = |i: usize| (0..weights.len()).map(move |k| (i, k));
-    let sum = |i: usize| -> f64 { row(i).map(|(i, k)| turned[(i, k)].abs() / size(k)).sum() };
-    (0..weights.len()).map(|i| size(i) * sum(i)).collect()
-}
 
 /// The waves of all harmonics at a speed.
 #[derive(Debug)]
