@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::reply::Refusal;
 use crate::report::{Report, SensitivityEntry};
-use crate::scene::Scene;
+use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
 
 /// Which accuracy a chart is asked for at.
@@ -66,7 +66,9 @@ impl Charts {
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
             Fidelity::Draft => {
-                scene = scene.edited(|file| file.tolerance = Some(DRAFT_TOLERANCE))?;
+                scene = scene.edited(|file| {
+                    (file.accuracy, file.tolerance) = (Accuracy::Draft, Some(DRAFT_TOLERANCE));
+                })?;
                 Detail::Sketch
             }
             Fidelity::Scene => Detail::Full,

@@ -82,8 +82,8 @@ impl Map {
         progress: Progress<'_>,
         grower: &Grower<'_>,
     ) -> Self {
-        grower.begun(&self);
         self.at = at.to_vec();
+        grower.begun(&self);
         let total = self.x.len() * self.y.len();
         let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
         self.outcomes = search.grid(at, (x, x_shares), (y, y_shares), &|seen| {

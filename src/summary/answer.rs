@@ -3,7 +3,7 @@
 use std::fmt::{Result, Write};
 
 use super::wrapped;
-use crate::report::{OperatingEntry, Report, StabilityState};
+use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
 
 /// Whether the saw can run at its speed, and at which others.
 pub fn answer(text: &mut String, report: &Report) -> Result {
@@ -100,7 +100,9 @@ fn flutter(text: &mut String, report: &Report) -> Result {
     let threshold = report.flutter_threshold_per_s;
     match report.flutter_speed_rpm {
         Some(rpm) => {
-            let error = report.accuracy.estimated_relative_error;
+            let begins = |band: &&InstabilityEntry| band.counted_rpm.iter().any(|c| c[0] == rpm);
+            let band = report.instabilities.iter().filter(is_flutter).find(begins);
+            let error = band.and_then(|band| band.estimated_relative_error);
             let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
             writeln!(
                 text,
@@ -120,6 +122,10 @@ fn flutter(text: &mut String, report: &Report) -> Result {
         ),
         None => Ok(()),
     }
+}
+
+fn is_flutter(band: &&InstabilityEntry) -> bool {
+    band.kind == InstabilityKind::Flutter
 }
 
 fn open_end(report: &Report, rpm: f64) -> &'static str {

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use sawflutter::report::Report;
-use sawflutter::scene::{Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
+use sawflutter::scene::{Accuracy, Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
 use sawflutter::stability::Analysis;
 use serde_json::{Value, json};
 use tempfile::TempDir;

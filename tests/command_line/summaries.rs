@@ -158,3 +158,20 @@ fn examples_of_every_help_fit_80_columns() {
         }
     }
 }
+
+/// The error beside the flutter speed is that of its band and not that of the critical speeds, which is smaller.
+#[test]
+fn the_flutter_speed_has_the_error_of_its_band() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, Scene::paper().file());
+    let output = run(&["analyze", scene.to_str().unwrap()], &folder);
+    let report = std::fs::read(out(&folder).join("report.json")).unwrap();
+    let report: Report = serde_json::from_slice(&report).unwrap();
+    let rpm = report.flutter_speed_rpm.unwrap();
+    let band = report.instabilities.iter().find(|b| b.from_rpm == rpm);
+    let share = band.unwrap().estimated_relative_error.unwrap();
+    assert!(share > report.accuracy.estimated_relative_error.unwrap());
+    let line = format!("Flutter speed: {rpm:.0} rpm ± {:.1} ", share * rpm);
+    let said = text(&output.stdout);
+    assert!(said.contains(&line), "{line} in {said}");
+}
