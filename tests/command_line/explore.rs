@@ -112,7 +112,9 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     assert_eq!(answer.status, 200);
     let mut found = answer.json();
     let paper_saw = Scene::paper();
-    let scene = paper_saw.edited(|saw| saw.tolerance = Some(2e-2)).unwrap();
+    let scene =
+        paper_saw.edited(|saw| (saw.accuracy, saw.tolerance) = (Accuracy::Draft, Some(2e-2)));
+    let scene = scene.unwrap();
     let analysis = Analysis::new(&scene).unwrap();
     let report: Report = serde_json::from_value(found["report"].take()).unwrap();
     // Drawn at fewer speeds, but found by the same search on the same basis.
