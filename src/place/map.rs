@@ -5,7 +5,7 @@ use crate::campbell::even_speeds;
 use super::Progress;
 use super::growing::Grower;
 use super::outcome::Outcome;
-use super::search::{Search, Tried};
+use super::search::{Search, Seen, Tried};
 
 /// The goal over two freed numbers, the others as they were best when it was drawn. On the
 /// coarse basis of the search.
@@ -85,12 +85,25 @@ impl Map {
         self.at = at.to_vec();
         grower.begun(&self);
         let total = self.x.len() * self.y.len();
-        let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
-        self.outcomes = search.grid(at, (x, x_shares), (y, y_shares), &|seen| {
+        let seen = |seen: Seen<'_>| {
             progress("map", seen.done, total);
             grower.filled(&seen);
-        });
+        };
+        let shares_of = |index| self.shares_of(index);
+        let flat = search.outcomes(total, shares_of, &seen, |_, outcome| outcome);
+        self.outcomes = flat.chunks(self.x.len()).map(<[_]>::to_vec).collect();
         self
+    }
+
+    /// Of a saw of the map, row by row.
+    fn shares_of(&self, index: usize) -> Vec<f64> {
+        let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
+        let mut shares = self.at.clone();
+        shares[x] = x_shares[index % x_shares.len()];
+        if let Some(y) = y {
+            shares[y] = y_shares[index / x_shares.len()];
+        }
+        shares
     }
 
     /// Where shares lie on the axes.
@@ -101,19 +114,9 @@ impl Map {
 
     /// The saws of the map, best first.
     pub(super) fn cells(&self) -> Vec<Tried> {
-        let of_row = |(row, outcomes): (usize, &Vec<Option<Outcome>>)| -> Vec<Tried> {
-            let columns = outcomes.iter().enumerate();
-            let cell = |(column, outcome): (usize, &Option<Outcome>)| {
-                let mut shares = self.at.clone();
-                shares[self.axes.0] = self.shares[0][column];
-                if let Some(y) = self.axes.1 {
-                    shares[y] = self.shares[1][row];
-                }
-                Tried::new(shares, outcome.as_ref())
-            };
-            columns.map(cell).collect()
-        };
-        let mut cells: Vec<Tried> = self.outcomes.iter().enumerate().flat_map(of_row).collect();
+        let cells = self.outcomes.iter().flatten().enumerate();
+        let cells = cells.map(|(k, outcome)| Tried::new(self.shares_of(k), outcome.as_ref()));
+        let mut cells: Vec<Tried> = cells.collect();
         cells.sort_by(|x, y| x.cost.total_cmp(&y.cost));
         cells
     }

@@ -68,7 +68,7 @@ impl Search<'_> {
     }
 
     /// What `count` saws are worth, in their order, computed on all threads.
-    fn outcomes<T: Send>(
+    pub fn outcomes<T: Send>(
         &self,
         count: usize,
         shares_of: impl Fn(usize) -> Vec<f64> + Sync,
@@ -140,27 +140,6 @@ impl Search<'_> {
             },
             _ => start.clone(),
         }
-    }
-
-    /// The cost of every pair of two shares, the others as they are: one row for each of `y`.
-    pub fn grid(
-        &self,
-        at: &[f64],
-        (x, x_shares): (usize, &[f64]),
-        (y, y_shares): (Option<usize>, &[f64]),
-        see: See<'_>,
-    ) -> Vec<Vec<Option<Outcome>>> {
-        let shares_of = |index: usize| {
-            let mut shares = at.to_vec();
-            shares[x] = x_shares[index % x_shares.len()];
-            if let Some(y) = y {
-                shares[y] = y_shares[index / x_shares.len()];
-            }
-            shares
-        };
-        let count = x_shares.len() * y_shares.len();
-        let flat = self.outcomes(count, shares_of, see, |_, outcome| outcome);
-        flat.chunks(x_shares.len()).map(<[_]>::to_vec).collect()
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::c64;
 
 use super::branches::{Numbered, standing};
-use super::remarks::{reached, terms, warnings};
+use super::remarks::{terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, ExcitationEntry,
     HarmonicEntry, InCutEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
@@ -62,7 +62,7 @@ impl Analysis {
                 radial_functions: resolution.radial_functions,
                 degrees_of_freedom: model.plate.degrees_of_freedom(),
                 tolerance: scene.tolerance(),
-                reached: reached(scene, analysis),
+                reached: analysis.reaches_tolerance(),
                 estimated_relative_error: analysis.estimated_relative_error,
                 estimated_resting_error: analysis.estimates.as_ref().map(|e| e.at_rest),
                 estimated_drawn_error: analysis.estimates.as_ref().map(|e| e.drawn),

@@ -76,12 +76,6 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     terms
 }
 
-/// Whether the estimated error is within the tolerance asked for.
-pub fn reached(scene: &Scene, analysis: &Analysis) -> bool {
-    let error = analysis.promised_error();
-    error.is_some_and(|error| error <= scene.tolerance())
-}
-
 /// Limits of the model that this scene comes near to.
 pub fn warnings(
     scene: &Scene,
@@ -107,7 +101,7 @@ pub fn warnings(
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
-    if reached(scene, analysis) {
+    if analysis.reaches_tolerance() {
         return None;
     }
     let error = analysis.promised_error()?;

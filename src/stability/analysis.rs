@@ -176,7 +176,7 @@ impl Analysis {
             Some(_) if detail == Detail::Full => Some(Onsets::idling(scene, range)?),
             _ => None,
         };
-        let mut analysis = Analysis {
+        let analysis = Analysis {
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),
@@ -194,16 +194,21 @@ impl Analysis {
             idling,
             crossings,
         };
-        if let Some(speed) = scene.operating_rad_per_s() {
-            analysis.fastest_operating = analysis.fastest(speed)?;
+        analysis.completed(detail, listed)
+    }
+
+    /// With what is told of an analysis as a whole.
+    fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
+        if let Some(speed) = self.scene.operating_rad_per_s() {
+            self.fastest_operating = self.fastest(speed)?;
         }
         if let Some(listed) = listed {
-            analysis.close_list(listed)?;
+            self.close_list(listed)?;
         }
-        if detail == Detail::Full {
-            analysis.out_of_reach = analysis.explained()?;
+        if detail == Detail::Full && !self.reaches_tolerance() {
+            self.out_of_reach = self.explained()?;
         }
-        Ok(analysis)
+        Ok(self)
     }
 
     /// Largest estimated relative error of what the tolerance is promised for: critical speeds within the range and
@@ -211,6 +216,12 @@ impl Analysis {
     pub fn promised_error(&self) -> Option<f64> {
         let at_rest = self.estimates.as_ref().map_or(0.0, |e| e.at_rest);
         Some(self.estimated_relative_error?.max(at_rest))
+    }
+
+    /// Whether the estimated errors are within the tolerance of the scene: the largest basis may fall short of it.
+    pub fn reaches_tolerance(&self) -> bool {
+        let error = self.promised_error();
+        error.is_some_and(|error| error <= self.scene.tolerance())
     }
 
     fn explained(&self) -> Result<Option<OutOfReach>, AnalysisError> {

@@ -14,8 +14,6 @@ use crate::spectrum::{Assembled, LargerBasis};
 /// What keeps an analysis from the tolerance of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutOfReach {
-    /// Largest estimated relative error of critical speeds and frequencies at rest.
-    pub error: f64,
     /// Index of the guide that takes the largest part in it.
     pub guide: Option<usize>,
     /// So many functions would reach it, if the error falls on by the power of their number by which it fell over the last
@@ -32,7 +30,7 @@ const MOST_FUNCTIONS: f64 = 1e6;
 
 impl OutOfReach {
     /// Of a saw in the basis that was chosen for it, with the largest estimated error of what the tolerance is promised
-    /// for; `None` where that is reached.
+    /// for; `None` of a basis that none two sizes smaller is held against.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem of a smaller basis fails.
@@ -45,7 +43,7 @@ impl OutOfReach {
     ) -> Result<Option<Self>, AnalysisError> {
         let is_own = |size: &(usize, usize)| resolution(*size) == plate.resolution;
         let rung = LADDER.iter().position(is_own).unwrap_or(0);
-        if error <= scene.tolerance() || rung < STEPS_BACK {
+        if rung < STEPS_BACK {
             return Ok(None);
         }
         let coarse = Smaller::new(scene, rung - STEPS_BACK, to_rad_per_s)?;
@@ -56,7 +54,6 @@ impl OutOfReach {
         let functions = orders[1] * (error / scene.tolerance()).powf(1.0 / power);
         let is_advice = power > 0.0 && functions < MOST_FUNCTIONS;
         Ok(Some(OutOfReach {
-            error,
             guide: coarse.sharpest(scene.guides()),
             functions: is_advice.then_some(functions),
             is_dense: rung + 1 == DENSE_LADDER.len(),

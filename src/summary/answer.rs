@@ -100,8 +100,11 @@ fn flutter(text: &mut String, report: &Report) -> Result {
     let threshold = report.flutter_threshold_per_s;
     match report.flutter_speed_rpm {
         Some(rpm) => {
-            let begins = |band: &&InstabilityEntry| band.counted_rpm.iter().any(|c| c[0] == rpm);
-            let band = report.instabilities.iter().filter(is_flutter).find(begins);
+            let is_its = |band: &&InstabilityEntry| {
+                band.kind == InstabilityKind::Flutter
+                    && band.counted_rpm.iter().any(|counted| counted[0] == rpm)
+            };
+            let band = report.instabilities.iter().find(is_its);
             let error = band.and_then(|band| band.estimated_relative_error);
             let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
             writeln!(
@@ -122,10 +125,6 @@ fn flutter(text: &mut String, report: &Report) -> Result {
         ),
         None => Ok(()),
     }
-}
-
-fn is_flutter(band: &&InstabilityEntry) -> bool {
-    band.kind == InstabilityKind::Flutter
 }
 
 fn open_end(report: &Report, rpm: f64) -> &'static str {
