@@ -7,9 +7,9 @@ use faer::{Col, c64};
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
-use super::companion::companion_eigenpairs;
 use super::error::SpectrumError;
 use super::free_wave;
+use super::half_order;
 use super::projection::Projection;
 use super::reflected::KnownStates;
 use super::residual::MatrixNorms;
@@ -111,7 +111,7 @@ impl Component {
         let system = &self.at(speed_rad_per_s).reduced;
         match self.solution {
             Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed_rad_per_s),
-            _ => companion_eigenpairs(system, speed_rad_per_s),
+            _ => half_order::eigenpairs(system, speed_rad_per_s),
         }
     }
 }

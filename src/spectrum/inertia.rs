@@ -35,7 +35,7 @@ pub use self::damped::DampedBasis;
 pub use self::harmonic::Harmonic;
 pub use self::matrices::{ShiftedBlock, ShiftedBlocks};
 
-use self::coupling::{Columns, Coupling, LOOKS, in_waves};
+use self::coupling::{Columns, Coupling, Kept, LOOKS, in_waves};
 use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
 use self::waves::Waves;
@@ -60,12 +60,21 @@ const LONG: f64 = 1e-3;
 impl WholeBasis {
     /// Of a plate; its damping is left aside.
     pub fn new(plate: &Plate) -> Self {
+        Self::with_columns(plate, Kept::All)
+    }
+
+    /// The same, to be solved and multiplied with to a millionth: in a third of the time.
+    pub fn nearly(plate: &Plate) -> Self {
+        Self::with_columns(plate, Kept::Few)
+    }
+
+    fn with_columns(plate: &Plate, kept: Kept) -> Self {
         let harmonics = Self::harmonics(plate);
         let order = plate.degrees_of_freedom();
         let guides = plate.contact.stiffness();
         let columns = match (&plate.edge_stiffness, guides) {
-            (None, Some(guides)) => Columns::new(guides, &harmonics),
-            (None, None) => Columns::new(&Mat::zeros(order, order), &harmonics),
+            (None, Some(guides)) => Columns::new(guides, &harmonics, kept),
+            (None, None) => Columns::new(&Mat::zeros(order, order), &harmonics, kept),
             (Some(_), _) => None,
         };
         let coupling = columns.map_or_else(

@@ -51,8 +51,8 @@ const INDEPENDENT: f64 = 1e-10;
 /// Pairs on a span.
 struct Ritz {
     multiples: Vec<f64>,
-    /// x, Ax and Bx.
-    vectors: [Mat<f64>; 3],
+    /// x in the vectors of the span.
+    shapes: Vec<Col<f64>>,
 }
 
 impl Pencil<'_> {
@@ -79,14 +79,14 @@ impl Pencil<'_> {
                 ritz.multiples.partition_point(|m| *m <= BEYOND * limit)
             });
             let improved = (sought + GUARD).min(ritz.multiples.len());
-            let (corrections, errors) = self.corrections(&ritz, improved);
+            let (corrections, errors) = self.corrections(&span, &ritz, improved);
             let error = errors[..sought].iter().copied().fold(0.0, f64::max);
             let stalls = error <= ROUNDING && error > 0.25 * before;
             let is_settled = error <= TOLERANCE || stalls;
             if let Some(limit) = limit.filter(|_| is_settled)
                 && is_complete(&ritz.multiples[..sought], limit, count)
             {
-                return Some(ritz.pairs(limit));
+                return Some(span.pairs(&ritz, limit));
             }
             before = match is_settled {
                 true => {
@@ -99,27 +99,29 @@ impl Pencil<'_> {
             let open = Mat::from_fn(corrections.nrows(), places.len(), |i, k| {
                 corrections[(i, places[k])]
             });
-            span.add(self, open.as_ref());
+            // One more step of the inverse iteration costs less than the Ritz pairs of another round.
+            let softened = span.add(self, open.as_ref());
+            span.add(self, unit_columns(self.structure.solve(&softened)).as_ref());
         }
         None
     }
 
     /// A⁻¹(Ax − mBx) of the first pairs, and how far their m are estimated to be off.
-    fn corrections(&self, ritz: &Ritz, count: usize) -> (Mat<f64>, Vec<f64>) {
-        let [x, ax, bx] = &ritz.vectors;
-        let mut corrections = Mat::zeros(x.nrows(), count);
-        let errors = (0..count).map(|k| {
+    fn corrections(&self, span: &Span, ritz: &Ritz, count: usize) -> (Mat<f64>, Vec<f64>) {
+        let [x, ax, bx] = span.lifted(ritz, count);
+        let mut residuals = Mat::zeros(x.nrows(), count);
+        for k in 0..count {
             let residual = ax.col(k) - Scale(ritz.multiples[k]) * bx.col(k);
-            let correction = self.structure.inverse.times(residual.as_ref());
-            let gain: f64 = correction.transpose() * &residual;
+            residuals.col_mut(k).copy_from(residual);
+        }
+        let corrections = self.structure.solve(&residuals);
+        let errors = (0..count).map(|k| {
+            let gain: f64 = corrections.col(k).transpose() * residuals.col(k);
             let energy: f64 = x.col(k).transpose() * ax.col(k);
-            let size = correction.norm_l2();
-            let unit = if size > 0.0 { 1.0 / size } else { 0.0 };
-            corrections.col_mut(k).copy_from(Scale(unit) * correction);
             gain.abs() / energy
         });
         let errors = errors.collect();
-        (corrections, errors)
+        (unit_columns(corrections), errors)
     }
 }
 
@@ -131,6 +133,17 @@ fn is_complete(found: &[f64], limit: f64, count: &dyn Fn(f64) -> Option<usize>) 
         .into_iter()
         .find_map(|place| Some((place, count(place)?)));
     counted.is_some_and(|(place, count)| found.partition_point(|m| *m <= place) == count)
+}
+
+/// The same columns of unit length; zeros stay zeros.
+fn unit_columns(mut columns: Mat<f64>) -> Mat<f64> {
+    for k in 0..columns.ncols() {
+        let size = columns.col(k).norm_l2();
+        if size > 0.0 {
+            columns.col_mut(k).iter_mut().for_each(|x| *x /= size);
+        }
+    }
+    columns
 }
 
 /// Orthonormal vectors with A and B times them.
@@ -145,8 +158,8 @@ impl Span {
         }
     }
 
-    /// Adds what is new of some vectors.
-    fn add(&mut self, pencil: &Pencil<'_>, more: MatRef<'_, f64>) {
+    /// Adds what is new of some vectors, and gives back B times it.
+    fn add(&mut self, pencil: &Pencil<'_>, more: MatRef<'_, f64>) -> Mat<f64> {
         let span = &self.vectors[0];
         let mut new = more.to_owned();
         for _ in 0..2 {
@@ -167,9 +180,10 @@ impl Span {
             Softening::Rotation => Scale(-1.0) * product.spin,
             Softening::Mass => new.clone(),
         };
-        for (all, more) in self.vectors.iter_mut().zip([new, stiffened, softened]) {
-            *all = faer::concat![[&*all, &more]];
+        for (all, more) in self.vectors.iter_mut().zip([&new, &stiffened, &softened]) {
+            *all = faer::concat![[&*all, more]];
         }
+        softened
     }
 
     fn ritz(&self) -> Option<Ritz> {
@@ -179,21 +193,23 @@ impl Span {
             Scale(0.5) * (&half + half.transpose())
         };
         let pairs = singular_multiples(&small(av), &[], &small(bv)).ok()?;
-        let shapes = Mat::from_fn(v.ncols(), pairs.len(), |i, k| pairs[k].1[i]);
-        let vectors = [v * &shapes, av * &shapes, bv * &shapes];
-        Some(Ritz {
-            multiples: pairs.into_iter().map(|(m, _)| m).collect(),
-            vectors,
-        })
+        let (multiples, shapes) = pairs.into_iter().unzip();
+        Some(Ritz { multiples, shapes })
     }
-}
 
-impl Ritz {
-    fn pairs(&self, limit: f64) -> Vec<(f64, Col<f64>)> {
-        let count = self.multiples.partition_point(|m| *m <= limit);
+    /// x, Ax and Bx of the first pairs.
+    fn lifted(&self, ritz: &Ritz, count: usize) -> [Mat<f64>; 3] {
+        let [v, av, bv] = &self.vectors;
+        let shapes = Mat::from_fn(v.ncols(), count, |i, k| ritz.shapes[k][i]);
+        [v * &shapes, av * &shapes, bv * &shapes]
+    }
+
+    fn pairs(&self, ritz: &Ritz, limit: f64) -> Vec<(f64, Col<f64>)> {
+        let count = ritz.multiples.partition_point(|m| *m <= limit);
+        let [x, ..] = self.lifted(ritz, count);
         let pair = |k: usize| {
-            let x = self.vectors[0].col(k);
-            (self.multiples[k], Scale(1.0 / x.norm_l2()) * x)
+            let x = x.col(k);
+            (ritz.multiples[k], Scale(1.0 / x.norm_l2()) * x)
         };
         (0..count).map(pair).collect()
     }

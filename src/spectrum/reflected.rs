@@ -9,6 +9,7 @@ use crate::system::GyroscopicSystem;
 
 use super::companion::companion_eigenpairs;
 use super::error::SpectrumError;
+use super::half_order;
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
 use super::mode_pair::{ModePair, standing_states};
@@ -88,10 +89,28 @@ impl<'a> ReflectedModel<'a> {
         }
     }
 
-    /// Those of its lowest modes, also those that are no modes of their own: the mirror images of
-    /// growing ones.
+    /// The same at a speed where no two waves are about to coalesce, in a third of the time.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn modes_apart(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let pairs = self.pairs_apart(speed_rad_per_s)?;
+        Ok(classify(self.system, speed_rad_per_s, 0, pairs))
+    }
+
+    fn pairs_apart(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
+        if self.local.is_some() {
+            return self.pairs(speed_rad_per_s);
+        }
+        self.counters.cancellation.check()?;
+        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        half_order::eigenpairs(self.system, speed_rad_per_s)
+    }
+
+    /// Those of its lowest modes, also those that are no modes of their own, the mirror images of
+    /// growing ones: to span others with, and to be refined.
     fn low_pairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let mut pairs = self.pairs(speed_rad_per_s)?;
+        let mut pairs = self.pairs_apart(speed_rad_per_s)?;
         pairs.retain(|(lambda, _)| lambda.im <= SPAN_MARGIN.get() * self.height_rad_per_s);
         Ok(pairs)
     }

@@ -23,7 +23,15 @@ impl StructuredStiffness {
     /// Of a plate that guides hold; `None` where they take too many columns, where loads at the rim
     /// couple every wave with every other, and where K₀ is singular.
     pub fn of(plate: &Plate) -> Option<Self> {
-        let basis = WholeBasis::new(plate);
+        Self::by(WholeBasis::new(plate))
+    }
+
+    /// The same to a millionth.
+    pub fn nearly(plate: &Plate) -> Option<Self> {
+        Self::by(WholeBasis::nearly(plate))
+    }
+
+    fn by(basis: WholeBasis) -> Option<Self> {
         let inverse = Inverse::by_blocks(&basis.at_rest()?)?;
         Some(StructuredStiffness { basis, inverse })
     }

@@ -6,7 +6,7 @@
 //! of its lowest frequencies at rest is below the tolerance.
 
 use super::error::AnalysisError;
-use super::ladder::{DENSE_LADDER, LADDER, ahead, larger_than, resolution};
+use super::ladder::{DENSE_LADDER, LADDER, ahead, larger_than, resolution, rung_of};
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
 use crate::spectrum::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, SpectralModel};
@@ -53,6 +53,19 @@ impl ChosenBasis {
     /// not elastic any more, or when the largest basis does not hold the waves that are
     /// reflected within it.
     pub fn new(scene: &Scene, tolerance: f64) -> Result<Self, AnalysisError> {
+        Self::at_least(scene, tolerance, resolution(LADDER[0]))
+    }
+
+    /// The same of the sizes from one on that a saw much like this one took: without the smaller ones, which this saw
+    /// would hardly do with, it costs half.
+    ///
+    /// # Errors
+    /// Those of [`ChosenBasis::new`].
+    pub fn at_least(
+        scene: &Scene,
+        tolerance: f64,
+        least: Resolution,
+    ) -> Result<Self, AnalysisError> {
         let cancellation = Cancellation::current();
         let fastest = fastest_rad_per_s(scene.blade());
         if let Some(sweep) = scene.sweep().filter(|sweep| sweep.to_rad_per_s > fastest) {
@@ -61,7 +74,7 @@ impl ChosenBasis {
                 limit_rpm: rpm(fastest),
             });
         }
-        let mut rung = 0;
+        let mut rung = rung_of(least);
         loop {
             cancellation.check()?;
             let plate = Plate::new(scene, resolution(LADDER[rung]));

@@ -244,7 +244,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
+            Some(low) => low.modes_apart(speed_rad_per_s)?,
             None => return Ok(0.0),
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter())

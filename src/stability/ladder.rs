@@ -42,6 +42,12 @@ pub(super) fn larger_than(least: Resolution) -> impl Iterator<Item = Resolution>
     larger.map(resolution)
 }
 
+/// Where a size of the ladder stands in it; any other counts as the first.
+pub(super) fn rung_of(size: Resolution) -> usize {
+    let place = LADDER.iter().position(|rung| resolution(*rung) == size);
+    place.unwrap_or(0)
+}
+
 /// A size of the ladder.
 pub(super) const fn resolution((max_diameters, radial_functions): (usize, usize)) -> Resolution {
     Resolution {

@@ -6,12 +6,16 @@
 //! machine can compute any of them. Every point of the grid gets the same deviations: what
 //! differs between two of them is then due to the grid.
 
+use std::sync::OnceLock;
+
 use super::distribution::Distribution;
 use super::file::{StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
 use crate::check::{Criterion, Limits, LimitsFile};
+use crate::plate::Resolution;
 use crate::scene::{Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
-use crate::stability::ChosenBasis;
+use crate::spectrum::SpectrumError;
+use crate::stability::{AnalysisError, ChosenBasis};
 
 /// Saws of a study: as many as there are points but one, and a log of 600 GB.
 const MAX_SAWS: usize = u32::MAX as usize;
@@ -31,6 +35,8 @@ pub struct Study {
     /// Saws in each point of the grid.
     drawn: usize,
     count: usize,
+    /// Of the saw without deviations, once a saw is analysed.
+    basis: OnceLock<Option<Resolution>>,
 }
 
 /// One of several equal parts of a study, for a machine of its own.
@@ -85,6 +91,7 @@ impl Study {
             varying,
             drawn,
             count,
+            basis: OnceLock::new(),
         })
     }
 
@@ -106,6 +113,25 @@ impl Study {
     /// Last speed looked at, the same for every saw.
     pub fn to_rad_per_s(&self) -> f64 {
         self.to_rad_per_s
+    }
+
+    /// The basis that the saw without deviations takes, from which that of every saw is looked for: it is the same
+    /// whichever saws are computed, and in which order. `None` where that saw cannot be analysed.
+    pub(super) fn basis(&self) -> Option<Resolution> {
+        if let Some(known) = self.basis.get() {
+            return *known;
+        }
+        let range = SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: self.to_rad_per_s,
+        };
+        let swept = self.scene.swept(range).ok()?;
+        let found = match ChosenBasis::new(&swept, self.scene.tolerance()) {
+            // A run that is stopped says nothing about the next one.
+            Err(AnalysisError::Spectrum(SpectrumError::Cancelled)) => return None,
+            chosen => chosen.ok().map(|chosen| chosen.plate.resolution),
+        };
+        *self.basis.get_or_init(|| found)
     }
 
     /// Number of saws.

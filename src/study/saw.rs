@@ -94,7 +94,10 @@ impl Study {
     }
 
     fn found(&self, scene: &Scene) -> Result<Found, AnalysisError> {
-        let onsets = Onsets::new(scene)?;
+        let onsets = match self.basis() {
+            Some(basis) => Onsets::beside(scene, basis)?,
+            None => Onsets::new(scene)?,
+        };
         let criteria = self.limits().map(|limits| {
             limits.criteria(
                 onsets.lowest_critical_rad_per_s,

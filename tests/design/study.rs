@@ -66,6 +66,46 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
     assert_eq!(histogram.counts.iter().sum::<usize>(), 512);
 }
 
+/// The basis of the saw without deviations is where that of every saw is looked for: each is as right as promised
+/// against an analysis of its own, and the same whichever was computed before it.
+#[test]
+fn a_saw_of_a_study_is_as_right_as_one_of_its_own() {
+    let tolerance = 6e-3;
+    let paper = Scene::paper()
+        .edited(|saw| saw.tolerance = Some(tolerance))
+        .unwrap();
+    let json = r#"{ "name": "pads", "saws": 6, "to_rpm": 2500, "seed": 11, "parameters": [
+        { "path": "guides[0].radius_m", "distribution": { "kind": "uniform", "from": 0.17, "to": 0.28 } },
+        { "path": "guides[0].stiffness_n_per_m",
+          "distribution": { "kind": "uniform", "from": 1e5, "to": 6e7 } }] }"#;
+    let study = || study(paper.clone(), json).unwrap();
+    let (forwards, backwards) = (study(), study());
+    let mut last_first: Vec<Saw> = (0..6).rev().map(|index| backwards.saw(index)).collect();
+    last_first.reverse();
+    let saws = all(&forwards);
+    assert_eq!(saws, last_first);
+    let nominal = Onsets::new(&paper).unwrap().functions;
+    for saw in &saws {
+        let own = Scene::paper().edited(|file| {
+            (file.tolerance, file.guides[0].radius_m) = (Some(tolerance), saw.values[0]);
+            file.guides[0].stiffness_n_per_m = saw.values[1];
+            file.sweep.as_mut().unwrap().to_rpm = 2500.0;
+        });
+        let own = Onsets::new(&own.unwrap()).unwrap();
+        let found = saw.found().unwrap();
+        assert!(found.functions >= nominal, "{saw:?}");
+        assert!(found.estimated_relative_error <= tolerance, "{saw:?}");
+        let lowest = rpm(own.lowest_critical_rad_per_s.unwrap());
+        let what = format!("saw {}", saw.index);
+        assert_close(
+            &what,
+            found.lowest_critical_rpm.unwrap(),
+            lowest,
+            2.0 * tolerance,
+        );
+    }
+}
+
 /// Critical speed is proportional to the root of the modulus: a normal one makes a probability
 /// that a table of the normal distribution gives.
 #[test]

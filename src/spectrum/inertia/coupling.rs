@@ -31,6 +31,15 @@ pub struct Columns {
     pub is_exact: bool,
 }
 
+/// How many columns of K_g are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kept {
+    /// Until rounding is left.
+    All,
+    /// Until what is left no longer matters to solves.
+    Few,
+}
+
 /// Looks at a line, the later one closer and at a higher cost.
 pub const LOOKS: usize = 2;
 /// Trace of the rest, relative to the weights, at which a look takes no more columns, and what solves with them.
@@ -44,7 +53,7 @@ impl Columns {
     /// Cholesky with complete pivoting of K_g relative to the weights G of the waves at rest, G⁻¹ᐟ² K_g G⁻¹ᐟ²: what is
     /// left is positive and no larger than its trace. `None` where there are too many columns, and where
     /// K_g has a negative direction.
-    pub fn new(coupling: &Mat<f64>, harmonics: &[Harmonic]) -> Option<Self> {
+    pub fn new(coupling: &Mat<f64>, harmonics: &[Harmonic], kept: Kept) -> Option<Self> {
         let order = coupling.nrows();
         let relative = Relative::new(coupling, harmonics);
         let mut diagonal = relative.diagonal();
@@ -71,7 +80,8 @@ impl Columns {
                 }
             }
             let is_exact = unweighted(&diagonal) <= rounding;
-            if is_exact || count == most {
+            let are_enough = kept == Kept::Few && rests.len() == ENOUGH.len();
+            if is_exact || are_enough || count == most {
                 break is_exact;
             }
             let largest = |x: &usize, y: &usize| diagonal[*x].total_cmp(&diagonal[*y]);

@@ -14,7 +14,7 @@ use faer::{Mat, c64};
 use nalgebra::{DMatrix, Dyn, LU};
 
 use super::super::argument::turn_along;
-use super::coupling::Columns;
+use super::coupling::{Columns, Kept};
 use super::{Harmonic, WholeBasis};
 use crate::plate::Plate;
 
@@ -48,7 +48,7 @@ impl DampedBasis {
         }
         let harmonics = WholeBasis::harmonics(plate);
         let columns = |matrix: Option<&Mat<f64>>| match matrix {
-            Some(matrix) => Columns::new(matrix, &harmonics).map(Some),
+            Some(matrix) => Columns::new(matrix, &harmonics, Kept::All).map(Some),
             None => Some(None),
         };
         let springs = columns(plate.contact.stiffness())?;

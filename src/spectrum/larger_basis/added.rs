@@ -41,7 +41,9 @@ impl AddedFunctions {
     pub fn of_coupled(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
         let kept = kept(plate, larger, 0..=plate.max_diameters());
         let is_large = larger.degrees_of_freedom() >= LARGE;
-        let structured = is_large.then(|| StructuredStiffness::of(larger)).flatten();
+        let structured = is_large
+            .then(|| StructuredStiffness::nearly(larger))
+            .flatten();
         // A blade that is not certain to be stable is looked at closely.
         let structured =
             structured.filter(|larger| larger.basis.critical_speeds_below(0.0) == Some(0));
