@@ -1,15 +1,21 @@
 //! How far off the numbers of an analysis may be, each of its own.
 
+mod damped;
+mod hump;
+
 use faer::{Col, c64};
 use rayon::prelude::*;
+
+use self::damped::fastest;
+use self::hump::merged;
 
 use super::band::{Instability, InstabilityKind};
 use super::basis::REMAINDER;
 use super::chart::StabilityChart;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
-    DescribedMode, HamiltonianReduction, LargerBasis, ModeKind, SpectralModel, SpectrumError,
-    State, companion_eigenpairs, critical_speeds, orthonormal, split,
+    DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State,
+    companion_eigenpairs, critical_speeds, orthonormal, split,
 };
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
@@ -172,14 +178,40 @@ impl Estimates {
                 let states = [inward(0), inward(1)];
                 Ok(merged([&found, &larger], &states, band))
             }
-            _ => {
-                let [before, after] = [&found, &larger].map(|system| grown(system, growing, band));
-                Ok(BandError {
-                    speed: None,
-                    growth: told(after? / before? - 1.0),
-                })
-            }
+            _ => self.damped(model, band, growing, &sample.modes),
         }
+    }
+
+    /// Growth of a damped blade, on the mode that grows and those next to it: the larger basis moves the band, so that
+    /// the largest growth of both is compared, wherever it is.
+    fn damped(
+        &self,
+        model: &SpectralModel,
+        band: &Instability,
+        growing: &DescribedMode,
+        modes: &[DescribedMode],
+    ) -> Result<BandError, SpectrumError> {
+        let component = growing.mode.component;
+        let own = modes.iter().filter(|m| m.mode.component == component);
+        let mut near: Vec<&DescribedMode> = own.collect();
+        let away = |m: &DescribedMode| (m.mode.lambda.im - growing.mode.lambda.im).abs();
+        near.sort_by(|x, y| away(x).total_cmp(&away(y)));
+        let halves = near.iter().take(NEAR_MODES).flat_map(|m| {
+            let (re, im) = split(&model.components[component].coordinates(&m.shape));
+            [re, im]
+        });
+        let full = &model.components[component].full;
+        let basis = orthonormal(full.order(), &halves.collect::<Vec<_>>(), INDEPENDENT);
+        let found = full.project(basis.as_ref());
+        let mut larger = found.clone();
+        larger.stiffness -= self
+            .larger
+            .softening(component, band.peak_rad_per_s, &basis);
+        let [before, after] = [&found, &larger].map(|system| fastest(system, growing, band));
+        Ok(BandError {
+            speed: None,
+            growth: told(after? / before? - 1.0),
+        })
     }
 
     /// Divergence between two critical speeds, on the waves that stand there and the one that
@@ -253,6 +285,8 @@ impl Lean {
 const SAME_SPEED: f64 = 1e-6;
 /// Components that a band of divergence is divided into to find its fastest growth.
 const LEANING_LOOKS: usize = 16;
+/// Modes that the growth of a damped band is estimated with.
+const NEAR_MODES: usize = 6;
 /// Vectors closer than this to the span of the others are left out.
 const INDEPENDENT: f64 = 1e-6;
 
@@ -279,84 +313,4 @@ fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a D
         }
     };
     Some([growing, partner])
-}
-
-/// Flutter of two merged modes: the discriminant of the pair is nearly a parabola of the speed.
-fn merged(systems: [&GyroscopicSystem; 2], states: &[State; 2], band: &Instability) -> BandError {
-    let humps = systems.map(|system| {
-        let model = HamiltonianReduction::new(system, band.frequency_rad_per_s, states)?;
-        (model.order() == 4).then_some(())?;
-        Hump::new(band, |speed| {
-            let (sum, product) = model.pair_invariants(speed);
-            -0.25 * (sum - 2.0 * product)
-        })
-    });
-    let [Some(before), Some(after)] = humps else {
-        return BandError::default();
-    };
-    BandError {
-        speed: told((after.onset() - before.onset()) / band.from_rad_per_s),
-        growth: told(after.growth() / before.growth() - 1.0),
-    }
-}
-
-/// σ²(Ω) = height − curvature (Ω − top)², and σ² at the speed that is reported where that is an
-/// end of the range.
-struct Hump {
-    top: f64,
-    height: f64,
-    curvature: f64,
-    at_peak: Option<f64>,
-}
-
-impl Hump {
-    fn new(band: &Instability, square: impl Fn(f64) -> f64) -> Option<Self> {
-        let mut top = band.peak_rad_per_s;
-        let step = 0.25 * (band.to_rad_per_s - band.from_rad_per_s).max(1e-9 * band.peak_rad_per_s);
-        let mut hump = None;
-        for _ in 0..8 {
-            let [left, middle, right] = [top - step, top, top + step].map(&square);
-            let curvature = 0.5 * (2.0 * middle - left - right) / (step * step);
-            if curvature.is_nan() || curvature <= 0.0 {
-                break;
-            }
-            let offset = 0.25 * (right - left) / (step * curvature);
-            hump = Some(Hump {
-                top: top + offset,
-                height: middle + curvature * offset * offset,
-                curvature,
-                at_peak: None,
-            });
-            top += offset.clamp(-0.02 * band.peak_rad_per_s, 0.02 * band.peak_rad_per_s);
-            if offset.abs() < 1e-3 * step {
-                break;
-            }
-        }
-        let at_end =
-            band.peak_rad_per_s == band.from_rad_per_s || band.peak_rad_per_s == band.to_rad_per_s;
-        let at_peak = at_end.then(|| square(band.peak_rad_per_s));
-        hump.map(|hump| Hump { at_peak, ..hump })
-    }
-
-    fn growth(&self) -> f64 {
-        self.at_peak.unwrap_or(self.height).max(0.0).sqrt()
-    }
-
-    fn onset(&self) -> f64 {
-        self.top - (self.height / self.curvature).max(0.0).sqrt()
-    }
-}
-
-/// Growth rate of the mode of a small system next to one of a damped blade.
-fn grown(
-    system: &GyroscopicSystem,
-    mode: &DescribedMode,
-    band: &Instability,
-) -> Result<f64, SpectrumError> {
-    let lambda = mode.mode.lambda;
-    let pairs = companion_eigenpairs(system, band.peak_rad_per_s)?;
-    let distance = |value: &c64| (value - lambda).norm();
-    let values = pairs.into_iter().map(|(value, _)| value);
-    let nearest = values.min_by(|x, y| distance(x).total_cmp(&distance(y)));
-    Ok(nearest.map_or(f64::NAN, |value| value.re))
 }

@@ -1,0 +1,45 @@
+//! Growth of a damped blade on small systems.
+
+use faer::c64;
+
+use crate::spectrum::{DescribedMode, SpectrumError, companion_eigenpairs};
+use crate::stability::band::Instability;
+use crate::system::GyroscopicSystem;
+
+/// Parts of twice the width of a damped band at which its largest growth is looked for: with half as many the true error
+/// was up to 1.7 times the estimate on drawn saws, as with two modes less; with these up to 0.9.
+const DAMPED_LOOKS: usize = 48;
+
+/// Largest growth of a small system around a band of a damped blade, of the mode next to the one that grows there and of
+/// the one that it meets.
+pub fn fastest(
+    system: &GyroscopicSystem,
+    mode: &DescribedMode,
+    band: &Instability,
+) -> Result<f64, SpectrumError> {
+    let Instability {
+        from_rad_per_s: from,
+        to_rad_per_s: to,
+        peak_rad_per_s: peak,
+        ..
+    } = *band;
+    // A band that still grows where the range of speeds ends grows fastest there, on any basis.
+    let below = if peak > from { to - from } else { 0.0 };
+    let above = if peak < to { to - from } else { 0.0 };
+    let mut growth = f64::NEG_INFINITY;
+    for look in 0..=DAMPED_LOOKS {
+        let share = look as f64 / DAMPED_LOOKS as f64;
+        let speed = peak - below + share * (below + above);
+        let mut values: Vec<c64> = companion_eigenpairs(system, speed.max(0.0))?
+            .into_iter()
+            .map(|(value, _)| value)
+            .collect();
+        let away = |value: &c64| (value - mode.mode.lambda).norm();
+        values.sort_by(|x, y| away(x).total_cmp(&away(y)));
+        growth = values
+            .iter()
+            .take(2)
+            .fold(growth, |top, value| top.max(value.re));
+    }
+    Ok(growth)
+}
