@@ -80,7 +80,12 @@ impl Charts {
                 ..AnalysisOptions::default()
             },
         )?;
-        let report = analysis.report();
+        let mut report = analysis.report();
+        if fidelity == Fidelity::Draft {
+            // Half of what would be sent, and not shown.
+            let at_rest = report.modes_at_rest.iter_mut();
+            at_rest.for_each(|mode| mode.shape.clear());
+        }
         let chart = self.keep(page, analysis);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         serde_json::to_string(&Chart {

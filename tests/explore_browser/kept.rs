@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use serde_json::json;
+use thirtyfour::Key;
 
 use crate::browser::{PATIENCE, Page, run};
 
@@ -79,6 +80,31 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
         page.script("document.querySelector('#measured').click()")
             .await;
         assert_eq!(page.value("sawflutter.state.scene").await, scene);
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_program_that_is_started_again_takes_the_page_over() {
+    run(async {
+        let mut page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.program.0.kill().unwrap();
+        page.wait("!document.querySelector('#lost').hidden").await;
+        page.enter("blade.thickness_m", "3").await;
+        page.wait("document.body.classList.contains('stale')").await;
+        page.start_again(&["--accuracy", "draft"]).await;
+        page.wait("document.querySelector('#lost').hidden").await;
+        // The change that was made meanwhile is computed, and the chart has its modes.
+        page.settle().await;
+        assert!(page.text("#facts").await.contains(" → "));
+        assert_eq!(page.text("#fault").await, "");
+        let chart = page.find("#campbell").await;
+        chart.focus().await.unwrap();
+        chart.send_keys(Key::Right + "").await.unwrap();
+        page.wait("document.querySelector('#mode').textContent.includes('Krein')")
+            .await;
         page.close().await;
     });
 }

@@ -10,5 +10,6 @@ mod chart;
 mod form;
 mod kept;
 mod looks;
+mod pace;
 mod tabs;
 mod tasks;

@@ -1,8 +1,9 @@
 // The Campbell diagram and the growth rates: panels by panel.js, marks by marks.js.
 
 import { nearest, samePoint, walked } from "./branches.js";
+import { drawGrowth } from "./growth.js";
 import {
-  NEGLIGIBLE_PER_S, bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
+  bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
 } from "./marks.js";
 import { plot, roundGrowth } from "./panel.js";
 
@@ -168,8 +169,9 @@ export class Charts {
     ctx.clip();
     drawBands(ctx, x, box, this.report, this.colours, scale);
     this.#drawSpeeds(ctx, x, box, scale);
-    if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, ghost: true });
-    drawBranches(ctx, place, this.report, this.colours, { scale, highlighted: this.pointed?.branch });
+    const top = u.scales.y.max;
+    if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, top, ghost: true });
+    drawBranches(ctx, place, this.report, this.colours, { scale, top, highlighted: this.pointed?.branch });
     if (this.measured && this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
     this.#drawExcitation(ctx, place, scale);
     this.#dotCritical(ctx, place, scale);
@@ -244,7 +246,7 @@ export class Charts {
     ctx.clip();
     drawBands(ctx, x, box, this.report, this.colours, scale);
     this.#drawSpeeds(ctx, x, box, scale);
-    for (const branch of this.report.campbell.branches) this.#drawGrowthOf(ctx, x, y, branch, scale);
+    drawGrowth(ctx, x, y, this.report, this.colours, scale);
     for (const band of this.report.instabilities) {
       ctx.fillStyle = bandColour(this.colours, band.kind);
       ctx.beginPath();
@@ -262,26 +264,6 @@ export class Charts {
       ctx.fillRect(left - 4 * scale, middle - 9 * scale, ctx.measureText(words).width + 8 * scale, 18 * scale);
       ctx.fillStyle = this.colours.quiet;
       ctx.fillText(words, left, middle);
-    }
-  }
-
-  #drawGrowthOf(ctx, x, y, branch, scale) {
-    const damped = this.report.terms.some((term) => term.includes("damping"));
-    ctx.lineWidth = 1.6 * scale;
-    for (let i = 0; i + 1 < branch.rpm.length; i++) {
-      const ends = [branch.growth_per_s[i], branch.growth_per_s[i + 1]];
-      const grows = Math.max(...ends) > NEGLIGIBLE_PER_S;
-      if (!grows && !damped) continue;
-      const speeds = [branch.rpm[i], branch.rpm[i + 1]];
-      const inside = ends[0] > ends[1] ? speeds[0] : speeds[1];
-      const band = this.report.instabilities.find((b) => b.from_rpm <= inside && inside <= b.to_rpm);
-      ctx.strokeStyle = !grows ? this.colours.standing : bandColour(this.colours, band?.kind ?? "flutter");
-      ctx.beginPath();
-      // Without damping growth begins and ends with the band, wherever the samples are.
-      const at = damped || !band ? speeds : speeds.map((rpm) => Math.min(Math.max(rpm, band.from_rpm), band.to_rpm));
-      ctx.moveTo(x(at[0]), y(damped ? ends[0] : Math.max(ends[0], 0)));
-      ctx.lineTo(x(at[1]), y(damped ? ends[1] : Math.max(ends[1], 0)));
-      ctx.stroke();
     }
   }
 

@@ -43,6 +43,12 @@ export class Live {
     if (!this.#computing) this.#run(this.#next);
   }
 
+  // Asks for the final chart anew, also where it is shown.
+  again(scene) {
+    this.#shown = null;
+    this.ask(scene, { draft: false });
+  }
+
   // Whether the final chart of this scene was begun or shown while the hand rested.
   #adopted(text, stamps, released) {
     const [running, shown] = [this.#computing, this.#shown];
@@ -61,10 +67,13 @@ export class Live {
     this.#next = null;
     this.#computing = request;
     request.abort = new AbortController();
+    // For the test in a browser, as when it was answered.
+    request.asked = performance.now();
     this.onBusy(true, request.draft);
     let found;
     try {
       const answer = await chart(request.text, request.draft, request.abort.signal);
+      request.answered = performance.now();
       // The server is free: it computes the next one while this one is read and drawn.
       this.#proceed(request);
       found = await answer.json();

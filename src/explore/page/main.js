@@ -24,9 +24,9 @@ let latest = null;
 let refusedKey = null;
 const kept = new Kept(begun.scene);
 
-// For the test in a browser: times from a move, or from the release, to its painted chart, how long
-// the page worked on a chart, and what is shown.
-const seen = (window.sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], drawing: [], painted: null });
+// For the test in a browser: times from a move, or from the release, to its painted chart, the parts of
+// those of drafts, and what is shown.
+const seen = (window.sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
   live.ask(scene, { draft, stamp, released });
@@ -57,6 +57,8 @@ const live = new Live({ onChart, onRefused, onBusy });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
 seen.settled = () => seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
+// The same at whatever accuracy.
+seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
 seen.open = (file) => files.open(file);
@@ -99,15 +101,26 @@ function onChart(chart, request) {
   if (!request.draft) weigh(chart);
   blade.draw(state.scene, null);
   if (charts.pointed || pointed.isOn) pointed.show(chart.chart, charts.pointed);
-  seen.drawing.push(performance.now() - begun);
+  const drawn = performance.now();
   painted(() => {
     const now = performance.now();
+    if (request.draft) seen.parts.push(partsOf(request, chart.milliseconds, begun, drawn, now));
     const kind = request.draft ? "draft" : "scene";
     seen.latencies[kind].push(...request.stamps.map((stamp) => now - stamp));
     if (request.released !== undefined) seen.latencies.release.push(now - request.released);
     seen.computed.push([kind, chart.milliseconds]);
     seen.painted = request.draft ? null : request.text;
+    seen.newest = request.text;
   });
+}
+
+// Where the time from a move to its painted chart goes, in milliseconds: waiting for the chart that was
+// computed at the time of each move, computing, being sent and answered besides, and on the page.
+function partsOf({ stamps, asked, answered }, computing, read, drawn, now) {
+  return {
+    waiting: stamps.map((stamp) => asked - stamp), computing, sending: answered - asked - computing,
+    reading: read - answered, drawing: drawn - read, painting: now - drawn,
+  };
 }
 
 // How the speeds of a chart move with the numbers of the form.
@@ -265,6 +278,8 @@ function wire() {
     pinned.setColours(colours);
   });
   stayConnected((lost) => {
+    // A program that was started again has none of the charts of the one before.
+    if (!lost && !by("lost").hidden) live.again(state.scene);
     by("lost").hidden = !lost;
   });
 }

@@ -76,17 +76,22 @@ export function highestShown(report) {
   return top > 0 ? top : 1;
 }
 
-function trace(context, place, branch, from, to) {
+// What lies above the panel is not drawn: of a damped saw that is most of it.
+function trace(context, place, branch, from, to, top) {
+  const at = (i) => place(branch.rpm[i], branch.frequency_hz[i]);
+  let goesOn = false;
   context.beginPath();
-  for (let i = from; i <= to; i++) {
-    const [x, y] = place(branch.rpm[i], branch.frequency_hz[i]);
-    if (i === from) context.moveTo(x, y);
-    else context.lineTo(x, y);
+  for (let i = from; i < to; i++) {
+    const isAbove = Math.min(branch.frequency_hz[i], branch.frequency_hz[i + 1]) > top;
+    if (!isAbove && !goesOn) context.moveTo(...at(i));
+    if (!isAbove) context.lineTo(...at(i + 1));
+    goesOn = !isAbove;
   }
   context.stroke();
 }
 
-export function drawBranches(context, place, report, colours, { scale, highlighted, ghost }) {
+// `top` is the frequency at the upper end of the panel.
+export function drawBranches(context, place, report, colours, { scale, top, highlighted, ghost }) {
   // From the highest down, so that the lowest lie on top.
   for (const branch of [...report.campbell.branches].reverse()) {
     const strong = branch === highlighted ? 1.6 : 0;
@@ -95,7 +100,7 @@ export function drawBranches(context, place, report, colours, { scale, highlight
       context.strokeStyle = ghost ? colours.standing : waveColour(colours, direction);
       context.lineWidth = (ghost ? 1 : look === "unstable" ? 3.4 : 1.6 + strong) * scale;
       context.setLineDash(look === "reflected" ? DASH.map((d) => d * scale) : []);
-      trace(context, place, branch, from, to);
+      trace(context, place, branch, from, to, top);
     }
   }
   context.globalAlpha = 1;

@@ -5,7 +5,7 @@ import { shown } from "./words.js";
 const FONT = "12px Inter, Helvetica, Arial, sans-serif";
 
 function axis(label, size, splits) {
-  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4));
+  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4).replace("-", "−"));
   return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
 }
 
@@ -45,12 +45,14 @@ export function plot(place, { height, label, splits, yRange, draw, room, xLabel 
     chart,
     setRange(wanted) {
       range = wanted;
-      chart.setData([range, [null, null]], false);
+      const [least, most] = yRange();
+      // Outside of the batch each of these would draw the panel once more.
       chart.batch(() => {
+        chart.setData([range, [null, null]], false);
         chart.setScale("x", { min: range[0], max: range[1] });
-        chart.setScale("y", { min: yRange()[0], max: yRange()[1] });
+        chart.setScale("y", { min: least, max: most });
+        chart.redraw(false, true);
       });
-      chart.redraw(false, true);
     },
     setColours(colours) {
       for (const each of chart.axes) {

@@ -48,6 +48,15 @@ fn start(command: &mut Command, find: impl Fn(&str) -> Option<String>) -> (Runni
     (running, found)
 }
 
+/// Starts `sawflutter explore` and waits until it says its address.
+fn explore(arguments: &[&str]) -> (Running, String) {
+    let command = &mut Command::new(program());
+    start(command.arg("explore").args(arguments), |line| {
+        line.starts_with("http://127.0.0.1:")
+            .then(|| line.to_owned())
+    })
+}
+
 /// The page, the program that serves it, and the browser.
 pub struct Page {
     pub driver: WebDriver,
@@ -59,11 +68,7 @@ pub struct Page {
 impl Page {
     pub async fn open(arguments: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let explore = &mut Command::new(program());
-        let (program, address) = start(explore.arg("explore").args(arguments), |line| {
-            line.starts_with("http://127.0.0.1:")
-                .then(|| line.to_owned())
-        });
+        let (program, address) = explore(arguments);
         let (chromedriver, port) = start(Command::new("chromedriver").arg("--port=0"), |line| {
             let (_, port) = line.split_once("started successfully on port ")?;
             Some(port.trim_end_matches('.').to_owned())
@@ -102,6 +107,13 @@ impl Page {
         };
         page.wait("window.sawflutter?.computed.length > 0").await;
         page
+    }
+
+    /// Starts the program once more, at the address that the page knows.
+    pub async fn start_again(&mut self, arguments: &[&str]) {
+        let address = self.driver.current_url().await.unwrap();
+        let port = address.port().unwrap().to_string();
+        (self.program, _) = explore(&[arguments, &["--port", &port]].concat());
     }
 
     pub async fn script(&self, script: &str) -> Value {
@@ -176,15 +188,19 @@ impl Page {
         self.wait_for_file(name).await
     }
 
-    /// What the browser puts on the disk under a name.
+    /// What the browser puts on the disk under a name. Chromium makes an empty file of that name first, and
+    /// then moves the whole one there.
     pub async fn wait_for_file(&self, name: &str) -> Vec<u8> {
         let path = self.folder.path().join(name);
         let begun = Instant::now();
-        while !path.exists() {
+        loop {
+            let content = std::fs::read(&path).unwrap_or_default();
+            if !content.is_empty() {
+                return content;
+            }
             assert!(begun.elapsed() < PATIENCE, "{name} was not saved");
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
-        std::fs::read(path).unwrap()
     }
 
     /// What the command line makes of the scene as saved.
