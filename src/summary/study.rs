@@ -102,7 +102,9 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
     }
     for criterion in &passing.criteria {
         let share = 100.0 * criterion.passed as f64 / saws.max(1) as f64;
-        writeln!(text, "  {share:>6.2} %  {}", criterion.name)?;
+        // A check says beside the name where the instability begins.
+        let name = criterion.name.trim_end_matches(", from");
+        writeln!(text, "  {share:>6.2} % pass: {name}")?;
     }
     Ok(())
 }

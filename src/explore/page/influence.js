@@ -1,7 +1,10 @@
 // How the speeds move with the numbers of the scene: a bar beside each field.
 
 const named = (change, path) => (path.endsWith("_deg") || change.includes("degree") ? change.replace("1 degree", "1°") : change);
-const signed = (value) => `${value < 0 ? "−" : "+"}${Math.abs(value) < 9.95 ? Math.abs(value).toFixed(1) : Math.round(Math.abs(value))}`;
+function signed(value) {
+  const size = Math.abs(value) < 9.95 ? Math.abs(value).toFixed(1) : String(Math.round(Math.abs(value)));
+  return size === "0.0" ? "±0" : `${value < 0 ? "−" : "+"}${size}`;
+}
 
 // The onset that is the flutter speed.
 function flutterBand({ instabilities, flutter_speed_rpm }) {

@@ -67,7 +67,7 @@ export class Pointed {
     const growth = Math.abs(rate) > NEGLIGIBLE_PER_S ? `, ${rate > 0 ? "grows" : "decays"} at ${shown(Math.abs(rate), 3)} 1/s` : "";
     const name = node("strong", { textContent: numbered(branch.branch, branch.name), className: shape.direction });
     this.words.replaceChildren(name, ` at ${Math.round(shape.rpm)} rpm: ${shown(shape.frequency_hz, 4)} Hz in space, `
-      + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, nodal diameters there ${shape.name}, Krein sign ${krein(shape.krein_sign)}${growth}. `
+      + `${shown(shape.body_frequency_hz, 4)} Hz on the blade, shape there ${shape.name}, Krein sign ${krein(shape.krein_sign)}${growth}. `
       + `${MEANING[shape.direction]} Shown ${shown(slower, 2)} times slower; the dot turns with the blade.`);
   }
 

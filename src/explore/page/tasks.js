@@ -63,6 +63,8 @@ export class Tasks {
       const tab = this.tabs.querySelector(`#tab-${own}`);
       tab.setAttribute("aria-selected", String(chosen));
       tab.tabIndex = chosen ? 0 : -1;
+      // On a narrow screen the tabs are one row that is pushed aside.
+      if (chosen) this.tabs.scrollLeft = tab.offsetLeft - 0.5 * (this.tabs.clientWidth - tab.clientWidth);
     }
     this.#panels.get(name).task?.refresh();
   }

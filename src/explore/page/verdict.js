@@ -6,7 +6,7 @@ import { numbered, rpm, shown } from "./words.js";
 const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
 
 // Rise at which the first critical speed is that of operation, or the blade buckles before.
-function heatBorne({ membrane }) {
+function toleratedRise({ membrane }) {
   const heat = membrane?.heat;
   if (!heat || heat.past_critical_when_cold) return null;
   return (heat.operating_limit ?? heat.buckling)?.rise_k ?? null;
@@ -39,7 +39,7 @@ export function facts(place, report, pinned) {
     ["Fastest growth", (r) => r.instabilities.reduce((top, band) => Math.max(top, band.peak_growth_per_s), 0), (v) => `${shown(v, 3)} 1/s`],
     ["Of critical", (r) => r.operating?.of_lowest_critical ?? null, (v) => (v === null ? "–" : `${(100 * v).toFixed(1)} %`)],
   ];
-  if (report.membrane?.heat) rows.push(["Heat borne", heatBorne, (v) => (v === null ? "–" : `${shown(v, 3)} K`)]);
+  if (report.membrane?.heat) rows.push(["Tolerated rise", toleratedRise, (v) => (v === null ? "–" : `${shown(v, 3)} K`)]);
   place.replaceChildren(...rows.map(([name, value, words]) => {
     const [before, now] = [words(value(pinned)), words(value(report))];
     const changed = before !== now;
