@@ -96,7 +96,6 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
             .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
             .await;
         let released = page.value("sawflutter.latencies.release").await;
-        let drawing = page.parts("drawing").await;
         println!(
             "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
              ({} moves, {} charts of {:.0} ms median); release to painted chart at design \
@@ -114,9 +113,6 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
                 .trim(),
         );
         assert_eq!(released.as_array().unwrap().len(), 3);
-        // Of the charts that others on the machine have disturbed least; how much is drawn at all, the test
-        // above says.
-        assert!(percentile(&drawing, 0.1) < 8.0, "{drawing}");
 
         // A design chart that a further change has made stale is stopped, not computed.
         let jobs = "fetch('jobs').then((answer) => answer.json())";
