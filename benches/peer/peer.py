@@ -95,8 +95,20 @@ def table(rust, eigvals, whole):
     print(f"\n{'against one eigvals of order 528':50}  reached   target")
     for what, value, target in rows:
         print(f"{what:50} {'-' if value is None else format(value, '.3g'):>8}   {target}")
+    profile(rust["stages_s"])
     print("\nours: " + ", ".join(f"{n} functions {1e3 * t:.0f} ms" for n, t in sizes) + " (chart, one thread)")
     print(f"ours: chart at 1e-3 {1e3 * chart['one_thread']:.0f} ms, sweep {1e3 * sweep['one_thread']:.0f} ms (one thread)")
+
+
+def profile(stages_s):
+    """Where the time goes, by stage."""
+    names = list(next(iter(stages_s.values())))
+    print("\n" + " " * 30 + "".join(f"{what:>20}" for what in stages_s))
+    for name in names:
+        cells = [stages[name] for stages in stages_s.values()]
+        wholes = [sum(stages.values()) for stages in stages_s.values()]
+        shares = [f"{1e3 * t:.0f} ms, {100 * t / all:.0f} %" for t, all in zip(cells, wholes)]
+        print(f"{name:30}" + "".join(f"{share:>20}" for share in shares))
 
 
 def worst_error(folder, rust, speeds, sampled):

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use super::Progress;
 use super::map::Map;
 use super::outcome::Outcome;
 use super::search::{Search, Seen};
@@ -68,8 +69,22 @@ impl<'a> Grower<'a> {
         });
     }
 
+    /// A map with all its saws.
+    pub fn drawn(&self, mut map: Map, search: &Search<'_>, progress: Progress<'_>) -> Map {
+        self.begun(&map);
+        let (columns, total) = (map.x.len(), map.x.len() * map.y.len());
+        let seen = |seen: Seen<'_>| {
+            progress("map", seen.done, total);
+            self.filled(&seen);
+        };
+        let shares_of = |index| map.shares_of(index);
+        let flat = search.outcomes(total, shares_of, &seen, |_, outcome| outcome);
+        map.outcomes = flat.chunks(columns).map(<[_]>::to_vec).collect();
+        map
+    }
+
     /// A map is begun, through another saw than the last one: every cell is unknown again.
-    pub fn begun(&self, map: &Map) {
+    fn begun(&self, map: &Map) {
         self.grown(|growing| {
             growing.is_computed = unknown(map);
             growing.map = map.clone();
@@ -77,7 +92,7 @@ impl<'a> Grower<'a> {
     }
 
     /// A cell is known.
-    pub fn filled(&self, seen: &Seen<'_>) {
+    fn filled(&self, seen: &Seen<'_>) {
         self.grown(|growing| {
             let columns = growing.map.x.len();
             let (row, column) = (seen.index / columns, seen.index % columns);

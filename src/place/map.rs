@@ -2,10 +2,8 @@
 
 use crate::campbell::even_speeds;
 
-use super::Progress;
-use super::growing::Grower;
 use super::outcome::Outcome;
-use super::search::{Search, Seen, Tried};
+use super::search::{Search, Tried};
 
 /// The goal over two freed numbers, the others as they were best when it was drawn. On the
 /// coarse basis of the search.
@@ -74,29 +72,16 @@ impl Map {
         }
     }
 
-    /// Every saw of the map; `at` has the shares of the other numbers.
-    pub(super) fn drawn(
-        mut self,
-        search: &Search<'_>,
-        at: &[f64],
-        progress: Progress<'_>,
-        grower: &Grower<'_>,
-    ) -> Self {
-        self.at = at.to_vec();
-        grower.begun(&self);
-        let total = self.x.len() * self.y.len();
-        let seen = |seen: Seen<'_>| {
-            progress("map", seen.done, total);
-            grower.filled(&seen);
-        };
-        let shares_of = |index| self.shares_of(index);
-        let flat = search.outcomes(total, shares_of, &seen, |_, outcome| outcome);
-        self.outcomes = flat.chunks(self.x.len()).map(<[_]>::to_vec).collect();
-        self
+    /// The same through a saw, whose shares the other numbers have.
+    pub(super) fn through(self, at: &[f64]) -> Self {
+        Map {
+            at: at.to_vec(),
+            ..self
+        }
     }
 
     /// Of a saw of the map, row by row.
-    fn shares_of(&self, index: usize) -> Vec<f64> {
+    pub(super) fn shares_of(&self, index: usize) -> Vec<f64> {
         let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
         let mut shares = self.at.clone();
         shares[x] = x_shares[index % x_shares.len()];

@@ -269,8 +269,8 @@ fn look_everywhere(
     }
     let mut map = None;
     for _ in 0..if options.map < 2 { 0 } else { MAP_ROUNDS } {
-        let map_of = Map::unknown(search, options.map);
-        let drawn = map_of.drawn(search, &best.shares, progress, &grower);
+        let through_best = Map::unknown(search, options.map).through(&best.shares);
+        let drawn = grower.drawn(through_best, search, progress);
         let on_map = cheapest(&drawn.cells());
         map = Some(drawn);
         match on_map {

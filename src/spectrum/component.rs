@@ -115,10 +115,3 @@ impl Component {
         }
     }
 }
-
-/// √(D/ρh)/b² times five: near the lowest frequency of most blades.
-pub(crate) fn frequency_scale(plate: &Plate) -> f64 {
-    let blade = &plate.blade;
-    let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();
-    5.0 * specific.sqrt() / blade.outer_radius_m.powi(2)
-}

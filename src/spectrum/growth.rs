@@ -9,13 +9,14 @@ use crate::system::GyroscopicSystem;
 
 use super::arnoldi::lowest_eigenpairs;
 use super::companion::{companion_eigenpairs, deflated_companion};
-use super::component::{Component, frequency_scale};
+use super::component::Component;
 use super::error::SpectrumError;
 use super::hermitian::negative_eigenvalues;
 use super::mode::{GROWTH_NOISE, Mode, classify, pairs_of};
 use super::projection::Projection;
 use super::real_eigen::real_eigenvalues;
 use super::residual::MatrixNorms;
+use super::scale::frequency_scale;
 use super::vectors::{orthonormal, split};
 
 /// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system of which

@@ -39,8 +39,8 @@ use self::coupling::{Columns, Coupling, Kept, LOOKS, in_waves};
 use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
 use self::waves::Waves;
-use super::component::frequency_scale;
 use super::hermitian::negative_eigenvalues;
+use super::scale::frequency_scale;
 use crate::plate::{HarmonicBlock, Plate};
 
 /// The blade and what couples its harmonics, without damping.

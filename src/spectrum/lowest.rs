@@ -5,10 +5,11 @@ use crate::plate::Plate;
 
 use super::arnoldi::lowest_eigenpairs;
 use super::companion::companion_eigenpairs;
-use super::component::{Component, frequency_scale};
+use super::component::Component;
 use super::error::SpectrumError;
 use super::mode::{Mode, ModeKind, classify};
 use super::model::SPLITTING;
+use super::scale::frequency_scale;
 use super::work::Cancellation;
 
 /// A plate that is asked for its lowest modes.

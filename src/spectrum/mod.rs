@@ -46,6 +46,7 @@ mod real_eigen;
 mod refined;
 mod reflected;
 mod residual;
+mod scale;
 mod structured;
 mod vectors;
 mod work;
@@ -59,7 +60,6 @@ pub use companion::companion_eigenpairs;
 pub(crate) use companion::time_scale;
 #[doc(hidden)]
 pub use component::Component;
-pub(crate) use component::frequency_scale;
 pub use critical::NamedCriticalSpeed;
 pub(crate) use critical::standing_name;
 #[doc(hidden)]
@@ -83,6 +83,7 @@ pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
 pub(crate) use refined::RefinedPair;
 pub(crate) use reflected::{KnownStates, ReflectedModel};
+pub(crate) use scale::frequency_scale;
 pub(crate) use vectors::{orthonormal, split};
 pub use work::Cancellation;
 #[doc(hidden)]

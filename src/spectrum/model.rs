@@ -13,7 +13,7 @@ use crate::plate::Plate;
 
 use super::assembled::Assembled;
 use super::companion::companion_eigenpairs;
-use super::component::{Component, Solution, frequency_scale};
+use super::component::{Component, Solution};
 use super::critical::NamedCriticalSpeed;
 use super::derivative;
 use super::error::SpectrumError;
@@ -23,6 +23,7 @@ use super::mode::{Mode, ModeKind, classify};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::reflected::ReflectedModel;
+use super::scale::frequency_scale;
 use super::work::{Cancellation, WorkCounters};
 
 mod described;
