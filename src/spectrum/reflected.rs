@@ -90,14 +90,6 @@ impl<'a> ReflectedModel<'a> {
     }
 
     /// The same at a speed where no two waves are about to coalesce, in a third of the time.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn modes_apart(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let pairs = self.pairs_apart(speed_rad_per_s)?;
-        Ok(classify(self.system, speed_rad_per_s, 0, pairs))
-    }
-
     fn pairs_apart(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
         if self.local.is_some() {
             return self.pairs(speed_rad_per_s);

@@ -68,12 +68,8 @@ fn band(
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximise(samples, at)?;
-    // The few states between two speeds say where the largest growth is, the projection how large.
     let peak_growth_per_s = match found {
-        Some(found) if found.value > 0.0 => match evaluator.divergence(found.at)? {
-            exact if exact > 0.0 => exact,
-            _ => found.value.sqrt(),
-        },
+        Some(found) if found.value > 0.0 => growth(evaluator, found.at, found.value.sqrt())?,
         _ => 0.0,
     };
     Ok(Instability {
@@ -86,6 +82,19 @@ fn band(
         frequency_rad_per_s: 0.0,
         curve: Vec::new(),
     })
+}
+
+/// The few states between two speeds say where the largest growth is, the projection how large.
+fn growth(
+    evaluator: &SignatureEvaluator<'_>,
+    speed_rad_per_s: f64,
+    nearly_per_s: f64,
+) -> Result<f64, SpectrumError> {
+    if let Some(refined) = evaluator.refined_divergence(speed_rad_per_s, nearly_per_s)? {
+        return Ok(refined);
+    }
+    let exact = evaluator.divergence(speed_rad_per_s)?;
+    Ok(if exact > 0.0 { exact } else { nearly_per_s })
 }
 
 /// Divergence between two critical speeds that the search passes in one step. Where the

@@ -43,6 +43,9 @@ const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
 /// Speeds of which the modes are known may be so many times further apart.
 const LARGEST_GAP: f64 = 1.7;
 
+/// A refined growth further than this from what it was refined from is another mode's.
+const SAME_GROWTH: f64 = 0.05;
+
 /// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
 struct Tally {
@@ -237,6 +240,23 @@ impl<'a> SignatureEvaluator<'a> {
         self.low.as_ref()?.moved(pair, speed_rad_per_s)
     }
 
+    /// Growth of a divergent mode that is known nearly: it and its mirror image refined, in a tenth of the time of an
+    /// eigenproblem. `None` where they are lost.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn refined_divergence(
+        &self,
+        speed_rad_per_s: f64,
+        growth_per_s: f64,
+    ) -> Result<Option<f64>, SpectrumError> {
+        let lambdas = [growth_per_s, -growth_per_s].map(|real| c64::new(real, 0.0));
+        let pair = self.pair(speed_rad_per_s, lambdas)?;
+        let square = pair.map(|pair| -pair.squares(speed_rad_per_s)[1]);
+        let refined = square.filter(|square| *square > 0.0).map(f64::sqrt);
+        Ok(refined.filter(|refined| (refined / growth_per_s - 1.0).abs() < SAME_GROWTH))
+    }
+
     /// Largest growth of a divergent mode next to a critical speed, where the Krein index
     /// cannot be read off rounded eigenvalues.
     ///
@@ -244,7 +264,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes_apart(speed_rad_per_s)?,
+            Some(low) => low.modes(speed_rad_per_s)?,
             None => return Ok(0.0),
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter())
