@@ -39,7 +39,7 @@ os.environ.setdefault("SAWFLUTTER_PROGRAM", str(Path(sys.prefix) / "bin" / "sawf
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 600
+nb_execution_timeout = 120
 nb_merge_streams = True
 
 autodoc_member_order = "bysource"

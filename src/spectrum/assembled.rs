@@ -46,8 +46,14 @@ impl Assembled {
         Some((self.structure.as_ref()?, self.components.first()?))
     }
 
-    /// The critical speeds of the plate up to a limit, which may depend on the lowest, and the lowest; all without
-    /// a limit. Ascending.
+    /// Number of critical speeds below a speed, where the structure tells it with certainty.
+    pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
+        let (structure, _) = self.structured()?;
+        structure.basis.critical_speeds_below(speed_rad_per_s)
+    }
+
+    /// The critical speeds of the plate up to a limit, which may depend on those found so far, and the lowest; all
+    /// without a limit. Ascending.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
@@ -55,12 +61,12 @@ impl Assembled {
     pub fn critical_speeds(
         &self,
         plate: &Plate,
-        limit_rad_per_s: Option<&dyn Fn(f64) -> f64>,
+        limit_rad_per_s: Option<&dyn Fn(&[f64]) -> f64>,
     ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        Cancellation::current().check()?;
         let structured = self.structured();
         let structured = structured
             .and_then(|(structure, only)| critical_speeds_by(structure, only, limit_rad_per_s?));
+        Cancellation::current().check()?;
         let found = match structured {
             Some(found) => Ok(vec![found]),
             None => self
@@ -80,18 +86,21 @@ impl Assembled {
     /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
     pub fn modes_at_rest(&self, count: usize) -> Result<Vec<RestingMode>, SpectrumError> {
         let structured = self.structured();
-        match structured.and_then(|(structure, only)| modes_at_rest_by(structure, only, count)) {
+        let structured =
+            structured.and_then(|(structure, only)| modes_at_rest_by(structure, only, count));
+        Cancellation::current().check()?;
+        match structured {
             Some(found) => Ok(found),
             None => modes_at_rest(&self.components, count),
         }
     }
 }
 
-/// `None` where the iteration or its count fails.
+/// `None` where the iteration or its count fails, or once the computation was asked to end.
 fn critical_speeds_by(
     structure: &StructuredStiffness,
     component: &Component,
-    limit_rad_per_s: &dyn Fn(f64) -> f64,
+    limit_rad_per_s: &dyn Fn(&[f64]) -> f64,
 ) -> Option<Vec<CriticalSpeed>> {
     let pencil = Pencil {
         system: &component.full,
@@ -100,7 +109,8 @@ fn critical_speeds_by(
     };
     let limit = |squares: &[f64]| {
         let lowest = *squares.first()?;
-        Some(limit_rad_per_s(lowest.sqrt()).powi(2).max(lowest))
+        let speeds: Vec<f64> = squares.iter().map(|square| square.sqrt()).collect();
+        Some(limit_rad_per_s(&speeds).powi(2).max(lowest))
     };
     let count = |square: f64| structure.basis.critical_speeds_below(square.sqrt());
     let found = pencil.lowest(&limit, &count)?.into_iter();
@@ -111,7 +121,7 @@ fn critical_speeds_by(
     Some(found.map(speed).collect())
 }
 
-/// `None` where the iteration or its count fails.
+/// `None` where the iteration or its count fails, or once the computation was asked to end.
 fn modes_at_rest_by(
     structure: &StructuredStiffness,
     component: &Component,
@@ -214,7 +224,7 @@ mod tests {
                 let plate = Plate::new(&scene, resolution);
                 let assembled = Assembled::of(&plate);
                 let structure = assembled.structure.as_ref().unwrap();
-                let top = |lowest: f64| 2.0 * lowest;
+                let top = |found: &[f64]| 2.0 * found[0];
                 let found = critical_speeds_by(structure, &assembled.components[0], &top).unwrap();
                 let found: Vec<f64> = found.iter().map(|c| c.speed_rad_per_s).collect();
                 for (now, before) in found.iter().zip(before.iter().flatten()) {

@@ -13,6 +13,7 @@ use faer::{Col, Mat, MatRef, Scale};
 
 use super::generalized::singular_multiples;
 use super::structured::{self, StructuredStiffness};
+use super::work::Cancellation;
 use crate::system::GyroscopicSystem;
 
 /// A pencil A − mB, A = K₀ positive definite.
@@ -58,12 +59,13 @@ struct Ritz {
 impl Pencil<'_> {
     /// Every m > 0 up to a limit, which may depend on those found (`None` where more are needed to tell),
     /// ascending, with x of (A − mB)x = 0, ‖x‖ = 1. `count` is the number of m below one, where that is certain.
-    /// `None` where the iteration or the count fails.
+    /// `None` where the iteration or the count fails, or once the computation was asked to end.
     pub fn lowest(
         &self,
         limit: &dyn Fn(&[f64]) -> Option<f64>,
         count: &dyn Fn(f64) -> Option<usize>,
     ) -> Option<Vec<(f64, Col<f64>)>> {
+        let cancellation = Cancellation::current();
         let mut span = Span::new(self.system.order());
         let start = self.structure.basis.first_waves();
         let mut blocks = (0..start.ncols()).step_by(BLOCK).map(|first| {
@@ -73,11 +75,20 @@ impl Pencil<'_> {
         span.add(self, blocks.next()?);
         let mut before = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
+            cancellation.check().ok()?;
             let ritz = span.ritz()?;
             let limit = limit(&ritz.multiples);
             let sought = limit.map_or(ritz.multiples.len(), |limit| {
                 ritz.multiples.partition_point(|m| *m <= BEYOND * limit)
             });
+            if limit.is_some()
+                && sought == ritz.multiples.len()
+                && let Some(block) = blocks.next()
+            {
+                // Waves that are missing need not wait until those on the span are found.
+                span.add(self, block);
+                continue;
+            }
             let improved = (sought + GUARD).min(ritz.multiples.len());
             let (corrections, errors) = self.corrections(&span, &ritz, improved);
             let error = errors[..sought].iter().copied().fold(0.0, f64::max);

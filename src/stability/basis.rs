@@ -9,7 +9,7 @@ use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, larger_than, resolution, rung_of};
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
-use crate::spectrum::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, SpectralModel};
+use crate::spectrum::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, SpectrumError};
 use crate::tuned::Tuned;
 
 /// What a larger basis leaves out in its turn: on 120 drawn saws, 60 of them with no part in it, the true error was up to 1.9 times
@@ -86,8 +86,14 @@ impl ChosenBasis {
                 Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
                 None => (0.0, default_top(lowest).min(fastest)),
             };
-            let limit = |lowest: f64| PAST_THE_RANGE * range(Some(lowest)).1;
-            let critical = assembled.critical_speeds(&plate, Some(&limit))?;
+            let top = |lowest: Option<f64>| PAST_THE_RANGE * range(lowest).1;
+            let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
+            let counted = top_of_sweep.and_then(|to| assembled.critical_speeds_below(to));
+            if !is_last && counted.is_some_and(|count| count > last_of_all_pairs(&plate)) {
+                rung += 1;
+                continue;
+            }
+            let critical = held_critical_speeds(&assembled, &plate, &top)?;
             let range_rad_per_s = range(critical.first().map(|c| c.speed_rad_per_s));
             let resolved = unresolved(&plate, &critical, range_rad_per_s.1);
             if resolved.is_err() && !is_last {
@@ -149,7 +155,8 @@ pub(crate) fn resolved_plate(
     let mut resolution = least;
     loop {
         let plate = Plate::new(scene, resolution);
-        let critical = SpectralModel::critical_speeds_up_to(&plate, PAST_THE_RANGE * to_rad_per_s)?;
+        let top = PAST_THE_RANGE * to_rad_per_s;
+        let critical = held_critical_speeds(&Assembled::of(&plate), &plate, &|_| top)?;
         match (unresolved(&plate, &critical, to_rad_per_s), larger.next()) {
             (Ok(()), _) => return Ok((plate, critical)),
             (Err(_), Some(size)) => resolution = size,
@@ -186,9 +193,7 @@ fn unresolved(
     to_rad_per_s: f64,
 ) -> Result<(), AnalysisError> {
     let last = plate.max_diameters();
-    // Stiff guides mix the waves beyond recognition; but there are two of each n ≥ 2, and the
-    // second of the most diameters is the last of them.
-    let all_pairs = critical.get((2 * last).saturating_sub(3));
+    let all_pairs = critical.get(last_of_all_pairs(plate));
     let most_diameters = critical.iter().find(|c| c.diameters == last);
     let highest = [all_pairs, most_diameters].into_iter().flatten();
     let highest = highest.min_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
@@ -200,6 +205,26 @@ fn unresolved(
         }),
         _ => Ok(()),
     }
+}
+
+/// The critical speeds up to one that may depend on the lowest, no more of them than the basis may hold.
+fn held_critical_speeds(
+    assembled: &Assembled,
+    plate: &Plate,
+    top_rad_per_s: &dyn Fn(Option<f64>) -> f64,
+) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+    let limit = |found: &[f64]| {
+        let top = top_rad_per_s(found.first().copied());
+        let all_pairs = found.get(last_of_all_pairs(plate));
+        all_pairs.map_or(top, |speed| top.min(PAST_THE_RANGE * speed))
+    };
+    assembled.critical_speeds(plate, Some(&limit))
+}
+
+/// Index of the last critical speed that a basis may hold below the end of a range. Stiff guides mix the waves beyond
+/// recognition; but there are two of each n ≥ 2, and the second of the most diameters is the last of them.
+fn last_of_all_pairs(plate: &Plate) -> usize {
+    (2 * plate.max_diameters()).saturating_sub(3)
 }
 
 /// Speed at which the rotation stretches the rim of a free ring, by ρ(Ωb)²/E, beyond what
@@ -225,6 +250,7 @@ fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::SpeedRange;
+    use crate::spectrum::SpectralModel;
 
     /// A blade of an eighth of the thickness reflects the waves of many more diameters below
     /// 2400 rpm than the ten of the least basis; the largest basis says how many.

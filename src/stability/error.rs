@@ -30,7 +30,7 @@ pub enum AnalysisError {
     },
     /// Waves that the basis does not hold become critical within the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that this accuracy holds, are critical there; end the sweep earlier or ask for a finer accuracy"
+        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that the largest basis holds, are critical there; end the sweep earlier"
     )]
     Unresolved {
         /// End of the sweep.

@@ -16,6 +16,7 @@ mod trace;
 use rayon::prelude::*;
 
 use super::band::{CurvePoint, Instability};
+use super::basis::PAST_THE_RANGE;
 use super::certificate::Certificate;
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
@@ -62,7 +63,8 @@ fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instabilit
     if plate.is_axisymmetric() {
         return Ok(Vec::new());
     }
-    let critical = SpectralModel::critical_speeds(&plate)?;
+    let top = PAST_THE_RANGE * range.1;
+    let critical = SpectralModel::critical_speeds_up_to(&plate, top)?;
     let twin = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
     let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS.count())?;
     Ok(bands)
