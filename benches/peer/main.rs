@@ -9,7 +9,7 @@ use sawflutter::campbell::even_speeds;
 use sawflutter::place::{Demands, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::spectrum::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
     Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
 };
@@ -143,18 +143,15 @@ fn study_of_the_paper() -> Result<Study, Failure> {
 fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
     let chosen = || ChosenBasis::new(scene, scene.tolerance());
     let choice = fastest(repeats, || Ok(chosen().map(|_| ())?))?;
-    let ChosenBasis {
-        plate,
-        critical,
-        range_rad_per_s: range,
-        ..
-    } = chosen()?;
-    let reduced = || {
-        let (plate, critical) = (plate.clone(), critical.clone());
-        SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)
+    let reduced = || -> Result<_, Failure> {
+        let found = chosen()?;
+        let range = found.range_rad_per_s;
+        let model =
+            SpectralModel::with_critical(found.saw, found.critical, range, Strategy::Reduced)?;
+        Ok((model, range))
     };
-    let reduction = fastest(repeats, || Ok(reduced().map(|_| ())?))?;
-    let model = reduced()?;
+    let reduction = fastest(repeats, || reduced().map(|_| ()))? - choice;
+    let (model, range) = reduced()?;
     let bands = fastest(repeats, || {
         Ok(undamped_bands(&model, range, EVEN_SPEEDS).map(|_| ())?)
     })?;
@@ -177,9 +174,9 @@ fn bands_of_a_place() -> Result<(), Failure> {
         max_diameters: 8,
         radial_functions: 5,
     };
-    let plate = Plate::new(&Scene::paper(), resolution);
-    let critical = SpectralModel::critical_speeds(&plate)?;
-    search_bands(plate, critical, range())?;
+    let saw = Assembled::from(Plate::new(&Scene::paper(), resolution));
+    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().1))?;
+    search_bands(saw, critical, range())?;
     Ok(())
 }
 
@@ -208,8 +205,9 @@ fn range() -> (f64, f64) {
 
 fn charted(resolution: Resolution) -> Result<(), Failure> {
     let plate = Plate::new(&Scene::paper(), resolution);
-    let critical = SpectralModel::critical_speeds_up_to(&plate, 1.05 * range().1)?;
-    let model = SpectralModel::with_critical(plate, critical, range(), Strategy::Reduced)?;
+    let saw = Assembled::from(plate);
+    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().1))?;
+    let model = SpectralModel::with_critical(saw, critical, range(), Strategy::Reduced)?;
     chart(&model, range(), CHART_SPEEDS, &|_, _| ())?;
     Ok(())
 }

@@ -63,8 +63,8 @@ pub fn modes(
         let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
         let range = chosen.range_rad_per_s;
         let speed = SpeedRange::from(range).speed_at("rpm", at_rpm)?;
-        let (plate, critical) = (chosen.plate, chosen.critical);
-        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
+        let model =
+            SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced)?;
         let found = model.describe(speed, model.modes(speed)?);
         let entry = |mode| ModeEntry::new(&model.plate, speed, mode);
         json(&found.iter().map(entry).collect::<Vec<_>>())

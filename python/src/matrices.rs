@@ -27,7 +27,7 @@ pub fn matrices<'py>(
     let (named, resolution) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
-            None => ChosenBasis::new(&scene, scene.tolerance())?.plate,
+            None => ChosenBasis::new(&scene, scene.tolerance())?.saw.plate,
         };
         let system = GyroscopicSystem::of_plate(&plate);
         let mut named = vec![

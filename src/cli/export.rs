@@ -46,7 +46,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.common.folder()?;
     let plate = match arguments.basis {
         Some(resolution) => Plate::new(&scene, resolution),
-        None => ChosenBasis::new(&scene, scene.tolerance())?.plate,
+        None => ChosenBasis::new(&scene, scene.tolerance())?.saw.plate,
     };
     let system = GyroscopicSystem::of_plate(&plate);
     let mut files: Vec<NamedFile> = vec![

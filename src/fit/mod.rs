@@ -301,7 +301,7 @@ fn basis(
         to_rad_per_s: rad_per_s(measurement.top_rpm()),
     })?;
     let chosen = ChosenBasis::new(&swept, tolerance)?;
-    Ok((chosen.plate.resolution, chosen.estimated_relative_error))
+    Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))
 }
 
 /// The scene with what was found and a note of where it comes from.

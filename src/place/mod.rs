@@ -178,7 +178,7 @@ impl Placement {
             goal: demands.goal,
             min_critical_rad_per_s: demands.min_critical_rad_per_s,
             range: chosen.range_rad_per_s,
-            resolution: options.resolution.unwrap_or(chosen.plate.resolution),
+            resolution: options.resolution.unwrap_or(chosen.saw.plate.resolution),
         };
         let (freed, without_effect) = moving(scene, freed, &question, &evaluations);
         if freed.is_empty() {

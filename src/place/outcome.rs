@@ -3,7 +3,7 @@
 use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::stability::{
-    AnalysisError, Instability, flutter_onsets, resolved_plate, safe_window, search_bands,
+    AnalysisError, Instability, flutter_onsets, resolved, safe_window, search_bands,
 };
 
 use super::Goal;
@@ -46,14 +46,14 @@ impl Question {
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
     pub fn ask(&self, scene: &Scene) -> Result<Outcome, AnalysisError> {
-        let (plate, critical) = resolved_plate(scene, self.resolution, self.range.1)?;
+        let (saw, critical) = resolved(scene, self.resolution, self.range.1)?;
         let lowest = critical.first().map(|c| c.speed_rad_per_s);
         let short = match (self.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (asked - found).max(0.0),
             // Without a critical speed every limit is kept.
             _ => 0.0,
         };
-        let (bands, _) = search_bands(plate, critical, self.range)?;
+        let (bands, _) = search_bands(saw, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let window = match self.goal {

@@ -71,7 +71,7 @@ pub fn basis_of_all(
     };
     let basis_of = |saw: &Scene| -> Result<Resolution, PlaceError> {
         let chosen = ChosenBasis::new(&saw.swept(sweep)?, scene.tolerance())?;
-        Ok(chosen.plate.resolution)
+        Ok(chosen.saw.plate.resolution)
     };
     let own = basis_of(scene)?;
     let others: Vec<Option<Resolution>> = candidates

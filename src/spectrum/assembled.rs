@@ -1,5 +1,7 @@
 //! A plate put together: what it is asked before a range of speeds is prepared.
 
+use std::sync::OnceLock;
+
 use faer::Col;
 
 use super::at_rest::{RestingMode, modes_at_rest};
@@ -12,38 +14,47 @@ use super::structured::{LARGE, StructuredStiffness};
 use super::work::Cancellation;
 use crate::plate::Plate;
 
-/// The matrices of a plate, and the structure of large ones.
+/// Speed up to which critical speeds are asked for, by those found so far, ascending, in rad/s.
+pub type SpeedLimit<'a> = &'a dyn Fn(&[f64]) -> f64;
+
+/// A plate with its matrices, and the structure of large ones once it is asked for.
 #[derive(Debug)]
 pub struct Assembled {
+    /// The plate.
+    pub plate: Plate,
     /// Independent components.
     pub components: Vec<Component>,
-    structure: Option<StructuredStiffness>,
+    pub(super) structure: OnceLock<Option<StructuredStiffness>>,
+}
+
+impl From<Plate> for Assembled {
+    fn from(plate: Plate) -> Self {
+        Assembled {
+            components: Component::of(&plate),
+            plate,
+            structure: OnceLock::new(),
+        }
+    }
 }
 
 impl Assembled {
-    /// Of a plate.
-    pub fn of(plate: &Plate) -> Self {
-        let components = Component::of(plate);
-        let structure = match components.as_slice() {
-            [only] if only.full.order() >= LARGE && only.full.free_rigid.is_empty() => {
-                StructuredStiffness::of(plate)
-            }
-            _ => None,
-        };
-        Assembled {
-            components,
-            structure,
-        }
-    }
-
     /// Whether what it is asked takes no dense eigenproblem of the order of the basis.
     pub fn is_structured(&self) -> bool {
-        self.structure.is_some() || self.components.len() > 1
+        self.structured().is_some() || self.components.len() > 1
     }
 
     /// The structure and the one component that has it.
     fn structured(&self) -> Option<(&StructuredStiffness, &Component)> {
-        Some((self.structure.as_ref()?, self.components.first()?))
+        let [only] = self.components.as_slice() else {
+            return None;
+        };
+        let is_large = only.full.order() >= LARGE && only.full.free_rigid.is_empty();
+        let structure = || {
+            is_large
+                .then(|| StructuredStiffness::of(&self.plate))
+                .flatten()
+        };
+        Some((self.structure.get_or_init(structure).as_ref()?, only))
     }
 
     /// Number of critical speeds below a speed, where the structure tells it with certainty.
@@ -60,8 +71,7 @@ impl Assembled {
     /// the reason.
     pub fn critical_speeds(
         &self,
-        plate: &Plate,
-        limit_rad_per_s: Option<&dyn Fn(&[f64]) -> f64>,
+        limit_rad_per_s: Option<SpeedLimit<'_>>,
     ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         let structured = self.structured();
         let structured = structured
@@ -75,8 +85,8 @@ impl Assembled {
                 .map(|c| critical_speeds(&c.full))
                 .collect(),
         };
-        let found = found.map_err(|error| buckling::explained(plate, error))?;
-        Ok(named(plate, &self.components, found))
+        let found = found.map_err(|error| buckling::explained(&self.plate, error))?;
+        Ok(named(&self.plate, &self.components, found))
     }
 
     /// The lowest `count` modes at rest, ascending; without damping, and without the rigid motions
@@ -100,7 +110,7 @@ impl Assembled {
 fn critical_speeds_by(
     structure: &StructuredStiffness,
     component: &Component,
-    limit_rad_per_s: &dyn Fn(&[f64]) -> f64,
+    limit_rad_per_s: SpeedLimit<'_>,
 ) -> Option<Vec<CriticalSpeed>> {
     let pencil = Pencil {
         system: &component.full,
@@ -182,10 +192,8 @@ mod tests {
         };
         for (count, stiffness) in [(1, 1e4), (1, 2e7), (1, 1e10), (2, 2e6), (3, 1e6)] {
             let what = format!("{count} pads of {stiffness:e} N/m");
-            let plate = Plate::new(&pads(count, stiffness), resolution);
-            let assembled = Assembled::of(&plate);
-            let structure = assembled.structure.as_ref().expect(&what);
-            let only = &assembled.components[0];
+            let assembled = Assembled::from(Plate::new(&pads(count, stiffness), resolution));
+            let (structure, only) = assembled.structured().expect(&what);
             let found = critical_speeds_by(structure, only, &|_| top).expect(&what);
             let mut exact = critical_speeds(&only.full).unwrap();
             exact.retain(|c| c.speed_rad_per_s <= top);
@@ -221,11 +229,10 @@ mod tests {
                     max_diameters,
                     radial_functions,
                 };
-                let plate = Plate::new(&scene, resolution);
-                let assembled = Assembled::of(&plate);
-                let structure = assembled.structure.as_ref().unwrap();
+                let assembled = Assembled::from(Plate::new(&scene, resolution));
+                let (structure, only) = assembled.structured().unwrap();
                 let top = |found: &[f64]| 2.0 * found[0];
-                let found = critical_speeds_by(structure, &assembled.components[0], &top).unwrap();
+                let found = critical_speeds_by(structure, only, &top).unwrap();
                 let found: Vec<f64> = found.iter().map(|c| c.speed_rad_per_s).collect();
                 for (now, before) in found.iter().zip(before.iter().flatten()) {
                     assert!(*now < before * (1.0 + 1e-11), "{now} {before}");

@@ -53,7 +53,8 @@ mod work;
 
 pub(crate) use argument::turn_along;
 pub(crate) use arnoldi::lowest_eigenpairs;
-pub(crate) use assembled::Assembled;
+#[doc(hidden)]
+pub use assembled::{Assembled, SpeedLimit};
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]
 pub use companion::companion_eigenpairs;

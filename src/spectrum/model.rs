@@ -93,12 +93,12 @@ impl SpectralModel {
         Self::with_critical(plate, critical, range, strategy)
     }
 
-    /// The same where the critical speeds are known.
+    /// The same where the critical speeds are known, and perhaps more.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn with_critical(
-        plate: Plate,
+        saw: impl Into<Assembled>,
         critical: Vec<NamedCriticalSpeed>,
         range: (f64, f64),
         strategy: Strategy,
@@ -107,14 +107,20 @@ impl SpectralModel {
             cancellation: Cancellation::current(),
             ..WorkCounters::default()
         };
+        let Assembled {
+            plate,
+            components,
+            structure,
+        } = saw.into();
+        let structure = structure.into_inner().flatten().map(|found| found.basis);
         let mut model = SpectralModel {
-            components: Component::of(&plate),
+            components,
             plate,
             critical,
             complete_to_rad_per_s: f64::INFINITY,
             unsettled_rad_per_s: 0.0,
             counters,
-            structure: OnceLock::new(),
+            structure: structure.map_or_else(OnceLock::new, OnceLock::from),
         };
         match (strategy, model.plate.is_axisymmetric()) {
             (Strategy::Dense, _) => (),
@@ -178,19 +184,7 @@ impl SpectralModel {
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
     /// the reason.
     pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        Assembled::of(plate).critical_speeds(plate, None)
-    }
-
-    /// The lowest critical speed of a plate and all others up to a speed, ascending: of a guided blade in a time far
-    /// below that of all.
-    ///
-    /// # Errors
-    /// Those of [`SpectralModel::critical_speeds`].
-    pub fn critical_speeds_up_to(
-        plate: &Plate,
-        to_rad_per_s: f64,
-    ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        Assembled::of(plate).critical_speeds(plate, Some(&|_| to_rad_per_s))
+        Assembled::from(plate.clone()).critical_speeds(None)
     }
 
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.

@@ -147,14 +147,14 @@ impl Analysis {
     ) -> Result<Self, AnalysisError> {
         let detail = options.detail;
         let ChosenBasis {
-            plate,
+            saw,
             critical,
             range_rad_per_s: range,
             estimated_relative_error,
             estimated_resting_error,
             larger,
         } = ChosenBasis::new(scene, scene.tolerance())?;
-        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
+        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let mut chart = charted(&model, range, options)?;
         let modes_at_rest = modes_at_rest(&model, &chart)?;
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;

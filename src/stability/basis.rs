@@ -31,8 +31,8 @@ const ROUNDING: f64 = 1e-10;
 /// The smallest basis that meets a tolerance, its critical speeds and estimated errors.
 #[derive(Debug)]
 pub struct ChosenBasis {
-    /// The plate in this basis.
-    pub plate: Plate,
+    /// The saw in this basis.
+    pub saw: Assembled,
     /// The critical speeds up to a little above the range, and the lowest; ascending.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Speeds of the chart.
@@ -77,9 +77,8 @@ impl ChosenBasis {
         let mut rung = rung_of(least);
         loop {
             cancellation.check()?;
-            let plate = Plate::new(scene, resolution(LADDER[rung]));
-            let assembled = Assembled::of(&plate);
-            let is_within_reach = assembled.is_structured() && plate.is_conservative();
+            let saw = Assembled::from(Plate::new(scene, resolution(LADDER[rung])));
+            let is_within_reach = saw.is_structured() && saw.plate.is_conservative();
             let is_largest = rung + 1 >= DENSE_LADDER.len() && !is_within_reach;
             let is_last = is_largest || rung + 1 == LADDER.len();
             let range = |lowest: Option<f64>| match scene.sweep() {
@@ -88,26 +87,26 @@ impl ChosenBasis {
             };
             let top = |lowest: Option<f64>| PAST_THE_RANGE * range(lowest).1;
             let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
-            let counted = top_of_sweep.and_then(|to| assembled.critical_speeds_below(to));
-            if !is_last && counted.is_some_and(|count| count > last_of_all_pairs(&plate)) {
+            let counted = top_of_sweep.and_then(|to| saw.critical_speeds_below(to));
+            if !is_last && counted.is_some_and(|count| count > last_of_all_pairs(&saw.plate)) {
                 rung += 1;
                 continue;
             }
-            let critical = held_critical_speeds(&assembled, &plate, &top)?;
+            let critical = held_critical_speeds(&saw, &top)?;
             let range_rad_per_s = range(critical.first().map(|c| c.speed_rad_per_s));
-            let resolved = unresolved(&plate, &critical, range_rad_per_s.1);
+            let resolved = unresolved(&saw.plate, &critical, range_rad_per_s.1);
             if resolved.is_err() && !is_last {
                 rung += 1;
                 continue;
             }
             resolved?;
-            let larger = LargerBasis::new(&plate, &Plate::new(scene, ahead(rung)))?;
-            let resting = resting_error(&assembled, &larger)?;
-            let error = critical_error(&assembled, &larger, &critical, range_rad_per_s.1);
+            let larger = LargerBasis::new(&saw.plate, &Plate::new(scene, ahead(rung)))?;
+            let resting = resting_error(&saw, &larger)?;
+            let error = critical_error(&saw, &larger, &critical, range_rad_per_s.1);
             let excess = resting.max(error) / tolerance;
             if is_last || excess <= 1.0 {
                 return Ok(ChosenBasis {
-                    plate,
+                    saw,
                     critical,
                     range_rad_per_s,
                     estimated_relative_error: error,
@@ -139,11 +138,11 @@ fn next(rung: usize, excess: f64) -> usize {
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails, when the blade is not elastic at that speed any
 /// more, or when the largest basis does not hold these waves.
-pub(crate) fn resolved_plate(
+pub(crate) fn resolved(
     scene: &Scene,
     least: Resolution,
     to_rad_per_s: f64,
-) -> Result<(Plate, Vec<NamedCriticalSpeed>), AnalysisError> {
+) -> Result<(Assembled, Vec<NamedCriticalSpeed>), AnalysisError> {
     let fastest = fastest_rad_per_s(scene.blade());
     if to_rad_per_s > fastest {
         return Err(AnalysisError::Overstretched {
@@ -154,11 +153,14 @@ pub(crate) fn resolved_plate(
     let mut larger = larger_than(least);
     let mut resolution = least;
     loop {
-        let plate = Plate::new(scene, resolution);
+        let saw = Assembled::from(Plate::new(scene, resolution));
         let top = PAST_THE_RANGE * to_rad_per_s;
-        let critical = held_critical_speeds(&Assembled::of(&plate), &plate, &|_| top)?;
-        match (unresolved(&plate, &critical, to_rad_per_s), larger.next()) {
-            (Ok(()), _) => return Ok((plate, critical)),
+        let critical = held_critical_speeds(&saw, &|_| top)?;
+        match (
+            unresolved(&saw.plate, &critical, to_rad_per_s),
+            larger.next(),
+        ) {
+            (Ok(()), _) => return Ok((saw, critical)),
             (Err(_), Some(size)) => resolution = size,
             (Err(error), None) => return Err(error),
         }
@@ -166,22 +168,22 @@ pub(crate) fn resolved_plate(
 }
 
 /// Largest estimated relative error of the lowest frequencies at rest.
-fn resting_error(assembled: &Assembled, larger: &LargerBasis) -> Result<f64, AnalysisError> {
-    let modes = assembled.modes_at_rest(MODES_AT_REST)?;
+fn resting_error(saw: &Assembled, larger: &LargerBasis) -> Result<f64, AnalysisError> {
+    let modes = saw.modes_at_rest(MODES_AT_REST)?;
     let errors = modes.iter().map(|mode| larger.resting_error(mode));
     Ok(REMAINDER.get() * errors.fold(0.0, f64::max))
 }
 
 /// The same of the critical speeds up to a speed, and of the first.
 fn critical_error(
-    assembled: &Assembled,
+    saw: &Assembled,
     larger: &LargerBasis,
     critical: &[NamedCriticalSpeed],
     to_rad_per_s: f64,
 ) -> f64 {
     let within = critical.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s);
     let errors = critical.iter().take(within.max(1));
-    let errors = errors.map(|c| larger.critical_error(&assembled.components, c));
+    let errors = errors.map(|c| larger.critical_error(&saw.components, c));
     (REMAINDER.get() * errors.fold(0.0, f64::max)).max(ROUNDING)
 }
 
@@ -209,16 +211,15 @@ fn unresolved(
 
 /// The critical speeds up to one that may depend on the lowest, no more of them than the basis may hold.
 fn held_critical_speeds(
-    assembled: &Assembled,
-    plate: &Plate,
+    saw: &Assembled,
     top_rad_per_s: &dyn Fn(Option<f64>) -> f64,
 ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
     let limit = |found: &[f64]| {
         let top = top_rad_per_s(found.first().copied());
-        let all_pairs = found.get(last_of_all_pairs(plate));
+        let all_pairs = found.get(last_of_all_pairs(&saw.plate));
         all_pairs.map_or(top, |speed| top.min(PAST_THE_RANGE * speed))
     };
-    assembled.critical_speeds(plate, Some(&limit))
+    saw.critical_speeds(Some(&limit))
 }
 
 /// Index of the last critical speed that a basis may hold below the end of a range. Stiff guides mix the waves beyond
@@ -266,8 +267,8 @@ mod tests {
         let small = Plate::new(&thin, resolution(LADDER[0]));
         let small = below(&SpectralModel::critical_speeds(&small).unwrap());
         assert!(small < exact, "{small} {exact}");
-        let (plate, critical) = resolved_plate(&thin, resolution(LADDER[0]), top).unwrap();
-        assert!(plate.max_diameters() > LADDER[0].0);
+        let (saw, critical) = resolved(&thin, resolution(LADDER[0]), top).unwrap();
+        assert!(saw.plate.max_diameters() > LADDER[0].0);
         assert_eq!(below(&critical), exact);
     }
 

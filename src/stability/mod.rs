@@ -46,7 +46,7 @@ pub(crate) use analysis::OPERATING_LIMIT;
 pub use analysis::{Analysis, AnalysisOptions};
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
-pub(crate) use basis::resolved_plate;
+pub(crate) use basis::resolved;
 pub use certificate::Certificate;
 pub(crate) use certificate::Mismatch;
 pub use chart::StabilityChart;

@@ -7,9 +7,9 @@ use super::chart::{CHART_SPEEDS, chart};
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
-use crate::plate::{Plate, Resolution};
+use crate::plate::Resolution;
 use crate::scene::Scene;
-use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
+use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl Onsets {
 
     fn on(chosen: ChosenBasis, scene: &Scene) -> Result<Self, AnalysisError> {
         let ChosenBasis {
-            plate,
+            saw,
             critical,
             range_rad_per_s: range,
             estimated_relative_error,
@@ -69,14 +69,14 @@ impl Onsets {
         let lowest_critical = critical.first().map(|c| c.speed_rad_per_s);
         let speeds = critical.iter().map(|c| c.speed_rad_per_s);
         let critical_rad_per_s = speeds.take_while(|speed| *speed <= range.1).collect();
-        let functions = plate.degrees_of_freedom();
+        let functions = saw.plate.degrees_of_freedom();
         // Nothing couples the waves of a free blade, and nothing is reflected below the lowest
         // critical speed: then there are no bands to search for.
-        let is_damped = !plate.is_conservative();
+        let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
-        let (instabilities, certificate) = match plate.is_axisymmetric() || is_slow {
+        let (instabilities, certificate) = match saw.plate.is_axisymmetric() || is_slow {
             true if !is_damped => Default::default(),
-            _ => search_bands(plate, critical, range)?,
+            _ => search_bands(saw, critical, range)?,
         };
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);
@@ -99,15 +99,16 @@ impl Onsets {
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
 pub fn search_bands(
-    plate: Plate,
+    saw: impl Into<Assembled>,
     critical: Vec<NamedCriticalSpeed>,
     range: (f64, f64),
 ) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
-    if plate.is_conservative() {
-        let model = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
+    let saw = saw.into();
+    if saw.plate.is_conservative() {
+        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Bands)?;
         return Ok(undamped_bands(&model, range, SEARCH_SPEEDS.count())?);
     }
-    let model = SpectralModel::with_critical(plate, critical, range, Strategy::Reduced)?;
+    let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
     let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;
     Ok((chart.instabilities, chart.certificate))
 }

@@ -75,28 +75,27 @@ struct Smaller {
 
 impl Smaller {
     fn new(scene: &Scene, rung: usize, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
-        let plate = Plate::new(scene, resolution(LADDER[rung]));
+        let saw = Assembled::from(Plate::new(scene, resolution(LADDER[rung])));
         let finer = Plate::new(scene, ahead(rung));
-        let larger = LargerBasis::new(&plate, &finer)?;
-        let assembled = Assembled::of(&plate);
-        let critical = assembled.critical_speeds(&plate, Some(&|_| to_rad_per_s))?;
+        let larger = LargerBasis::new(&saw.plate, &finer)?;
+        let critical = saw.critical_speeds(Some(&|_| to_rad_per_s))?;
         let within = critical.into_iter();
         let within = within.filter(|c| c.speed_rad_per_s <= to_rad_per_s);
         let within = within.map(|c| {
-            let error = larger.critical_error(&assembled.components, &c);
+            let error = larger.critical_error(&saw.components, &c);
             (error, c.component, c.shape)
         });
-        let resting = assembled.modes_at_rest(MODES_AT_REST)?.into_iter();
+        let resting = saw.modes_at_rest(MODES_AT_REST)?.into_iter();
         let resting = resting.map(|mode| {
             let error = larger.resting_error(&mode);
             (error, mode.component, mode.shape)
         });
         let all = within.chain(resting);
         let worst = all.max_by(|x, y| x.0.total_cmp(&y.0));
-        let none = || (0.0, 0, Col::zeros(plate.degrees_of_freedom()));
+        let none = || (0.0, 0, Col::zeros(saw.plate.degrees_of_freedom()));
         let (error, component, shape) = worst.unwrap_or_else(none);
         Ok(Smaller {
-            plate,
+            plate: saw.plate,
             finer,
             larger,
             error: REMAINDER.get() * error,

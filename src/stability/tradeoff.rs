@@ -14,7 +14,7 @@ use super::ladder::{DENSE_LADDER, LADDER};
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
-use crate::spectrum::{NamedCriticalSpeed, SpectralModel, Strategy};
+use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 use crate::system::GyroscopicSystem;
 
 /// How critical speeds and bands are computed.
@@ -178,7 +178,7 @@ fn events(
     let strategy = match method {
         Method::CriticalSpeeds => {
             return Ok(Some(Events {
-                critical: below(&SpectralModel::critical_speeds_up_to(&plate, range.1)?),
+                critical: below(&Assembled::from(plate).critical_speeds(Some(&|_| range.1))?),
                 onsets: Vec::new(),
             }));
         }
@@ -195,8 +195,9 @@ fn events(
         Method::Reduced => Strategy::Reduced,
         Method::Dense => Strategy::Dense,
     };
-    let critical = SpectralModel::critical_speeds_up_to(&plate, PAST_THE_RANGE * range.1)?;
-    let model = SpectralModel::with_critical(plate, critical, range, strategy)?;
+    let saw = Assembled::from(plate);
+    let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
+    let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
     let StabilityChart { instabilities, .. } = chart(&model, range, speeds, &|_, _| ())?;
     let flutter = instabilities
         .iter()

@@ -129,7 +129,7 @@ impl Study {
         let found = match ChosenBasis::new(&swept, self.scene.tolerance()) {
             // A run that is stopped says nothing about the next one.
             Err(AnalysisError::Spectrum(SpectrumError::Cancelled)) => return None,
-            chosen => chosen.ok().map(|chosen| chosen.plate.resolution),
+            chosen => chosen.ok().map(|chosen| chosen.saw.plate.resolution),
         };
         *self.basis.get_or_init(|| found)
     }

@@ -107,7 +107,7 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
         from_rad_per_s: 0.0,
         to_rad_per_s: to_rad_per_s.max(fastest),
     })?;
-    Ok(ChosenBasis::new(&swept, scene.tolerance())?.plate)
+    Ok(ChosenBasis::new(&swept, scene.tolerance())?.saw.plate)
 }
 
 /// A run-up.

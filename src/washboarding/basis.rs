@@ -65,8 +65,8 @@ impl Motions {
             to_rad_per_s: fastest,
         })?;
         let chosen = ChosenBasis::new(&swept, idling.tolerance())?;
-        let needed = needed(&chosen.plate, washboarding, run, fastest)?;
-        let plate = complete_plate(idling, chosen.plate, fastest, needed).in_cut(cut, run);
+        let needed = needed(&chosen.saw.plate, washboarding, run, fastest)?;
+        let plate = complete_plate(idling, chosen.saw.plate, fastest, needed).in_cut(cut, run);
         let full = GyroscopicSystem::of_plate(&plate);
         if !full.free_rigid.is_empty() {
             return Err(WashboardError::Loose);

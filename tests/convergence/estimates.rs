@@ -8,7 +8,7 @@ use crate::tolerance::{Saw, other_saws};
 use rayon::prelude::*;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, DampingFile, InPlane, Mount, Scene, SweepFile};
-use sawflutter::spectrum::{LowestModes, Mode, SpectralModel};
+use sawflutter::spectrum::{Assembled, LowestModes, Mode};
 use sawflutter::stability::{Analysis, ChosenBasis, Instability, InstabilityKind, search_bands};
 
 const TRUTH: Resolution = Resolution {
@@ -106,15 +106,15 @@ struct Truth {
 
 impl Truth {
     fn new(scene: &Scene) -> Self {
-        let plate = Plate::new(scene, TRUTH);
-        let lowest = LowestModes::new(&plate);
+        let saw = Assembled::from(Plate::new(scene, TRUTH));
+        let lowest = LowestModes::new(&saw.plate);
         let range = ChosenBasis::new(scene, 1e-3).unwrap().range_rad_per_s;
-        let named = SpectralModel::critical_speeds_up_to(&plate, 1.1 * range.1).unwrap();
+        let named = saw.critical_speeds(Some(&|_| 1.1 * range.1)).unwrap();
         let critical = named.iter().map(|c| c.speed_rad_per_s).collect();
         Truth {
             at_rest: lowest.at(0.0, 30).unwrap(),
             critical,
-            bands: search_bands(plate, named, range).unwrap().0,
+            bands: search_bands(saw, named, range).unwrap().0,
             lowest,
         }
     }

@@ -8,7 +8,7 @@ use crate::common::Worst;
 use rayon::prelude::*;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{GuideFile, Scene};
-use sawflutter::spectrum::SpectralModel;
+use sawflutter::spectrum::Assembled;
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind};
 
 const TRUTH: Resolution = Resolution {
@@ -121,8 +121,8 @@ fn assert_promises(saws: &[Saw], reached: usize) {
             let all = tolerances.map(|tolerance| ChosenBasis::new(&saw.scene, tolerance).unwrap());
             let to = all.iter().map(|chosen| chosen.range_rad_per_s.1);
             let to = to.fold(0.0, f64::max);
-            let truth = Plate::new(&saw.scene, TRUTH);
-            let truth = SpectralModel::critical_speeds_up_to(&truth, to).unwrap();
+            let truth = Assembled::from(Plate::new(&saw.scene, TRUTH));
+            let truth = truth.critical_speeds(Some(&|_| to)).unwrap();
             all.map(|chosen| {
                 let within = chosen
                     .critical

@@ -21,7 +21,7 @@ use super::certificate::Certificate;
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
-use crate::spectrum::{SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{Assembled, SpectralModel, SpectrumError, Strategy};
 use crate::tuned::Tuned;
 use counts::Counts;
 pub(super) use counts::counted_in_window;
@@ -63,9 +63,9 @@ fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instabilit
     if plate.is_axisymmetric() {
         return Ok(Vec::new());
     }
-    let top = PAST_THE_RANGE * range.1;
-    let critical = SpectralModel::critical_speeds_up_to(&plate, top)?;
-    let twin = SpectralModel::with_critical(plate, critical, range, Strategy::Bands)?;
+    let twin = Assembled::from(plate);
+    let critical = twin.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
+    let twin = SpectralModel::with_critical(twin, critical, range, Strategy::Bands)?;
     let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS.count())?;
     Ok(bands)
 }
