@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::arnoldi::Inverse;
 use super::inertia::WholeBasis;
+use super::work::Cancellation;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
@@ -21,8 +22,9 @@ pub struct StructuredStiffness {
 
 impl StructuredStiffness {
     /// Of a plate that guides hold; `None` where they take too many columns, where loads at the rim
-    /// couple every wave with every other, and where K₀ is singular.
+    /// couple every wave with every other, where K₀ is singular, and once the computation was asked to end.
     pub fn of(plate: &Plate) -> Option<Self> {
+        Cancellation::current().check().ok()?;
         Self::by(WholeBasis::new(plate))
     }
 
@@ -32,6 +34,7 @@ impl StructuredStiffness {
     }
 
     fn by(basis: WholeBasis) -> Option<Self> {
+        Cancellation::current().check().ok()?;
         let inverse = Inverse::by_blocks(&basis.at_rest()?)?;
         Some(StructuredStiffness { basis, inverse })
     }

@@ -3,7 +3,7 @@
 mod damped;
 mod hump;
 
-use faer::{Col, c64};
+use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
 use self::damped::fastest;
@@ -148,38 +148,54 @@ impl Estimates {
         band: &Instability,
         sample: &SpeedSample,
     ) -> Result<BandError, SpectrumError> {
-        let Some([growing, partner]) = modes_of(band, &sample.modes) else {
+        let Some(modes) = modes_of(band, &sample.modes) else {
             return Ok(BandError::default());
         };
-        let component = growing.mode.component;
+        match (band.kind, model.is_conservative()) {
+            (InstabilityKind::Divergence, true) => self.standing(model, band, modes[0]),
+            (InstabilityKind::Flutter, true) => Ok(self.merging(model, band, modes)),
+            _ => self.damped(model, band, modes[0], &sample.modes),
+        }
+    }
+
+    /// A component at the peak of a band on the span of some of its vectors, and the same softened by what the larger
+    /// basis would change there. The vectors of the span come with them.
+    fn projected(
+        &self,
+        model: &SpectralModel,
+        band: &Instability,
+        component: usize,
+        vectors: &[Col<f64>],
+    ) -> (Mat<f64>, [GyroscopicSystem; 2]) {
         let full = &model.components[component].full;
-        let shapes = [growing, partner].map(|m| model.components[component].coordinates(&m.shape));
-        let halves = shapes.iter().flat_map(|q| {
-            let (re, im) = split(q);
-            [re, im]
-        });
-        let halves: Vec<Col<f64>> = halves.collect();
-        let basis = orthonormal(full.order(), &halves, INDEPENDENT);
+        let basis = orthonormal(full.order(), vectors, INDEPENDENT);
         let found = full.project(basis.as_ref());
         let mut larger = found.clone();
         larger.stiffness -= self
             .larger
             .softening(component, band.peak_rad_per_s, &basis);
-        match (band.kind, model.is_conservative()) {
-            (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
-            (InstabilityKind::Flutter, true) => {
-                let inward = |k: usize| {
-                    let (re, im) = split(&shapes[k]);
-                    let (re, im) = (basis.transpose() * re, basis.transpose() * im);
-                    let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
-                    let lambda = [growing, partner][k].mode.lambda;
-                    State::new(&found, band.peak_rad_per_s, (lambda, q))
-                };
-                let states = [inward(0), inward(1)];
-                Ok(merged([&found, &larger], &states, band))
-            }
-            _ => self.damped(model, band, growing, &sample.modes),
-        }
+        (basis, [found, larger])
+    }
+
+    /// Flutter of an undamped blade, on the two waves that have merged.
+    fn merging(
+        &self,
+        model: &SpectralModel,
+        band: &Instability,
+        modes: [&DescribedMode; 2],
+    ) -> BandError {
+        let component = modes[0].mode.component;
+        let halves = modes.map(|m| split(&model.components[component].coordinates(&m.shape)));
+        let vectors = halves.iter().flat_map(|(re, im)| [re.clone(), im.clone()]);
+        let vectors: Vec<Col<f64>> = vectors.collect();
+        let (basis, [found, larger]) = self.projected(model, band, component, &vectors);
+        let states = [0, 1].map(|k| {
+            let (re, im) = &halves[k];
+            let (re, im) = (basis.transpose() * re, basis.transpose() * im);
+            let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
+            State::new(&found, band.peak_rad_per_s, (modes[k].mode.lambda, q))
+        });
+        merged([&found, &larger], &states, band)
     }
 
     /// Growth of a damped blade, on the mode that grows and those next to it: the larger basis moves the band, so that
@@ -200,14 +216,9 @@ impl Estimates {
             let (re, im) = split(&model.components[component].coordinates(&m.shape));
             [re, im]
         });
-        let full = &model.components[component].full;
-        let basis = orthonormal(full.order(), &halves.collect::<Vec<_>>(), INDEPENDENT);
-        let found = full.project(basis.as_ref());
-        let mut larger = found.clone();
-        larger.stiffness -= self
-            .larger
-            .softening(component, band.peak_rad_per_s, &basis);
-        let [before, after] = [&found, &larger].map(|system| fastest(system, growing, band));
+        let halves: Vec<Col<f64>> = halves.collect();
+        let (_, systems) = self.projected(model, band, component, &halves);
+        let [before, after] = systems.map(|system| fastest(&system, growing, band));
         Ok(BandError {
             speed: None,
             growth: told(after? / before? - 1.0),
@@ -223,19 +234,14 @@ impl Estimates {
         growing: &DescribedMode,
     ) -> Result<BandError, SpectrumError> {
         let component = growing.mode.component;
-        let full = &model.components[component].full;
         let ends = model.critical.iter().filter(|c| {
             let is_end = |end: f64| (c.speed_rad_per_s / end - 1.0).abs() < SAME_SPEED;
             c.component == component && (is_end(band.from_rad_per_s) || is_end(band.to_rad_per_s))
         });
         let (re, im) = split(&model.components[component].coordinates(&growing.shape));
         let shapes = ends.map(|c| c.shape.clone()).chain([re, im]);
-        let basis = orthonormal(full.order(), &shapes.collect::<Vec<_>>(), INDEPENDENT);
-        let found = full.project(basis.as_ref());
-        let mut larger = found.clone();
-        larger.stiffness -= self
-            .larger
-            .softening(component, band.peak_rad_per_s, &basis);
+        let shapes: Vec<Col<f64>> = shapes.collect();
+        let (_, [found, larger]) = self.projected(model, band, component, &shapes);
         let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
         let [Some(before), Some(after)] = [before, after] else {
             return Ok(BandError::default());

@@ -3,7 +3,6 @@
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use thirtyfour::Key;
 
 use crate::browser::{PATIENCE, Page, run};
 
@@ -100,11 +99,7 @@ fn a_program_that_is_started_again_takes_the_page_over() {
         page.settle().await;
         assert!(page.text("#facts").await.contains(" → "));
         assert_eq!(page.text("#fault").await, "");
-        let chart = page.find("#campbell").await;
-        chart.focus().await.unwrap();
-        chart.send_keys(Key::Right + "").await.unwrap();
-        page.wait("document.querySelector('#mode').textContent.includes('Krein')")
-            .await;
+        page.step_to_a_mode().await;
         page.close().await;
     });
 }

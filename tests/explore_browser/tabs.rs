@@ -1,7 +1,7 @@
 //! Many pages of one program.
 
 use serde_json::json;
-use thirtyfour::{Key, WindowHandle};
+use thirtyfour::WindowHandle;
 
 use crate::browser::{PAD, Page, drag, let_go, run};
 
@@ -52,11 +52,7 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
         assert_eq!(shown.len(), 8);
         // The first one's chart is still kept for its modes, whatever the others have asked since.
         page.driver.switch_to_window(tabs[0].clone()).await.unwrap();
-        let chart = page.find("#campbell").await;
-        chart.focus().await.unwrap();
-        chart.send_keys(Key::Right + "").await.unwrap();
-        page.wait("document.querySelector('#mode').textContent.includes('Krein')")
-            .await;
+        page.step_to_a_mode().await;
         page.close().await;
     });
 }

@@ -7,6 +7,7 @@ use faer::{Col, Mat, Par, Scale, Side};
 use crate::plate::Plate;
 use crate::spectrum::error::SpectrumError;
 use crate::spectrum::structured::{LARGE, StructuredStiffness};
+use crate::spectrum::work::Cancellation;
 use crate::system::GyroscopicSystem;
 
 /// Functions that a component lacks.
@@ -40,6 +41,7 @@ impl AddedFunctions {
 
     pub fn of_coupled(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
         let kept = kept(plate, larger, 0..=plate.max_diameters());
+        Cancellation::current().check()?;
         let is_large = larger.degrees_of_freedom() >= LARGE;
         let structured = is_large
             .then(|| StructuredStiffness::nearly(larger))
@@ -53,6 +55,7 @@ impl AddedFunctions {
                 kept,
             });
         }
+        Cancellation::current().check()?;
         let system = GyroscopicSystem::of_plate(larger);
         DenseFunctions::new(&system, &kept).map(AddedFunctions::Dense)
     }

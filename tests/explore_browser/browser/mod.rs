@@ -172,6 +172,15 @@ impl Page {
         field.send_keys(Key::Tab + "").await.unwrap();
     }
 
+    /// Steps to a mode of the chart by key: the program still has the chart.
+    pub async fn step_to_a_mode(&self) {
+        let chart = self.find("#campbell").await;
+        chart.focus().await.unwrap();
+        chart.send_keys(Key::Right + "").await.unwrap();
+        self.wait("document.querySelector('#mode').textContent.includes('Krein')")
+            .await;
+    }
+
     pub async fn screenshot(&self, name: &str) {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../explore-screenshots");
         std::fs::create_dir_all(&folder).unwrap();
