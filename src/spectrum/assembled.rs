@@ -73,9 +73,10 @@ impl Assembled {
         &self,
         limit_rad_per_s: Option<SpeedLimit<'_>>,
     ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
-        let structured = self.structured();
-        let structured = structured
-            .and_then(|(structure, only)| critical_speeds_by(structure, only, limit_rad_per_s?));
+        let structured = limit_rad_per_s.and_then(|limit| {
+            let (structure, only) = self.structured()?;
+            critical_speeds_by(structure, only, limit)
+        });
         Cancellation::current().check()?;
         let found = match structured {
             Some(found) => Ok(vec![found]),
