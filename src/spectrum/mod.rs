@@ -55,6 +55,7 @@ pub(crate) use argument::turn_along;
 pub(crate) use arnoldi::lowest_eigenpairs;
 #[doc(hidden)]
 pub use assembled::{Assembled, SpeedLimit};
+pub(crate) use at_rest::RestingMode;
 pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
 #[doc(hidden)]
 pub use companion::companion_eigenpairs;

@@ -33,10 +33,9 @@ pub(super) fn charted(
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
         Detail::Sketch => with_critical_speeds(model, range, even),
     };
-    let mut samples = campbell::sample(model, &speeds, progress)?;
     // A free blade has no bands to search for, and is only held against the Krein index.
     let search = match model.plate.is_axisymmetric() {
-        true => speeds,
+        true => speeds.clone(),
         false => {
             let even = campbell::even_speeds(range, SEARCH_SPEEDS.count());
             with_critical_speeds(model, range, even)
@@ -47,7 +46,11 @@ pub(super) fn charted(
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
     };
     let search = from_lowest_critical(model, &search);
-    let (instabilities, mut certificate) = bands(model, search, depth)?;
+    let (samples, found) = rayon::join(
+        || campbell::sample(model, &speeds, progress),
+        || bands(model, search, depth),
+    );
+    let (mut samples, (instabilities, mut certificate)) = (samples?, found?);
     let between = inside(&instabilities, &samples, within_bands, range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));

@@ -6,7 +6,7 @@ import { node } from "./dom.js";
 import { Range } from "./range.js";
 import { Refusals } from "./refusal.js";
 import { get } from "./scene.js";
-import { numberOf, shown, tidy, unitOf } from "./words.js";
+import { numberOf, partName, shown, tidy, unitOf } from "./words.js";
 
 // The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
 // is mounted on and what it cuts.
@@ -135,7 +135,7 @@ export class Form {
   }
 
   #group(schema, path, key, value, required) {
-    const title = key.replaceAll("_", " ");
+    const title = partName(key);
     const there = value !== undefined && value !== null;
     const children = there ? this.#object(schema, path, value) : [];
     if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema, path)));
@@ -153,7 +153,7 @@ export class Form {
     const items = this.#resolve(schema.items);
     if (items.type === "string") return this.#lines(path, key);
     if (items.type === "number") return this.#numbers(schema, path, key);
-    const title = key.replaceAll("_", " ");
+    const title = partName(key);
     const one = title.replace(/(?<!s)s$/, "");
     const parts = (value ?? []).map((item, i) => {
       const at = `${path}[${i}]`;

@@ -37,6 +37,7 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   form.refresh(draft);
   blade.draw(scene, refusedKey);
   if (draft) return;
+  pointed.hint();
   buttons();
   kept.keep(scene);
   tasks.changed();
@@ -289,6 +290,7 @@ wire();
 files.offerExamples(by("examples"));
 measure(localStorage.getItem(INCHES) === "1");
 blade.draw(state.scene, null);
+pointed.hint();
 buttons();
 await files.restore(by("restored"));
 if (!live.asked) live.ask(state.scene, { draft: false });

@@ -1,7 +1,7 @@
 // The mode of the point that is looked at: in words, moving on the blade, and as a film.
 
 import { Blade } from "./blade.js";
-import { node } from "./dom.js";
+import { node, write } from "./dom.js";
 import { download } from "./kept.js";
 import { Motion } from "./motion.js";
 import { mode } from "./talk.js";
@@ -59,7 +59,16 @@ export class Pointed {
   #hide() {
     this.motion.hide();
     document.body.classList.remove("moving");
-    this.words.textContent = this.words.dataset.empty;
+    this.hint();
+  }
+
+  // What can be done here, while no mode is shown.
+  hint() {
+    if (this.isOn) return;
+    const { guides, cut } = this.scene();
+    const parts = [guides?.length && "the pads", cut && "the cut", "the probe"].filter(Boolean);
+    const drag = [parts.slice(0, -1).join(", "), parts.at(-1)].filter(Boolean).join(" and ");
+    write(this.words, `Point at a branch of the diagram to see its mode move here. Drag ${drag}.`);
   }
 
   #tell(branch, shape, slower) {

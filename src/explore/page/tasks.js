@@ -6,7 +6,7 @@ import { node } from "./dom.js";
 import { download } from "./kept.js";
 import { get, set } from "./scene.js";
 import { Refused, task } from "./talk.js";
-import { numberOf, shown, tidy, unitOf } from "./words.js";
+import { numberOf, partName, shown, tidy, unitOf } from "./words.js";
 
 // The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
 // size, pads set by hand, stiffness guessed from the material.
@@ -129,7 +129,7 @@ class Task {
     const missing = lacks?.(scene) ?? "";
     this.missing.replaceChildren(missing);
     if (isPartMissing) {
-      const name = part.split(".").at(-1);
+      const name = partName(part.split(".").at(-1));
       const add = node("button", { type: "button", textContent: `Put ${name} in` });
       add.addEventListener("click", () => this.state.change((scene) => putIn(scene, part), { structure: true }));
       this.missing.append(`The scene has no ${name} yet. `, add);

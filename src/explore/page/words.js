@@ -65,6 +65,9 @@ export function shown(value, digits = 6) {
 export const rpm = (value) =>
   value === null || value === undefined ? "none" : `${value < 100 ? value.toFixed(1) : Math.round(value)} rpm`;
 
+// A part of the scene, by its key.
+export const partName = (key) => (key === "runup" ? "run-up" : key.replaceAll("_", " "));
+
 // Number and name of a branch, the same wherever it is met.
 export const numbered = (branch, name) => (branch ? `${branch}: ${name}` : name);
 
