@@ -185,7 +185,8 @@ impl<'a> Carrier<'a> {
         self.damped && self.frequency.abs() <= STOPPED * height
     }
 
-    /// How far growth speaks against one mode, from 0 to 1.
+    /// Difference of the growth rates relative to both, from 0 to 1; of a wave and a real λ, 1 for the λ that
+    /// grows less than the wave.
     fn regrown(&self, other: &Carrier<'_>, height: f64) -> f64 {
         match [self, other].map(|c| c.has_stopped(height)) {
             [true, false] => f64::from(u8::from(self.growth < other.growth)),

@@ -89,8 +89,7 @@ impl ChosenBasis {
             };
             let top = |lowest: Option<f64>| PAST_THE_RANGE * range(lowest).1;
             let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
-            let counted = top_of_sweep.and_then(|to| saw.critical_speeds_below(to));
-            if !is_last && counted.is_some_and(|count| count > last_of_all_pairs(&saw.plate)) {
+            if !is_last && top_of_sweep.is_some_and(|to| is_too_small(&saw, to)) {
                 rung += 1;
                 continue;
             }
@@ -165,12 +164,16 @@ pub(crate) fn resolved(
     let mut resolution = least;
     loop {
         let saw = Assembled::from(Plate::new(scene, resolution));
+        let next = larger.next();
+        if let Some(size) = next
+            && is_too_small(&saw, to_rad_per_s)
+        {
+            resolution = size;
+            continue;
+        }
         let top = PAST_THE_RANGE * to_rad_per_s;
         let critical = held_critical_speeds(&saw, &|_| top)?;
-        match (
-            unresolved(&saw.plate, &critical, to_rad_per_s),
-            larger.next(),
-        ) {
+        match (unresolved(&saw.plate, &critical, to_rad_per_s), next) {
             (Ok(()), _) => return Ok((saw, critical)),
             (Err(_), Some(size)) => resolution = size,
             (Err(error), None) => return Err(error),
@@ -217,6 +220,13 @@ fn unresolved(
         }),
         _ => Ok(()),
     }
+}
+
+/// Whether more critical speeds lie below a speed than a basis may hold, where the inertia of the stiffness tells
+/// their number: finding hundreds of them takes far longer.
+fn is_too_small(saw: &Assembled, to_rad_per_s: f64) -> bool {
+    let counted = saw.critical_speeds_below(to_rad_per_s);
+    counted.is_some_and(|count| count > last_of_all_pairs(&saw.plate))
 }
 
 /// The critical speeds up to one that may depend on the lowest, no more of them than the basis may hold.

@@ -322,3 +322,27 @@ fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
     }
     assert!(followed >= 6, "{followed}");
 }
+
+/// A wave that stops turns into two real λ. Light damping changes no branch of the chart: the one that grows is on the branch
+/// that diverges without damping, not on one of its own.
+#[test]
+fn a_divergence_has_the_branch_that_it_has_without_damping() {
+    let branches = |damping: Option<DampingFile>| -> Vec<Vec<usize>> {
+        let scene = Scene::paper().edited(|saw| {
+            saw.damping = damping;
+            saw.accuracy = Accuracy::Draft;
+        });
+        let report = Analysis::new(&scene.unwrap()).unwrap().report();
+        let bands = report.instabilities.into_iter();
+        let divergences = bands.filter(|band| band.kind == InstabilityKind::Divergence);
+        divergences.map(|band| band.branches).collect()
+    };
+    let damping = DampingFile {
+        material_retardation_time_s: 1e-6,
+        air_n_s_per_m3: 0.5,
+        air_rotation_share: 0.5,
+    };
+    let undamped = branches(None);
+    assert!(undamped.len() >= 3, "{undamped:?}");
+    assert_eq!(branches(Some(damping)), undamped);
+}
