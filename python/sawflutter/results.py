@@ -16,6 +16,7 @@ from ._report_types import (
     Branch,
     CampbellReport,
     CheckReport,
+    Criterion,
     CutReport,
     FitReport,
     Instability,
@@ -225,9 +226,14 @@ class CampbellResults(Result, CampbellReport):
 
 
 class CheckResults(Result, CheckReport):
-    """A saw held against limits."""
+    """A saw held against limits. Its truth is :attr:`passed`, so that ``assert saw.check(...)`` fails
+    where a limit is not kept, and pytest shows which.
+    """
 
     figure_names = ("check.svg", "check.png")
+
+    def __bool__(self) -> bool:
+        return self.passed
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -245,8 +251,15 @@ class CheckResults(Result, CheckReport):
         return check(self, self._facts())
 
     def _facts(self) -> str:
-        found = "passed" if self.passed else f"failed: {'; '.join(self.failures)}"
+        broken = (_missed(criterion) for criterion in self.criteria if not criterion.passed)
+        found = "passed" if self.passed else f"failed: {'; '.join(broken)}"
         return f"{found}, at {self.operating_rpm:.0f} rpm"
+
+
+def _missed(criterion: Criterion) -> str:
+    """A limit that is not kept, in the words of the program."""
+    found = "none" if criterion.found_rpm is None else f"{criterion.found_rpm:.1f} rpm"
+    return f"{criterion.name}: {found}, asked {criterion.asked_rpm:.1f} rpm"
 
 
 class CutResults(Result, CutReport):

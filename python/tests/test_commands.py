@@ -25,6 +25,17 @@ def test_check_holds_a_saw_against_limits(draft: sf.Scene) -> None:
     assert draft.check().operating_rpm == pytest.approx(1800.0)
 
 
+def test_the_truth_of_a_check_is_whether_it_passed(draft: sf.Scene) -> None:
+    assert draft.check(operating_rpm=1250, min_critical_rpm=1500)
+    failed = draft.check(operating_rpm=1250, min_critical_rpm=1600)
+    assert not failed
+    # What pytest shows of a failed assertion: which limit, what was found, what was asked.
+    with pytest.raises(AssertionError) as raised:
+        assert draft.check(operating_rpm=1250, min_critical_rpm=1600)
+    shown = str(raised.value)
+    assert "lowest critical speed" in shown and "1600" in shown and "153" in shown
+
+
 def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:
     for arguments, key in [
         ({"operating_rpm": -3.0}, "operating_rpm"),
