@@ -1,8 +1,9 @@
-"""A million saws in little memory: made-up rows, summed up by the program."""
+"""A hundred thousand saws in little memory, a million where SAWFLUTTER_TRIALS is set: made-up rows, summed up by the program."""
 
 from __future__ import annotations
 
 import json
+import os
 import random
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import pytest
 
 import sawflutter as sf
 
-SAWS = 1_000_000
+SAWS, MOST_KB = (1_000_000, 500_000) if "SAWFLUTTER_TRIALS" in os.environ else (100_000, 100_000)
 # Rows of a task, and tasks under way at the same time.
 ROWS, WINDOW = 5000, 64
 MERGE = """
@@ -29,7 +30,7 @@ def critical_rpm(thickness: float) -> float:
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory is counted otherwise")
-def test_a_million_saws_are_summed_up_within_500_mb(
+def test_many_saws_are_summed_up_in_little_memory(
     draft: sf.Scene, programs: list[str], tmp_path: Path
 ) -> None:
     even = {"kind": "tolerance", "plus_minus": 5e-5}
@@ -60,7 +61,7 @@ def test_a_million_saws_are_summed_up_within_500_mb(
         [sys.executable, "-c", MERGE, *merge], check=True, capture_output=True, text=True
     )
     code, kilobytes = map(int, said.stdout.split())
-    assert code == 0 and kilobytes < 500_000, kilobytes
+    assert code == 0 and kilobytes < MOST_KB, kilobytes
     report = json.loads((tmp_path / "sum" / "study.json").read_text())
     speeds = np.array(exact)
     # Exact counts and exact quantiles, of whatever is not in memory too.

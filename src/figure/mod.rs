@@ -23,7 +23,7 @@ mod drawn;
 mod drawn_tests;
 #[cfg(test)]
 #[allow(dead_code, reason = "helpers of other properties")]
-#[path = "../../tests/invariants/draws.rs"]
+#[path = "../../tests/common/draws.rs"]
 mod draws;
 mod fit;
 #[cfg(feature = "explore")]

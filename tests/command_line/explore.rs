@@ -12,7 +12,7 @@ use sawflutter::stability::Analysis;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::program::{program, run, text, write_scene};
+use super::program::{PATIENCE, program, run, text, write_scene};
 
 struct Server {
     child: Child,
@@ -69,6 +69,7 @@ impl Server {
 
     fn send(&self, line: &str, headers: &[(&str, &str)], body: &str) -> TcpStream {
         let mut stream = TcpStream::connect(&self.host).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let mut head = format!("{line} HTTP/1.1\r\nConnection: close\r\n");
         if headers.iter().all(|(name, _)| *name != "Host") {
             head += &format!("Host: {}\r\n", self.host);

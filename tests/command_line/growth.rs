@@ -2,29 +2,13 @@
 //!
 //! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
 
-use sawflutter::report::{CutCriterion, CutReport, RunUpReport, Verdict};
-use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
+use sawflutter::report::{CutReport, RunUpReport, Verdict};
+use sawflutter::scene::{Scene, SceneFile};
 use serde_json::Value;
 use tempfile::TempDir;
 
 use super::program::{run, text, write_scene};
-
-/// What a run printed and what it wrote.
-fn done(command: &str, file: &SceneFile) -> (String, Vec<u8>) {
-    let folder = TempDir::new().unwrap();
-    let scene = write_scene(&folder, file);
-    let arguments = [command, scene.to_str().unwrap(), "--accuracy", "draft"];
-    let output = run(&arguments, &folder);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let json = std::fs::read(folder.path().join(format!("out/{command}.json"))).unwrap();
-    (text(&output.stdout).to_owned(), json)
-}
-
-fn assert_in_80_columns(summary: &str) {
-    for line in summary.lines().filter(|line| !line.starts_with("Written")) {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
-}
+use crate::pressed::{assert_in_80_columns, assert_unstable, done, pressed};
 
 /// The saw with two pads in the paper's cut, whose moving tooth loads alone may grow.
 fn two_pads() -> SceneFile {
@@ -32,18 +16,6 @@ fn two_pads() -> SceneFile {
     let mut cut = Scene::paper().file().cut.clone().unwrap();
     cut.speeds.clear();
     file.cut = Some(cut);
-    file
-}
-
-/// The paper's saw under a force at 2800 rpm.
-fn pressed(tangential_n: f64) -> SceneFile {
-    let mut file = Scene::paper().file().clone();
-    let cut = file.cut.as_mut().unwrap();
-    cut.tangential_n_per_tooth = Some(tangential_n);
-    cut.speeds = vec![CutSpeedFile {
-        rpm: 2800.0,
-        ..CutSpeedFile::default()
-    }];
     file
 }
 
@@ -72,23 +44,10 @@ fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
     }
 }
 
-/// Forces that no saw bears: the eigenvalues, the fitted history and the Floquet multipliers
-/// of the loads, three computations, tell one growth.
+/// `tests/trials/violent_cuts.rs` goes on to forces that are a hundred thousand times as large.
 #[test]
-fn item_3_the_most_violent_saws_are_unstable() {
-    for tangential_n in [1e4, 1e5, 1e7, 8e8] {
-        let (summary, json) = done("cut", &pressed(tangential_n));
-        assert_in_80_columns(&summary);
-        let report: CutReport = serde_json::from_slice(&json).unwrap();
-        let run = &report.runs[0];
-        assert_eq!(run.verdict, Verdict::Unstable, "{tangential_n}");
-        let violent = |c: CutCriterion| c != CutCriterion::OutOfCut;
-        for row in run.criteria.iter().filter(|row| violent(row.criterion)) {
-            let apart = (row.growth_per_s / run.growth_per_s - 1.0).abs();
-            assert!(apart < 0.05, "{tangential_n}: {row:?} {}", run.growth_per_s);
-        }
-        assert_eq!(run.agree, Some(true), "{tangential_n}");
-    }
+fn item_3_a_violent_saw_is_unstable() {
+    assert_unstable(1e4);
 }
 
 /// Numbers of a text.

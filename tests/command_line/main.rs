@@ -2,6 +2,11 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[cfg(target_os = "linux")]
+#[path = "../common/memory.rs"]
+mod memory_of_a_chart;
+#[path = "../common/pressed.rs"]
+mod pressed;
 
 mod analyze;
 mod cutting;

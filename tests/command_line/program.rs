@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
+use std::time::Duration;
 
 use assert_cmd::Command;
 use sawflutter::scene::{Accuracy, SceneFile};
@@ -12,8 +13,13 @@ mod tested;
 
 pub use tested::program;
 
+/// Longer than any run takes, also where others use the machine: what hangs is ended.
+pub const PATIENCE: Duration = Duration::from_secs(300);
+
 pub fn sawflutter() -> Command {
-    Command::new(program())
+    let mut command = Command::new(program());
+    command.timeout(PATIENCE);
+    command
 }
 
 /// Runs it with the folder's `out` to write into.

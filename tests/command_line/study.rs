@@ -10,7 +10,8 @@ use sawflutter::scene::Accuracy;
 use sawflutter::study::StudyReport;
 use tempfile::TempDir;
 
-use super::program::{program, text};
+use super::program::{PATIENCE, program, text};
+use crate::common::limit::Limit;
 
 /// Every file of a result; the log is not one of them.
 const RESULT: [&str; 5] = [
@@ -25,6 +26,7 @@ const SAWS: usize = 90;
 const LONG: usize = 1500;
 
 struct Bench {
+    _limit: Limit,
     folder: TempDir,
     scene: PathBuf,
     study: PathBuf,
@@ -40,6 +42,7 @@ impl Bench {
         std::fs::write(&scene, serde_json::to_string(&file).unwrap()).unwrap();
         let study = folder.path().join("tolerances.json");
         let bench = Bench {
+            _limit: Limit::of(PATIENCE.as_secs(), "runs of a study"),
             folder,
             scene,
             study,

@@ -1,6 +1,8 @@
 //! What several test files share. Each uses its own part of it.
 #![allow(dead_code)]
 
+pub mod limit;
+
 use std::path::{Path, PathBuf};
 
 use sawflutter::plate::{Plate, Resolution};

@@ -2,6 +2,10 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/promises.rs"]
+mod promises;
+#[path = "../common/true_errors.rs"]
+mod true_errors;
 
 mod estimates;
 mod orders;

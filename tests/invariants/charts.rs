@@ -11,7 +11,7 @@ use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
 use sawflutter::spectrum::{ModeKind, ModeName, SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
 
-use super::draws::*;
+use crate::draws::*;
 
 /// The chart finds every band: its own certificate, the same identity, never fails.
 #[test]

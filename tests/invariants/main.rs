@@ -1,14 +1,23 @@
 //! Goal: what holds for every saw holds for drawn ones, and no input breaks the program.
 
+#[path = "../common/bands.rs"]
+mod bands;
+#[path = "../common/certified.rs"]
+mod certified;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/damped.rs"]
+mod damped_bands;
 #[path = "../common/draw.rs"]
 mod draw;
+#[path = "../common/draws.rs"]
+mod draws;
+#[path = "../common/survivors.rs"]
+mod survivors;
 
 mod band_lists;
 mod certified_bands;
 mod charts;
 mod damped;
-mod draws;
 mod fuzz;
 mod properties;

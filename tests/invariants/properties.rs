@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use sawflutter::plate::Plate;
 use sawflutter::spectrum::ModeKind;
 
-use super::draws::*;
+use crate::draws::*;
 
 /// G is skew, K(Ω) symmetric: nothing in the model creates or destroys energy.
 #[test]

@@ -15,7 +15,7 @@ pub const SMALL: Resolution = Resolution {
 };
 
 /// Seeds of failures, kept in the repository.
-const REGRESSIONS: &str = "tests/invariants/properties.proptest-regressions";
+const REGRESSIONS: &str = "tests/common/draws.proptest-regressions";
 
 /// Checks a property of `cases` random values, the same ones in every run.
 pub fn check<S: Strategy>(

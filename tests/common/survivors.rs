@@ -1,0 +1,92 @@
+//! Scenes from drawn bytes, the same in every run, and that each of them is survived.
+#![allow(dead_code)]
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use sawflutter::scene::{CutFile, Scene};
+
+use crate::common::limit::Limit;
+use crate::draw::{self, Bytes};
+
+/// Enough bytes for every number of a scene with three pads, steps, teeth, gaps, a cut and lines.
+const SCENE_BYTES: usize = 260;
+
+/// A hundred times longer than a saw takes.
+const SECONDS_A_SCENE: u64 = 600;
+
+fn drawn(rng: &mut TestRng) -> Vec<u8> {
+    let mut bytes = vec![0; SCENE_BYTES];
+    rng.fill_bytes(&mut bytes);
+    bytes
+}
+
+pub fn rng() -> TestRng {
+    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
+}
+
+/// How much of a scene is drawn.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Keys {
+    /// Blade, guides, damping and speeds.
+    Plain,
+    /// Steps, teeth, gaps, turning air, cuts with wood and lines of excitation besides. Steps take so many functions
+    /// that a chart of each is beyond a test's time.
+    All,
+}
+
+/// Valid scenes among the first `count` drawn ones.
+pub fn scenes(count: usize, keys: Keys) -> Vec<Scene> {
+    let mut rng = rng();
+    let files = (0..count).map(|_| {
+        let bytes = drawn(&mut rng);
+        let mut bytes = Bytes(&bytes);
+        let file = draw::scene_file(&mut bytes);
+        match keys {
+            Keys::Plain => file,
+            Keys::All => draw::with_details(&mut bytes, file),
+        }
+    });
+    files
+        .filter_map(|file| Scene::try_from(file).ok())
+        .collect()
+}
+
+/// A look at washboarding is as long as a chart: saws that are damped and held, and are cut with.
+pub fn sawing_scenes(count: usize) -> Vec<Scene> {
+    let mut rng = rng();
+    let files = (0..count).map(|_| {
+        let bytes = drawn(&mut rng);
+        let mut bytes = Bytes(&bytes);
+        let file = draw::scene_file(&mut bytes);
+        let mut file = draw::with_details(&mut bytes, file);
+        file.blade.teeth = Some(24);
+        file.operating_rpm = Some(1200.0);
+        // Thinner ones have thousands of modes below tooth passing.
+        let width = file.blade.outer_diameter_m - file.blade.inner_diameter_m;
+        file.blade.thickness_m = file.blade.thickness_m.max(5e-3 * width);
+        file.sweep = None;
+        let damping = file.damping.get_or_insert_default();
+        damping.material_retardation_time_s = damping.material_retardation_time_s.max(1e-6);
+        file.cut.get_or_insert_with(|| CutFile {
+            teeth_in_cut: Some(3),
+            tangential_n_per_tooth: Some(1.0),
+            ..CutFile::default()
+        });
+        let cut = file.cut.as_mut().expect("a cut");
+        cut.washboarding = Some(draw::washboarding(&mut bytes));
+        file
+    });
+    files
+        .filter_map(|file| Scene::try_from(file).ok())
+        .collect()
+}
+
+/// Fails with the scene that brought it down, or held it up.
+pub fn assert_survives<T>(scene: &Scene, survives: impl Fn(&Scene) -> T) -> T {
+    let text = serde_json::to_string(scene.file()).unwrap();
+    let _limit = Limit::of(SECONDS_A_SCENE, &text);
+    let survived = catch_unwind(AssertUnwindSafe(|| survives(scene)));
+    survived.unwrap_or_else(|_| panic!("brought down by {text}"))
+}

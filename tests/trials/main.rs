@@ -1,0 +1,40 @@
+//! Goal: what nobody knows of yet is found: saws drawn by the hundred, truths of thousands of functions.
+//!
+//! `cargo test --release --test trials -- --ignored --test-threads 1` takes hours on two cores, and says a line for each saw;
+//! SAWFLUTTER_SHARD=k/n takes every n-th saw of each trial. The daily tests hold each claim on its cheapest saw.
+
+#[path = "../common/bands.rs"]
+mod bands;
+#[path = "../common/certified.rs"]
+mod certified;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/damped.rs"]
+mod damped;
+#[path = "../common/draw.rs"]
+mod draw;
+#[allow(dead_code, reason = "helpers of other tests")]
+#[path = "../common/draws.rs"]
+mod draws;
+#[cfg(target_os = "linux")]
+#[path = "../common/memory.rs"]
+mod memory;
+#[path = "../common/pressed.rs"]
+mod pressed;
+#[allow(dead_code, reason = "helpers of other tests")]
+#[path = "../command_line/program.rs"]
+mod program;
+#[path = "../common/promises.rs"]
+mod promises;
+#[path = "../common/survivors.rs"]
+mod survivors;
+#[path = "../common/true_errors.rs"]
+mod true_errors;
+
+mod accuracy;
+mod drawn_bands;
+#[cfg(target_os = "linux")]
+mod fine_chart;
+mod fuzz;
+mod told;
+mod violent_cuts;
