@@ -3,30 +3,38 @@
 //! What the certificate adds is the symmetric eigenproblem of the critical speeds on the
 //! whole basis; comparing two counts at each speed is free.
 
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::chart;
 
 fn main() {
-    divan::main();
-}
-
-fn plate() -> Plate {
-    Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design))
-}
-
-#[divan::bench(sample_count = 10)]
-fn certificate(bencher: divan::Bencher<'_, '_>) {
-    let plate = plate();
-    bencher.bench_local(|| SpectralModel::critical_speeds(&plate));
-}
-
-#[divan::bench(sample_count = 5)]
-fn sweep(bencher: divan::Bencher<'_, '_>) {
-    let range = (0.0, rad_per_s(3000.0));
-    bencher.bench_local(|| {
-        let model = SpectralModel::new(plate(), range, Strategy::Reduced)?;
-        chart(&model, range, 101, &|_, _| ())
+    let plate = || Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
+    let whole = plate();
+    time("certificate", 10, || {
+        let critical = SpectralModel::critical_speeds(&whole);
+        black_box(critical.expect("critical speeds"));
     });
+    let range = (0.0, rad_per_s(3000.0));
+    time("sweep", 5, || {
+        let model = SpectralModel::new(plate(), range, Strategy::Reduced).expect("a model");
+        black_box(chart(&model, range, 101, &|_, _| ()).expect("a chart"));
+    });
+}
+
+/// Prints the shortest and the middle one of the times: other work on the machine only ever adds.
+fn time(what: &str, samples: usize, work: impl Fn()) {
+    let mut times: Vec<Duration> = (0..samples)
+        .map(|_| {
+            let begun = Instant::now();
+            work();
+            begun.elapsed()
+        })
+        .collect();
+    times.sort();
+    let (shortest, middle) = (times[0], times[samples / 2]);
+    println!("{what}: {shortest:.1?} at least, median {middle:.1?} of {samples}");
 }

@@ -1,9 +1,8 @@
 //! What is seen is what the command line finds, and it follows the hand.
 
 use serde_json::{Value, json};
-use thirtyfour::Key;
 
-use crate::browser::{PAD, Page, drag, hand, let_go, run, same};
+use crate::browser::{Key, PAD, Page, drag, hand, let_go, run, same};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]

@@ -1,9 +1,8 @@
 //! Every quantity can be set, by hand, by keyboard and by its field.
 
 use serde_json::{Value, json};
-use thirtyfour::Key;
 
-use crate::browser::{Page, drag, hand, let_go, run, same};
+use crate::browser::{Key, Page, drag, hand, let_go, run, same};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]

@@ -12,19 +12,18 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
-        let tools = page.driver.cdp();
         let mut wide = Vec::new();
         for (width, height) in [(1280, 900), (390, 844)] {
             let size = json!({ "width": width, "height": height, "deviceScaleFactor": 2, "mobile": width < 500 });
-            tools
-                .send_raw("Emulation.setDeviceMetricsOverride", size)
+            page.driver
+                .chromium("Emulation.setDeviceMetricsOverride", size)
                 .await
                 .unwrap();
             for scheme in ["light", "dark"] {
                 let media =
                     json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
-                tools
-                    .send_raw("Emulation.setEmulatedMedia", media)
+                page.driver
+                    .chromium("Emulation.setEmulatedMedia", media)
                     .await
                     .unwrap();
                 tokio::time::sleep(Duration::from_millis(300)).await;
@@ -77,9 +76,8 @@ fn an_audit_finds_no_barrier() {
         for scheme in ["light", "dark"] {
             let media =
                 json!({ "features": [{ "name": "prefers-color-scheme", "value": scheme }] });
-            let tools = page.driver.cdp();
-            tools
-                .send_raw("Emulation.setEmulatedMedia", media)
+            page.driver
+                .chromium("Emulation.setEmulatedMedia", media)
                 .await
                 .unwrap();
             for tab in ["cut", "runup", "fit", "place", "study", "chart"] {
@@ -103,9 +101,8 @@ impl Page {
     async fn resize(&self, width: u32, height: u32) {
         let size =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
-        let tools = self.driver.cdp();
-        tools
-            .send_raw("Emulation.setDeviceMetricsOverride", size)
+        self.driver
+            .chromium("Emulation.setDeviceMetricsOverride", size)
             .await
             .unwrap();
         tokio::time::sleep(Duration::from_millis(300)).await;

@@ -1,9 +1,8 @@
 //! Many pages of one program.
 
 use serde_json::json;
-use thirtyfour::WindowHandle;
 
-use crate::browser::{PAD, Page, drag, let_go, run};
+use crate::browser::{PAD, Page, WindowHandle, drag, let_go, run};
 
 impl Page {
     /// Opens the page in a tab more, and goes there.
@@ -31,9 +30,8 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
         let mut shown = Vec::new();
         for tab in &tabs {
             page.driver.switch_to_window(tab.clone()).await.unwrap();
-            let tools = page.driver.cdp();
-            tools
-                .send_raw("Page.bringToFront", json!({}))
+            page.driver
+                .chromium("Page.bringToFront", json!({}))
                 .await
                 .unwrap();
             page.wait("window.sawflutter?.computed.length > 0").await;

@@ -6,13 +6,13 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use thirtyfour::action_chain::ActionChain;
-use thirtyfour::prelude::*;
 
 use program::program;
+pub use webdriver::{Actions, Key, WebDriver, WebElement, WindowHandle};
 
 #[path = "../../common/program.rs"]
 mod program;
+mod webdriver;
 
 /// The first pad.
 pub const PAD: &str = "[data-path='guides[0]'] .body";
@@ -73,12 +73,11 @@ impl Page {
             let (_, port) = line.split_once("started successfully on port ")?;
             Some(port.trim_end_matches('.').to_owned())
         });
-        let mut wishes = DesiredCapabilities::chrome();
         let profile = format!(
             "--user-data-dir={}",
             folder.path().join("profile").display()
         );
-        for flag in [
+        let flags = [
             "--headless=new",
             "--no-sandbox",
             "--disable-gpu",
@@ -90,14 +89,12 @@ impl Page {
             "--window-size=1280,900",
             "--hide-scrollbars",
             &profile,
-        ] {
-            wishes.add_arg(flag).unwrap();
-        }
+        ];
         let downloads = json!({ "download.default_directory": folder.path(), "download.prompt_for_download": false });
-        wishes.add_experimental_option("prefs", downloads).unwrap();
-        let driver = WebDriver::new(format!("http://127.0.0.1:{port}"), wishes)
+        let options = json!({ "args": flags, "prefs": downloads });
+        let driver = WebDriver::new(port.parse().unwrap(), options)
             .await
-            .unwrap();
+            .unwrap_or_else(|error| panic!("{error}"));
         driver.goto(&address).await.unwrap();
         let page = Page {
             driver,
@@ -112,16 +109,13 @@ impl Page {
     /// Starts the program once more, at the address that the page knows.
     pub async fn start_again(&mut self, arguments: &[&str]) {
         let address = self.driver.current_url().await.unwrap();
-        let port = address.port().unwrap().to_string();
-        (self.program, _) = explore(&[arguments, &["--port", &port]].concat());
+        let (_, port) = address.trim_end_matches('/').rsplit_once(':').unwrap();
+        (self.program, _) = explore(&[arguments, &["--port", port]].concat());
     }
 
     pub async fn script(&self, script: &str) -> Value {
-        let found = self.driver.execute(script, Vec::new()).await;
-        found
-            .unwrap_or_else(|error| panic!("{script}: {error}"))
-            .json()
-            .clone()
+        let found = self.driver.execute(script, json!([])).await;
+        found.unwrap_or_else(|error| panic!("{script}: {error}"))
     }
 
     pub async fn value(&self, expression: &str) -> Value {
@@ -133,11 +127,8 @@ impl Page {
         let script = format!(
             "const done = arguments[arguments.length - 1]; (async () => {expression})().then(done)"
         );
-        let found = self.driver.execute_async(script, Vec::new()).await;
-        found
-            .unwrap_or_else(|error| panic!("{expression}: {error}"))
-            .json()
-            .clone()
+        let found = self.driver.execute_async(&script).await;
+        found.unwrap_or_else(|error| panic!("{expression}: {error}"))
     }
 
     pub async fn text(&self, selector: &str) -> String {
@@ -161,7 +152,7 @@ impl Page {
     }
 
     pub async fn find(&self, selector: &str) -> WebElement {
-        self.driver.find(By::Css(selector)).await.unwrap()
+        self.driver.find(selector).await.unwrap()
     }
 
     /// Types a number over the one that is there.
@@ -247,9 +238,9 @@ pub fn run(test: impl Future<Output = ()>) {
 }
 
 /// A hand that moves sixty times a second, as fast as a screen shows it.
-pub fn hand(page: &Page) -> ActionChain {
+pub fn hand(page: &Page) -> Actions {
     let frame = Duration::from_millis(16);
-    page.driver.action_chain_with_delay(None, Some(frame))
+    Actions::new(&page.driver, frame)
 }
 
 /// Presses on an element, moves in small steps, and lets go.
