@@ -35,8 +35,10 @@ nitpick_ignore_regex = [
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 os.environ.setdefault("SAWFLUTTER_PROGRAM", str(Path(sys.prefix) / "bin" / "sawflutter"))
-# Notebooks are run anew, outside of the checkout, and a cell that fails fails the build.
-nb_execution_mode = "force"
+# Notebooks are run outside of the checkout, and a cell that fails fails the build. `.ci/docs` keeps what they gave in a
+# folder that is named after the program and the scenes; without one they are run anew.
+nb_execution_mode = "cache" if "SAWFLUTTER_NOTEBOOKS" in os.environ else "force"
+nb_execution_cache_path = os.environ.get("SAWFLUTTER_NOTEBOOKS", "")
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
