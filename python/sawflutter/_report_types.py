@@ -267,9 +267,14 @@ class Operating(Entry):
     inside_instability: int | None
     """Index into `instabilities` of the band that makes it unstable."""
 
+    at_critical_rpm: float | None
+    """The critical speed that it is at, nearer than 5 %: there a constant side force bends the
+    wave that stands still ten times as far as at rest, or more. Null where none is so near."""
+
     safe_window_rpm: FloatArray | None
-    """The speeds around it at which no instability counts, within the sweep; null where the saw
-    is unstable."""
+    """The window without instability: the speeds around it at which no instability counts, within
+    the sweep, and no nearer than 5 % to a critical speed; null where the saw is unstable or at a
+    critical speed."""
 
     growth_per_s: float | None
     """Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep."""
@@ -319,6 +324,9 @@ class Whirl(Entry):
 
     verdict: StabilityState
     """Whether the saw can run at that speed."""
+
+    at_critical_rpm: float | None
+    """The critical speed that it is at, nearer than 5 %; null where none is so near."""
 
     modes: tuple[WhirlMode, ...]
     """Modes, ascending in frequency."""

@@ -23,7 +23,7 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
-use crate::stability::{Analysis, Instability, verdict};
+use crate::stability::{Analysis, Evidence, Instability};
 use crate::system::GyroscopicSystem;
 
 #[cfg(feature = "cli")]
@@ -65,7 +65,8 @@ pub struct Criterion {
 pub struct Check {
     /// Every limit of speeds that a study asks about too.
     pub criteria: Vec<Criterion>,
-    /// The speed of the rim, and the gap of every guide that has one.
+    /// The speed of the rim, the gap of every guide that has one, and of a blade that nothing holds its want of
+    /// stiffness.
     pub of_rim_and_gaps: Vec<Criterion>,
     /// Speeds in rad/s up to the lowest critical one, and the stiffness in N/m of the same point
     /// there; empty where rigid motions are free.
@@ -110,6 +111,9 @@ impl Check {
             .and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
         let mut of_rim_and_gaps = vec![limits.of_rim(plate.blade.outer_radius_m)];
         of_rim_and_gaps.extend(of_gaps(scene, plate, bending.as_ref(), operating));
+        let mut components = analysis.model.components.iter();
+        let is_free = components.any(|component| !component.full.free_rigid.is_empty());
+        of_rim_and_gaps.extend(is_free.then(|| without_stiffness(operating)));
         Ok(Check {
             of_rim_and_gaps,
             rim_stiffness_over_speed: bending
@@ -183,8 +187,14 @@ impl Limits {
             lowest_critical,
             operating / self.margin,
         )];
-        let range = (0.0, self.reach_rad_per_s());
-        let verdict = verdict(bands, threshold_per_s, range, operating);
+        let evidence = Evidence {
+            bands,
+            // The limit above is the one of critical speeds.
+            critical_rad_per_s: &[],
+            threshold_per_s,
+            range_rad_per_s: (0.0, self.reach_rad_per_s()),
+        };
+        let verdict = evidence.verdict(operating);
         let inside = verdict.stretch.map(|(from, _)| from);
         criteria.push(Criterion {
             key: "operating",
@@ -222,6 +232,17 @@ impl Limits {
             asked: operating,
             passed: found >= operating,
         }
+    }
+}
+
+/// A limit that no speed keeps: a side force moves the blade away.
+fn without_stiffness(operating: f64) -> Criterion {
+    Criterion {
+        key: "held",
+        name: "static stiffness (nothing holds the blade's rigid motions)".to_owned(),
+        found: None,
+        asked: operating,
+        passed: false,
     }
 }
 

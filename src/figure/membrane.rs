@@ -257,6 +257,7 @@ mod tests {
             within_limit: Some(true),
             verdict: crate::report::StabilityState::Stable,
             inside_instability: None,
+            at_critical_rpm: None,
             safe_window_rpm: None,
             growth_per_s: None,
             frequency_hz: None,

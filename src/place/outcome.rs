@@ -3,7 +3,7 @@
 use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::stability::{
-    AnalysisError, Instability, flutter_onsets, resolved, safe_window, search_bands,
+    AnalysisError, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
 use super::Goal;
@@ -17,8 +17,8 @@ pub struct Outcome {
     pub flutter_rad_per_s: Option<f64>,
     /// Lowest critical speed, if the blade has one.
     pub critical_rad_per_s: Option<f64>,
-    /// Stable speeds around the operating speed, if that is what is asked for; nothing where
-    /// the operating speed is in a band.
+    /// The window without instability around the operating speed, if that is what is asked for; nothing where
+    /// the operating speed is in a band or within 5 % of a critical speed.
     pub window: Option<(f64, f64)>,
     /// By how much the lowest critical speed misses its limit, in rad/s.
     pub short_rad_per_s: f64,
@@ -47,7 +47,8 @@ impl Question {
     /// [`AnalysisError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
     pub fn ask(&self, scene: &Scene) -> Result<Outcome, AnalysisError> {
         let (saw, critical) = resolved(scene, self.resolution, self.range.1)?;
-        let lowest = critical.first().map(|c| c.speed_rad_per_s);
+        let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
+        let lowest = critical_rad_per_s.first().copied();
         let short = match (self.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (asked - found).max(0.0),
             // Without a critical speed every limit is kept.
@@ -59,7 +60,13 @@ impl Question {
         let window = match self.goal {
             Goal::FlutterSpeed => None,
             Goal::StableWindow { around_rad_per_s } => {
-                safe_window(&bands, threshold, self.range, around_rad_per_s)
+                let evidence = Evidence {
+                    bands: &bands,
+                    critical_rad_per_s: &critical_rad_per_s,
+                    threshold_per_s: threshold,
+                    range_rad_per_s: self.range,
+                };
+                evidence.window_without_instability(around_rad_per_s)
             }
         };
         let value = match self.goal {

@@ -330,7 +330,7 @@ fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
     let of_lowest_critical = lowest.map(|lowest| speed / lowest);
     let verdict = analysis.verdict(speed);
     let fastest = analysis.fastest_operating;
-    let window = analysis.safe_window(speed);
+    let window = analysis.window_without_instability(speed);
     OperatingEntry {
         rpm: rpm(speed),
         of_lowest_critical,
@@ -338,6 +338,7 @@ fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
         within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
         verdict: verdict.state,
         inside_instability: verdict.band,
+        at_critical_rpm: analysis.critical_rpm_at(speed),
         safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),

@@ -124,6 +124,12 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
         let asked = unusual_number("the operating speed", "operating_rpm", rpm(operating));
         warnings.extend(asked);
     }
+    if let Some(critical_rpm) = check.analysis.critical_rpm_at(operating) {
+        warnings.push(format!(
+            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm, where a constant side \
+             force bends the blade ten times as far as at rest, or more"
+        ));
+    }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
     let told = check.all_criteria().filter(|c| c.key == "gap");
     if gaps.count() > told.count() {
@@ -152,6 +158,9 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
 impl CheckReport {
     /// The rim stiffness in words, for the text and the figure.
     pub fn rim_stiffness_in_words(&self) -> String {
+        if self.rim_stiffness_at_rest_n_per_m == 0.0 {
+            return "no rim stiffness: nothing holds the blade's rigid motions".to_owned();
+        }
         let at_rest = 1e-3 * self.rim_stiffness_at_rest_n_per_m;
         let operating = match self.rim_stiffness_n_per_m {
             Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),

@@ -184,8 +184,12 @@ pub struct OperatingEntry {
     pub verdict: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
-    /// The speeds around it at which no instability counts, within the sweep; null where the
-    /// saw is unstable.
+    /// The critical speed that it is at, nearer than 5 %: there a constant side force bends the wave that stands
+    /// still ten times as far as at rest, or more. Null where none is so near.
+    #[serde(default)]
+    pub at_critical_rpm: Option<f64>,
+    /// The window without instability: the speeds around it at which no instability counts, within the sweep, and no
+    /// nearer than 5 % to a critical speed; null where the saw is unstable or at a critical speed.
     pub safe_window_rpm: Option<[f64; 2]>,
     /// Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep.
     pub growth_per_s: Option<f64>,

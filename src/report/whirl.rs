@@ -17,6 +17,9 @@ pub struct WhirlEntry {
     pub rpm: f64,
     /// Whether the saw can run at that speed.
     pub verdict: StabilityState,
+    /// The critical speed that it is at, nearer than 5 %; null where none is so near.
+    #[serde(default)]
+    pub at_critical_rpm: Option<f64>,
     /// Modes, ascending in frequency.
     pub modes: Vec<WhirlMode>,
 }
@@ -56,6 +59,7 @@ impl WhirlEntry {
         Ok(WhirlEntry {
             rpm: rpm(speed_rad_per_s),
             verdict: analysis.verdict(speed_rad_per_s).state,
+            at_critical_rpm: analysis.critical_rpm_at(speed_rad_per_s),
             modes: modes.iter().map(WhirlMode::from).collect(),
         })
     }

@@ -14,7 +14,7 @@ use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::out_of_reach::OutOfReach;
-use super::verdict::{StabilityState, Verdict, flutter_onsets, safe_window, verdict};
+use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::Progress;
 use crate::scene::{Accuracy, Scene, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
@@ -280,23 +280,34 @@ impl Analysis {
 
     /// What becomes of the saw at a speed.
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
-        let bands = &self.chart.instabilities;
-        verdict(
-            bands,
-            self.scene.flutter_threshold_per_s(),
-            self.range_rad_per_s,
-            speed_rad_per_s,
-        )
+        self.evidence(&self.critical_rad_per_s())
+            .verdict(speed_rad_per_s)
     }
 
-    /// The speeds around one at which nothing counts, in rad/s; `None` where the saw is unstable.
-    pub fn safe_window(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
-        let bands = &self.chart.instabilities;
-        safe_window(
-            bands,
-            self.scene.flutter_threshold_per_s(),
-            self.range_rad_per_s,
-            speed_rad_per_s,
-        )
+    /// The speeds around one at which no instability counts, in rad/s, short of critical speeds by 5 %; `None`
+    /// where the saw is unstable or at a critical speed.
+    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
+        self.evidence(&self.critical_rad_per_s())
+            .window_without_instability(speed_rad_per_s)
+    }
+
+    /// The critical speed that a speed is nearer to than 5 %.
+    pub fn critical_rpm_at(&self, speed_rad_per_s: f64) -> Option<f64> {
+        let place = self.verdict(speed_rad_per_s).critical?;
+        Some(rpm(self.model.critical[place].speed_rad_per_s))
+    }
+
+    fn critical_rad_per_s(&self) -> Vec<f64> {
+        let critical = self.model.critical.iter();
+        critical.map(|c| c.speed_rad_per_s).collect()
+    }
+
+    fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
+        Evidence {
+            bands: &self.chart.instabilities,
+            critical_rad_per_s,
+            threshold_per_s: self.scene.flutter_threshold_per_s(),
+            range_rad_per_s: self.range_rad_per_s,
+        }
     }
 }

@@ -73,5 +73,5 @@ pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]
 pub use undamped::undamped_bands;
+pub(crate) use verdict::{CRITICAL_MARGIN, Evidence, flutter_onsets};
 pub use verdict::{StabilityState, Verdict};
-pub(crate) use verdict::{flutter_onsets, safe_window, verdict};

@@ -6,6 +6,9 @@
 //!   square root of the distance from the onset, within a fraction of the band's width;
 //! - of a damped blade a band may grow imperceptibly over hundreds of rpm, so that it counts
 //!   only where its growth reaches the threshold.
+//!
+//! A critical speed is no instability where no band opens there: nothing grows. But K(Ω) is singular, and
+//! a constant side force bends the wave without bound. A window without instability ends short of it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,6 +16,11 @@ use serde::{Deserialize, Serialize};
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
+
+/// Nearer than this share of a critical speed a saw is said to run at it. Of a side force that stands
+/// in space K(Ω) = K₀ − Ω²B bends the wave that belongs to the critical speed Ω_c by 1/|1 − (Ω/Ω_c)²| times
+/// what it does at rest: ten times so near. The 85 % rule allows 3.6 times.
+pub const CRITICAL_MARGIN: f64 = 0.05;
 
 /// The answer to whether a saw is stable at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -37,68 +45,88 @@ pub struct Verdict {
     pub band: Option<usize>,
     /// The stretch around the speed in which that band counts, in rad/s.
     pub stretch: Option<(f64, f64)>,
+    /// Place of the critical speed that the saw runs at, nearer than [`CRITICAL_MARGIN`]; the nearest of several.
+    pub critical: Option<usize>,
 }
 
-/// The verdict on a saw at a speed, from its bands within a range of speeds in rad/s. Flutter
-/// counts from a growth rate of `threshold_per_s` on; divergence always counts.
-pub fn verdict(
-    bands: &[Instability],
-    threshold_per_s: f64,
-    range: (f64, f64),
-    speed_rad_per_s: f64,
-) -> Verdict {
-    let around = |(from, to): &(f64, f64)| (*from..=*to).contains(&speed_rad_per_s);
-    let counted = bands.iter().enumerate().filter_map(|(index, band)| {
-        let stretch = band.counted(threshold_per_s).into_iter().find(around)?;
-        Some((index, band, stretch))
-    });
-    let rank = |band: &Instability| {
-        let diverges = band.kind == InstabilityKind::Divergence;
-        (diverges, band.growth_or_peak(speed_rad_per_s))
-    };
-    let worst = counted.max_by(|(_, x, _), (_, y, _)| {
-        let (x, y) = (rank(x), rank(y));
-        x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
-    });
-    match worst {
-        Some((index, band, stretch)) => Verdict {
-            state: match band.kind {
+/// What a verdict is made from.
+#[derive(Debug, Clone, Copy)]
+pub struct Evidence<'a> {
+    /// Every band within the range.
+    pub bands: &'a [Instability],
+    /// Critical speeds, ascending, in rad/s; those next to the range too.
+    pub critical_rad_per_s: &'a [f64],
+    /// Flutter counts from this growth rate on; divergence always counts.
+    pub threshold_per_s: f64,
+    /// The speeds that were searched, in rad/s.
+    pub range_rad_per_s: (f64, f64),
+}
+
+impl Evidence<'_> {
+    /// The verdict on the saw at a speed.
+    pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
+        let around = |(from, to): &(f64, f64)| (*from..=*to).contains(&speed_rad_per_s);
+        let counted = self.bands.iter().enumerate().filter_map(|(index, band)| {
+            let stretches = band.counted(self.threshold_per_s);
+            Some((index, band, stretches.into_iter().find(around)?))
+        });
+        let rank = |band: &Instability| {
+            let diverges = band.kind == InstabilityKind::Divergence;
+            (diverges, band.growth_or_peak(speed_rad_per_s))
+        };
+        let worst = counted.max_by(|(_, x, _), (_, y, _)| {
+            let (x, y) = (rank(x), rank(y));
+            x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
+        });
+        let state = match worst {
+            Some((_, band, _)) => match band.kind {
                 InstabilityKind::Divergence => StabilityState::Divergence,
                 InstabilityKind::Flutter => StabilityState::Flutter,
             },
-            band: Some(index),
-            stretch: Some(stretch),
-        },
-        None => Verdict {
-            state: match around(&range) {
-                true => StabilityState::Stable,
-                false => StabilityState::OutsideSweep,
-            },
-            band: None,
-            stretch: None,
-        },
-    }
-}
-
-/// The speeds around one at which nothing counts, in rad/s, within a range; `None` where the saw is
-/// unstable at that speed, or nothing was computed there.
-pub fn safe_window(
-    bands: &[Instability],
-    threshold_per_s: f64,
-    range: (f64, f64),
-    speed_rad_per_s: f64,
-) -> Option<(f64, f64)> {
-    if verdict(bands, threshold_per_s, range, speed_rad_per_s).state != StabilityState::Stable {
-        return None;
-    }
-    let counted = bands.iter().flat_map(|band| band.counted(threshold_per_s));
-    Some(counted.fold(range, |(low, high), (from, to)| {
-        if to < speed_rad_per_s {
-            (low.max(to), high)
-        } else {
-            (low, high.min(from))
+            None if around(&self.range_rad_per_s) => StabilityState::Stable,
+            None => StabilityState::OutsideSweep,
+        };
+        Verdict {
+            state,
+            band: worst.map(|(index, _, _)| index),
+            stretch: worst.map(|(_, _, stretch)| stretch),
+            critical: self.critical_at(speed_rad_per_s),
         }
-    }))
+    }
+
+    fn critical_at(&self, speed_rad_per_s: f64) -> Option<usize> {
+        let critical = self.critical_rad_per_s;
+        let off = |place: usize| (speed_rad_per_s / critical[place] - 1.0).abs();
+        let near = (0..critical.len()).filter(|place| off(*place) <= CRITICAL_MARGIN);
+        near.min_by(|x, y| off(*x).total_cmp(&off(*y)))
+    }
+
+    /// The speeds around one at which no instability counts, in rad/s, within the range and no nearer to a
+    /// critical speed than [`CRITICAL_MARGIN`]; `None` where the saw is unstable or at a critical speed, or
+    /// nothing was computed.
+    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
+        let verdict = self.verdict(speed_rad_per_s);
+        if verdict.state != StabilityState::Stable || verdict.critical.is_some() {
+            return None;
+        }
+        let counted = self
+            .bands
+            .iter()
+            .flat_map(|b| b.counted(self.threshold_per_s));
+        let beside = |speed: &f64| {
+            let margin = CRITICAL_MARGIN * speed;
+            (speed - margin, speed + margin)
+        };
+        let excluded = counted.chain(self.critical_rad_per_s.iter().map(beside));
+        let window = excluded.fold(self.range_rad_per_s, |(low, high), (from, to)| {
+            if to < speed_rad_per_s {
+                (low.max(to), high)
+            } else {
+                (low, high.min(from))
+            }
+        });
+        Some(window)
+    }
 }
 
 /// Lowest speed at which flutter counts, and lowest of all at which a mode flutters, however
@@ -219,7 +247,14 @@ mod tests {
         }
     }
 
-    const RANGE: (f64, f64) = (0.0, 300.0);
+    fn evidence<'a>(bands: &'a [Instability], critical: &'a [f64]) -> Evidence<'a> {
+        Evidence {
+            bands,
+            critical_rad_per_s: critical,
+            threshold_per_s: 0.25,
+            range_rad_per_s: (0.0, 300.0),
+        }
+    }
 
     #[test]
     fn a_damped_band_counts_where_its_growth_reaches_the_threshold() {
@@ -231,13 +266,15 @@ mod tests {
         };
         assert!((from - (140.0 - half)).abs() < 1e-9 && (to - (140.0 + half)).abs() < 1e-9);
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(from), Some(100.0)]);
-        let state = |speed| verdict(&bands, 0.25, RANGE, speed).state;
+        let found = evidence(&bands, &[]);
+        let state = |speed| found.verdict(speed).state;
         assert_eq!(state(104.0), StabilityState::Stable);
         assert_eq!(state(140.0), StabilityState::Flutter);
         assert_eq!(state(301.0), StabilityState::OutsideSweep);
-        assert_eq!(safe_window(&bands, 0.25, RANGE, 104.0), Some((0.0, from)));
-        assert_eq!(safe_window(&bands, 0.25, RANGE, 179.0), Some((to, 300.0)));
-        assert_eq!(safe_window(&bands, 0.25, RANGE, 140.0), None);
+        let window = |speed| found.window_without_instability(speed);
+        assert_eq!(window(104.0), Some((0.0, from)));
+        assert_eq!(window(179.0), Some((to, 300.0)));
+        assert_eq!(window(140.0), None);
         assert_eq!(flutter_onsets(&bands, 1.5), [None, Some(100.0)]);
     }
 
@@ -248,14 +285,43 @@ mod tests {
             band(InstabilityKind::Flutter, 94.0, 120.0, 0.3),
             band(InstabilityKind::Flutter, 150.0, 160.0, 0.2),
         ];
-        let at = |speed| verdict(&bands, 0.25, RANGE, speed);
+        let found = evidence(&bands, &[]);
+        let at = |speed| found.verdict(speed);
         assert_eq!(at(94.5).state, StabilityState::Divergence);
         assert_eq!((at(94.0).band, at(119.0).band), (Some(0), Some(1)));
         assert_eq!(at(155.0).state, StabilityState::Stable);
         assert_eq!(
-            safe_window(&bands, 0.25, RANGE, 155.0),
+            found.window_without_instability(155.0),
             Some((120.0, 300.0))
         );
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
+    }
+
+    /// No band opens at the critical speeds of a blade without guides, yet no window reaches one.
+    #[test]
+    fn windows_end_short_of_critical_speeds() {
+        let bands = [band(InstabilityKind::Divergence, 240.0, 250.0, 1.0)];
+        let found = evidence(&bands, &[100.0, 200.0, 240.0, 250.0, 310.0]);
+        let window = |speed| found.window_without_instability(speed);
+        assert_eq!(window(90.0), Some((0.0, 95.0)));
+        assert_eq!(window(150.0), Some((105.0, 190.0)));
+        assert_eq!(window(220.0), Some((210.0, 228.0)));
+        assert_eq!(window(280.0), Some((262.5, 294.5)));
+        let at = |speed| found.verdict(speed);
+        for (speed, critical) in [
+            (96.0, Some(0)),
+            (104.9, Some(0)),
+            (105.1, None),
+            (243.0, Some(2)),
+        ] {
+            assert_eq!(at(speed).critical, critical, "{speed}");
+        }
+        assert_eq!(at(100.0).state, StabilityState::Stable);
+        assert_eq!(window(100.0), None);
+        // Ten times the deflection at rest at the margin, on either side of it.
+        for ratio in [1.0 - CRITICAL_MARGIN, 1.0 + CRITICAL_MARGIN] {
+            let times = 1.0 / (1.0 - ratio * ratio).abs();
+            assert!((times - 10.0).abs() < 0.3, "{times}");
+        }
     }
 }

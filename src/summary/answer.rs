@@ -4,6 +4,7 @@ use std::fmt::{Result, Write};
 
 use super::wrapped;
 use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
+use crate::stability::CRITICAL_MARGIN;
 
 /// Whether the saw can run at its speed, and at which others.
 pub fn answer(text: &mut String, report: &Report) -> Result {
@@ -18,6 +19,9 @@ pub fn answer(text: &mut String, report: &Report) -> Result {
 fn at_operating_speed(text: &mut String, report: &Report, operating: &OperatingEntry) -> Result {
     let word = match operating.verdict {
         StabilityState::Stable if operating.within_limit != Some(false) => "YES",
+        StabilityState::Stable if operating.at_critical_rpm.is_some() => {
+            "STABLE, but AT A CRITICAL SPEED"
+        }
         StabilityState::Stable => "STABLE, but past the usual limit",
         StabilityState::Divergence => "NO, UNSTABLE: divergence",
         StabilityState::Flutter => "NO, UNSTABLE: flutter",
@@ -33,10 +37,11 @@ fn at_operating_speed(text: &mut String, report: &Report, operating: &OperatingE
     if let Some([from, to]) = operating.safe_window_rpm {
         writeln!(
             text,
-            "  safe window around it: {from:.1} to {to:.1} rpm{}",
-            open_end(report, to)
+            "  window without instability: {from:.1} to {to:.1} rpm{}",
+            end_of_window(report, to)
         )?;
     }
+    at_critical_speed(text, report, operating)?;
     rule(text, operating)
 }
 
@@ -58,6 +63,20 @@ fn fastest(report: &Report, growth: f64, hz: f64) -> String {
         ),
         false => "no motion grows (the scene has no damping that would make it decay)".to_owned(),
     }
+}
+
+fn at_critical_speed(text: &mut String, report: &Report, operating: &OperatingEntry) -> Result {
+    let Some(rpm) = operating.at_critical_rpm else {
+        return Ok(());
+    };
+    let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
+    let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
+    let line = format!(
+        "  within {:.0} % of the critical speed {rpm:.1} rpm{name}: a constant side force bends that wave \
+         ten times as far as at rest, or more",
+        100.0 * CRITICAL_MARGIN
+    );
+    writeln!(text, "{}", wrapped(&line))
 }
 
 /// The 85 % rule.
@@ -84,14 +103,21 @@ fn up_to(text: &mut String, report: &Report) -> Result {
     let from = report.campbell.from_rpm;
     match first {
         Some(first) if first > from => {
-            writeln!(text, "Stable from {from:.0} to {first:.1} rpm")?;
+            writeln!(text, "No instability from {from:.0} to {first:.1} rpm")?;
         }
         Some(first) => writeln!(text, "Unstable from {first:.1} rpm on")?,
         None => writeln!(
             text,
-            "Stable from {from:.0} to {:.0} rpm, the end of the sweep",
+            "No instability from {from:.0} to {:.0} rpm, the end of the sweep",
             report.campbell.to_rpm
         )?,
+    }
+    if let Some(critical) = report.critical_speeds.first() {
+        writeln!(
+            text,
+            "  lowest critical speed {:.1} rpm ({})",
+            critical.rpm, critical.name
+        )?;
     }
     writeln!(text, "  (no operating_rpm in the scene to hold against it)")
 }
@@ -127,10 +153,13 @@ fn flutter(text: &mut String, report: &Report) -> Result {
     }
 }
 
-fn open_end(report: &Report, rpm: f64) -> &'static str {
-    match rpm >= report.campbell.to_rpm {
-        true => ", where the sweep ends",
-        false => "",
+/// What ends a window.
+fn end_of_window(report: &Report, rpm: f64) -> &'static str {
+    let counted = |band: &InstabilityEntry| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
+    match report.instabilities.iter().any(counted) {
+        _ if rpm >= report.campbell.to_rpm => ", where the sweep ends",
+        true => "",
+        false => ",\n    5 % short of a critical speed",
     }
 }
 

@@ -12,7 +12,10 @@ const MODES: usize = 29;
 pub fn bands(text: &mut String, report: &Report) -> Result {
     let bands = &report.instabilities;
     if bands.is_empty() {
-        return writeln!(text, "\nNo instability: stable at every speed of the sweep");
+        return writeln!(
+            text,
+            "\nNo instability: nothing grows at any speed of the sweep"
+        );
     }
     writeln!(
         text,

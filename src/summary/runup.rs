@@ -20,7 +20,10 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     if report.bands.is_empty() {
-        writeln!(text, "No instability: stable at every speed of the run-up")?;
+        writeln!(
+            text,
+            "No instability: nothing grows at any speed of the run-up"
+        )?;
     } else {
         bands(text, report)?;
     }

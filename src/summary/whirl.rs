@@ -15,7 +15,11 @@ pub fn whirl(text: &mut String, report: &Report) -> Result {
         StabilityState::Flutter => "UNSTABLE, flutter",
         StabilityState::OutsideSweep => "outside the sweep",
     };
-    writeln!(text, "\nModes at {} rpm: {state}", whirl.rpm)?;
+    let critical = whirl.at_critical_rpm;
+    let critical = critical.map_or(String::new(), |rpm| {
+        format!(", within 5 % of the critical speed {rpm:.1} rpm")
+    });
+    writeln!(text, "\nModes at {} rpm: {state}{critical}", whirl.rpm)?;
     let is_damped = whirl.modes.iter().any(|mode| mode.damping_ratio.is_some());
     match is_damped {
         true => writeln!(text, "       [Hz] Re λ [1/s] ratio [%] decrement  mode")?,

@@ -175,3 +175,60 @@ fn the_flutter_speed_has_the_error_of_its_band() {
     let said = text(&output.stdout);
     assert!(said.contains(&line), "{line} in {said}");
 }
+
+/// No band opens at the critical speed of a blade without guides: nothing grows there, and yet a constant side
+/// force bends it without bound.
+#[test]
+fn a_saw_at_a_critical_speed_is_told_so() {
+    let at = |operating_rpm: f64| {
+        let saw = Scene::paper().edited(|saw| {
+            saw.guides.clear();
+            saw.accuracy = Accuracy::Draft;
+            saw.operating_rpm = Some(operating_rpm);
+        });
+        let report = sawflutter::stability::Analysis::new(&saw.unwrap()).unwrap();
+        let report = report.report();
+        fits(&report.summary());
+        report
+    };
+    let critical = at(1000.0).critical_speeds[0].rpm;
+    let [from, to] = at(1000.0).operating.unwrap().safe_window_rpm.unwrap();
+    assert!(from == 0.0 && (to / critical - 0.95).abs() < 1e-9, "{to}");
+    for speed in [0.96 * critical, critical, 1.04 * critical] {
+        let report = at(speed);
+        let (text, operating) = (report.summary(), report.operating.unwrap());
+        assert_eq!(operating.verdict, StabilityState::Stable);
+        let told = operating.at_critical_rpm.unwrap();
+        assert!((told / critical - 1.0).abs() < 1e-9, "{told}");
+        assert_eq!(operating.safe_window_rpm, None);
+        assert!(text.contains("STABLE, but AT A CRITICAL SPEED"), "{text}");
+        assert!(
+            text.contains(&format!("critical speed {critical:.1} rpm (2 diameters")),
+            "{text}"
+        );
+    }
+}
+
+/// Nothing holds a blade on a spline without guides: it keeps no limit, whatever its speeds are.
+#[test]
+fn a_blade_that_nothing_holds_does_not_pass() {
+    let folder = TempDir::new().unwrap();
+    let mut file = Scene::paper().file().clone();
+    file.guides.clear();
+    file.accuracy = Accuracy::Draft;
+    let scene = write_scene(&folder, &file);
+    let scene = scene.to_str().unwrap();
+    let output = run(&["check", scene, "--operating-rpm", "600"], &folder);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    assert!(shown.contains("FAIL  static stiffness"), "{shown}");
+    assert!(
+        shown.contains("nothing holds the blade's rigid motions"),
+        "{shown}"
+    );
+    let guided = run(
+        &["check", "--operating-rpm", "600", "--accuracy", "draft"],
+        &folder,
+    );
+    assert_eq!(guided.status.code(), Some(0), "{}", text(&guided.stdout));
+}

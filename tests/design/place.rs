@@ -318,15 +318,17 @@ fn the_window_is_never_narrower_than_before() {
     let found = one_radius(&saw, &demands);
     let window = |saw: &Scene| {
         let threshold = saw.flutter_threshold_per_s();
-        let bands = Onsets::new(saw).unwrap().instabilities;
-        let counting = || bands.iter().filter(|band| band.counts(threshold));
-        let below = counting().filter(|band| band.to_rad_per_s < around_rad_per_s);
-        let above = counting().filter(|band| band.from_rad_per_s > around_rad_per_s);
-        let from = below.map(|band| band.to_rad_per_s).fold(0.0, f64::max);
-        above
-            .map(|band| band.from_rad_per_s)
-            .fold(f64::INFINITY, f64::min)
-            - from
+        let onsets = Onsets::new(saw).unwrap();
+        let counting = onsets.instabilities.iter().filter(|b| b.counts(threshold));
+        let bands = counting.map(|band| (band.from_rad_per_s, band.to_rad_per_s));
+        let critical = onsets.critical_rad_per_s.iter();
+        let beside = critical.map(|speed| (0.95 * speed, 1.05 * speed));
+        let excluded: Vec<(f64, f64)> = bands.chain(beside).collect();
+        let below = excluded.iter().filter(|(_, to)| *to < around_rad_per_s);
+        let above = excluded.iter().filter(|(from, _)| *from > around_rad_per_s);
+        let from = below.map(|(_, to)| *to).fold(0.0, f64::max);
+        let to = above.map(|(from, _)| *from);
+        to.fold(f64::INFINITY, f64::min) - from
     };
     let (before, after) = (window(&saw), window(&found.scene));
     assert!(after >= before, "{} {}", rpm(before), rpm(after));

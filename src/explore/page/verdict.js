@@ -23,7 +23,8 @@ export function verdict(place, report) {
       + `${operating.within_limit ? "within" : "beyond"} the ${100 * operating.limit} % rule`
     : "No operating speed to hold against the 85 % rule";
   const inside = band ? `, and inside a ${band.kind} band`
-    : operating?.verdict === "outside_sweep" ? ", and outside the sweep" : "";
+    : operating?.verdict === "outside_sweep" ? ", and outside the sweep"
+      : typeof operating?.at_critical_rpm === "number" ? `, and at the critical speed ${rpm(operating.at_critical_rpm)}` : "";
   const flutter = flutter_speed_rpm === null
     ? `No flutter of ${flutter_threshold_per_s} 1/s or more up to ${Math.round(report.campbell.to_rpm)} rpm`
     : `Flutter (${flutter_threshold_per_s} 1/s or more) from ${Math.round(flutter_speed_rpm)} rpm`;
