@@ -1353,10 +1353,11 @@ class Placed(Entry):
     """Whether it rests on one of them."""
 
     offset: float
-    """How far it is moved for the next two."""
+    """Its tolerance of production: it is off by so much for the next two."""
 
     less_rpm: float | None
-    """The goal with so much less of it; none past a bound."""
+    """The goal with so much less of it; none where there is no such saw or it could not be
+    computed."""
 
     more_rpm: float | None
     """The goal with so much more of it."""
@@ -1385,13 +1386,42 @@ class Outcome(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Neighbour(Entry):
-    """A saw a little off the best one."""
+    """A saw off another one by the tolerances."""
 
     values: FloatArray
     """Values of the numbers, in their order."""
 
     outcome: Outcome | None
-    """Its goal; none where there is no such saw."""
+    """Its goal; none where it could not be computed."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlaceCertificate(Entry):
+    """What the bands of the best saw were held against."""
+
+    statement: str
+    """What was found, in a sentence."""
+
+    is_clean: bool
+    """Whether every check agrees."""
+
+    speeds_checked: int
+    """Number of speeds at which the Krein index was compared with the modes, or of a damped saw
+    the number of growing modes with that of the bands."""
+
+    full_basis_counts: int
+    """Number of counts of eigenvalues on the whole basis that the modes were compared with."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FragileOptimum(Entry):
+    """A saw beside a jump of the goal."""
+
+    saw: Neighbour
+    """Values of the numbers, in their order, and the goal."""
+
+    worst: Neighbour
+    """The worst of the saws off it by the tolerances."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1434,12 +1464,12 @@ class PlaceReport(Entry):
     """Lower limit of the first critical speed, if one was asked for."""
 
     kept: bool
-    """Whether the best saw keeps it."""
+    """Whether the best saw keeps it, even at the worst of its tolerances."""
 
     improved: bool
-    """Whether the best saw is better than the scene as it was. Where none between the bounds
-    is, `scene`, `best` and the numbers are those of the scene as it was, unless that one lies
-    outside the bounds."""
+    """Whether the best saw is better than the scene as it was, both at the worst of their
+    tolerances. Where none between the bounds is, `scene`, `best` and the numbers are those of
+    the scene as it was, unless that one lies outside the bounds."""
 
     from_rpm: float
     """First speed of the sweep, the same for every saw."""
@@ -1459,20 +1489,31 @@ class PlaceReport(Entry):
     before: Outcome
     """The scene as it was."""
 
+    worst_before: Neighbour
+    """The worst of the saws off it by the tolerances, itself included."""
+
     best: Outcome
-    """The best saw."""
+    """The best saw: that of the best goal at the worst of its tolerances."""
 
     bands: tuple[Instability, ...]
     """Bands of the best saw."""
 
+    certificate: PlaceCertificate
+    """What these bands were held against."""
+
     fragile: bool
-    """Whether a small change of a number loses much of the goal."""
+    """Whether the best saw loses more than a twentieth of the goal within its tolerances."""
 
     worst_neighbour: Neighbour | None
-    """The worst of the saws a little off the best one."""
+    """The worst of the saws off the best one by the tolerances, itself included: what the
+    search makes best."""
 
     worst_neighbour_share: float
     """Its goal divided by that of the best saw."""
+
+    fragile_optimum: FragileOptimum | None
+    """The saw of the best goal by itself, where that is better than the best saw and worse
+    within its tolerances; null where there is none."""
 
     almost: tuple[Instability, ...]
     """Bands that nearly reach the threshold and begin before the flutter speed."""
@@ -1482,6 +1523,9 @@ class PlaceReport(Entry):
 
     saws: int
     """Saws analysed."""
+
+    failed_saws: int
+    """Those among them that could not be computed: they count as the worst."""
 
     max_diameters: int
     """Largest number of nodal diameters of the best saw's basis."""

@@ -392,7 +392,11 @@ class PlaceResults(Result, PlaceReport):
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
         robust = "fragile" if self.fragile else "robust"
-        return f"{found}; {self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}, {robust}"
+        worst = 1e2 * self.worst_neighbour_share
+        return (
+            f"{found}; {self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}, "
+            f"{robust}: {worst:.0f} % at the worst of its tolerances"
+        )
 
 
 class StudyResults(Result, StudyReport):

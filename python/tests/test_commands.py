@@ -171,6 +171,10 @@ def test_place_moves_what_is_named_within_its_bounds(draft: sf.Scene) -> None:
     assert bounds[0] <= radius.value <= bounds[1]
     assert found.saw["guides[0].radius_m"] == radius.value
     assert found.before.goal_rpm == pytest.approx(2256.0, rel=5e-3)
+    worst, before = found.worst_neighbour, found.worst_before
+    assert worst is not None and worst.outcome is not None and before.outcome is not None
+    assert worst.outcome.goal_rpm >= before.outcome.goal_rpm
+    assert found.certificate.statement in found.summary()
 
 
 def test_what_cannot_be_placed_is_refused(draft: sf.Scene) -> None:

@@ -1,4 +1,4 @@
-//! The goal over two numbers of a guide, the best saw marked.
+//! The goal over two numbers of a guide; the best saw is marked, and the saw that is better by itself.
 
 use super::canvas::{Sheet, Stroke};
 use super::fit::four_digits;
@@ -39,7 +39,7 @@ fn facts(report: &PlaceReport) -> String {
         format!("{name} {}", four_digits(p.value))
     });
     let worst = format!(
-        "{}a little off: {:.0} %",
+        "{}worst within tolerances: {:.0} %",
         if report.fragile { "fragile, " } else { "" },
         100.0 * report.worst_neighbour_share
     );
@@ -51,24 +51,34 @@ fn facts(report: &PlaceReport) -> String {
 }
 
 fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along, y: &Along) {
-    let number = |path: &str, best: bool| {
-        let p = report.parameters.iter().find(|p| p.path == path)?;
-        Some(if best { p.value } else { p.start })
-    };
-    let place = |best: bool| {
-        let across = x.at(number(&map.x_path, best)?);
+    let place = |value_of: &dyn Fn(usize) -> Option<f64>| {
+        let number = |path: &str| {
+            let index = report.parameters.iter().position(|p| p.path == path)?;
+            value_of(index)
+        };
+        let across = x.at(number(&map.x_path)?);
         let up = match &map.y_path {
-            Some(path) => y.at(number(path, best)?),
+            Some(path) => y.at(number(path)?),
             None => (PANEL.top + PANEL.bottom) / 2.0,
         };
         Some([across, up])
     };
-    if let Some(at) = place(false) {
+    if let Some(at) = place(&|k| Some(report.parameters[k].start)) {
         sheet.ring(at, 5.0, Stroke::solid(INK, 2.0), PAPER);
     }
-    if let Some(at) = place(true) {
+    let fragile = report.fragile_optimum.as_ref();
+    if let Some(at) = place(&|k| fragile?.saw.values.get(k).copied()) {
+        draw_fragile(sheet, at);
+    }
+    if let Some(at) = place(&|k| Some(report.parameters[k].value)) {
         draw_best(sheet, at);
     }
+}
+
+/// A red ring around nothing.
+fn draw_fragile(sheet: &mut Sheet, at: [f64; 2]) {
+    sheet.disc(at, 8.0, PAPER);
+    sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0), PAPER);
 }
 
 /// A cross in a ring, red on white.
@@ -84,12 +94,16 @@ fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
 fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
     let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
     key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
-        .word("best")
+        .word("best at the worst of its tolerances")
         .mark(10.0, |sheet, [x, y]| {
             sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
         })
         .word("the scene")
-        .word("colours: on the coarse model of the search");
+        .word("colours: coarse model");
+    if report.fragile_optimum.is_some() {
+        key.mark(12.0, |sheet, [x, y]| draw_fragile(sheet, [x + 6.0, y]))
+            .word("better by itself, fragile");
+    }
     if map.kept.iter().flatten().any(|kept| !kept) {
         let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
             format!("lowest critical speed below {rpm:.0} rpm")
@@ -102,8 +116,9 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
 mod tests {
     use super::*;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::report::OutcomeEntry;
-    use crate::report::PlacedEntry;
+    use crate::report::{
+        FragileOptimumEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry, PlacedEntry,
+    };
     use crate::scene::Scene;
 
     fn report(y_path: Option<&str>) -> PlaceReport {
@@ -113,6 +128,13 @@ mod tests {
             critical_rpm: Some(1600.0),
             window_rpm: None,
             kept: true,
+        };
+        let neighbour = |goal_rpm: f64, values: [f64; 2]| NeighbourEntry {
+            values: values.into(),
+            outcome: Some(OutcomeEntry {
+                goal_rpm,
+                ..outcome
+            }),
         };
         let placed = |path: &str, value: f64, bound_to: f64| PlacedEntry {
             path: path.into(),
@@ -143,11 +165,22 @@ mod tests {
             ],
             without_effect: Vec::new(),
             before: outcome,
+            worst_before: neighbour(2000.0, [0.22, 1.8e7]),
             best: outcome,
             bands: Vec::new(),
+            certificate: PlaceCertificateEntry {
+                statement: "Krein index matches at 9 of 9 speeds".into(),
+                is_clean: true,
+                speeds_checked: 9,
+                full_basis_counts: 0,
+            },
             fragile: true,
-            worst_neighbour: None,
+            worst_neighbour: Some(neighbour(2093.0, [0.248, 2e7])),
             worst_neighbour_share: 0.91,
+            fragile_optimum: Some(FragileOptimumEntry {
+                saw: neighbour(2400.0, [0.21, 5e6]),
+                worst: neighbour(1900.0, [0.212, 5e6]),
+            }),
             almost: Vec::new(),
             map: Some(MapEntry {
                 x_path: "guides[0].radius_m".into(),
@@ -158,10 +191,19 @@ mod tests {
                 kept: vec![vec![true, true, false]; rows],
             }),
             saws: 100,
+            failed_saws: 0,
             max_diameters: 8,
             radial_functions: 5,
             warnings: Vec::new(),
         }
+    }
+
+    #[test]
+    fn a_saw_that_is_better_by_itself_is_told_with_its_place_and_not_answered() {
+        let summary = report(None).summary().replace("\n  ", " ");
+        let told = "Not the answer: guides[0].radius_m = 0.2100, guides[0].stiffness_n_per_m = 5.00e6 has a flutter speed of 2400 rpm, which falls to 1900 rpm within the tolerances";
+        assert!(summary.contains(told), "{summary}");
+        assert!(summary.contains("0.1250 to 0.3000"), "bounds: {summary}");
     }
 
     #[test]
@@ -175,6 +217,7 @@ mod tests {
                 "{all:?}"
             );
             assert!(all.iter().any(|text| text.contains("[m]")), "{all:?}");
+            assert!(all.iter().any(|text| text.contains("fragile")), "{all:?}");
         }
         let without = PlaceReport {
             map: None,

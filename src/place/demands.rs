@@ -65,7 +65,7 @@ pub struct Options {
     pub samples: usize,
     /// How many of the best of them, if apart, are refined.
     pub places: usize,
-    /// Saws that each refinement may take.
+    /// Steps that each refinement may take: a saw, and as many of those around it as it takes to say what it is worth.
     pub refine: u64,
     /// Points of the map along each axis; 0 for none.
     pub map: usize,

@@ -3,9 +3,10 @@
 //! lowest critical speed.
 //!
 //! The flutter speed is not continuous in the numbers: it jumps where the peak of a band passes the
-//! threshold. The best saw may stand right beside such a jump, so the answer includes what saws
-//! with slightly different numbers are worth. Bands are searched without
-//! the forces of a cut. One angle of guides that may all turn is held, since nothing else
+//! threshold. A saw right beside such a jump is worth little, for production meets no number exactly. So
+//! a saw is worth what the worst of its neighbours is worth, those whose numbers are off by tolerances of production:
+//! 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other numbers. The saw that is best without tolerances is told beside
+//! the answer. Bands are searched without the forces of a cut. One angle of guides that may all turn is held, since nothing else
 //! stands in space: a single pad may be anywhere around the blade.
 //!
 //! ```
@@ -18,7 +19,7 @@
 //! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
 //! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0 };
 //! let found = Placement::new(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
-//! assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
+//! assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -37,7 +38,7 @@ use rayon::prelude::*;
 
 use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, effective};
-use crate::spectrum::SpectrumError;
+use crate::spectrum::{Cancellation, SpectrumError};
 use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
@@ -47,11 +48,12 @@ use growing::Grower;
 pub(crate) use growing::GrowingMap;
 pub(crate) use growing::Watch;
 pub(crate) use map::Map;
+pub(crate) use neighbours::Neighbour;
 pub(crate) use neighbours::Neighbours;
 pub use outcome::Outcome;
 use outcome::{Question, REFUSED};
-use search::{Search, Tried};
-use settle::{Choice, basis_of_all, settle};
+use search::{Search, Tally, Tried};
+use settle::{Choice, Weighed, basis_of_all, settle};
 
 /// Why no place could be looked for.
 #[derive(Debug, thiserror::Error)]
@@ -91,14 +93,14 @@ pub struct PlacedParameter {
     pub at_bound: bool,
 }
 
-/// The best saw found.
+/// The saw that is best at the worst of its tolerances.
 #[derive(Debug, Clone)]
 pub struct Placement {
     /// The saw: the best that was found, or the scene as it was where none between the bounds is
     /// better.
     pub scene: Scene,
-    /// Whether it is better than the scene as it was. It can be worse where that one does not
-    /// lie within the bounds.
+    /// Whether it is better than the scene as it was, both at the worst of their tolerances. It can be worse where that
+    /// one does not lie within the bounds.
     pub improved: bool,
     /// Numbers found.
     pub parameters: Vec<PlacedParameter>,
@@ -108,16 +110,31 @@ pub struct Placement {
     pub before: Outcome,
     /// The best saw.
     pub best: Outcome,
-    /// Saws a little off the best one.
+    /// Saws off the best one by the tolerances.
     pub(crate) neighbours: Neighbours,
+    /// The worst of those around the scene as it was.
+    pub(crate) worst_before: Neighbour,
+    /// A saw that is better than the best one by itself, and worse within its tolerances.
+    pub(crate) fragile_optimum: Option<FragileOptimum>,
     /// The goal over two of the numbers.
     pub(crate) map: Option<Map>,
     /// Sweep in rad/s, the same for every saw.
     pub range: (f64, f64),
+    /// Whether no energy is lost, so that modes have Krein signs.
+    pub(crate) is_undamped: bool,
     /// The basis of the best saw.
     pub resolution: Resolution,
-    /// Saws analysed.
-    pub evaluations: usize,
+    /// Saws analysed, and those that could not be.
+    pub(crate) tally: Tally,
+}
+
+/// A saw beside a jump.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FragileOptimum {
+    /// The saw.
+    pub saw: Neighbour,
+    /// The worst of those off it by the tolerances.
+    pub worst: Neighbour,
 }
 
 /// Progress callback: which step, how many of its saws are done, and of how many.
@@ -129,14 +146,12 @@ const COARSE_TOLERANCE: f64 = 5e-2;
 /// How far apart places to refine are at least, as a share of the bounds.
 const APART: f64 = 0.08;
 /// First and last steps of the refinement as shares of the bounds.
-const COARSE_STEPS: (f64, f64) = (0.08, 2e-3);
+const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
 /// The fine basis moves an optimum, and the cliffs next to it, by little: so many times fewer saws
 /// are enough there, and each costs ten times as much.
 const SETTLED: u64 = 3;
-/// A map that still finds better saws is not drawn again for ever.
-const MAP_ROUNDS: usize = 3;
-/// So many samples more than were refined are candidates for the finer basis.
-const MORE_SAMPLES: usize = 2;
+/// So many samples that are best by themselves are candidates for the finer basis.
+const MORE_SAMPLES: usize = 3;
 /// Nearer to a bound than this a share rests on it.
 const AT_BOUND: f64 = 1e-3;
 /// Shares of the bounds at which a number is looked at for whether it moves anything.
@@ -145,8 +160,8 @@ const LOOKED_AT: [f64; 2] = [0.23, 0.71];
 const IDLE: f64 = 1e-7;
 
 impl Placement {
-    /// Looks for the best saw: even samples of the bounds, direct search (MADS) from the best of
-    /// them, a map through the result, and refinement on the basis that the tolerance asks for.
+    /// Looks for the saw that is best at the worst of its tolerances: even samples of the bounds, direct search (MADS) from the best of
+    /// them, a map through the result, and refinement on the basis that the tolerance of the scene asks for.
     ///
     /// # Errors
     /// [`PlaceError`] where no freed number has an effect, or no saw tried can be analysed.
@@ -172,56 +187,94 @@ impl Placement {
         progress: Progress<'_>,
         watch: Watch<'_>,
     ) -> Result<Self, PlaceError> {
-        let chosen = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
-        let evaluations = AtomicUsize::new(0);
+        let basis = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
         let mut question = Question {
             goal: demands.goal,
             min_critical_rad_per_s: demands.min_critical_rad_per_s,
-            range: chosen.range_rad_per_s,
-            resolution: options.resolution.unwrap_or(chosen.saw.plate.resolution),
+            range: basis.range_rad_per_s,
+            resolution: options.resolution.unwrap_or(basis.saw.plate.resolution),
         };
-        let (freed, without_effect) = moving(scene, freed, &question, &evaluations);
+        let all = Search::new(scene.file(), freed, question.clone());
+        let (freed, without_effect) = moving(scene, &all);
         if freed.is_empty() {
             return Err(PlaceError::NothingFree);
         }
         let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
-        let coarse = Search {
-            scene: scene.file(),
-            freed: &freed,
-            question: &question,
-            evaluations: &evaluations,
-        };
+        let coarse = Search::new(scene.file(), &freed, question.clone());
         let (candidates, map) = look_everywhere(&coarse, &own, options, (progress, watch))?;
         if options.resolution.is_none() {
             question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
         }
-        let fine = Search {
-            scene: scene.file(),
-            freed: &freed,
-            question: &question,
-            evaluations: &evaluations,
-        };
-        let cells = map.as_ref().map_or(Vec::new(), Map::cells);
-        let budget = options.refine / SETTLED;
-        let settled = settle(&fine, &candidates, &cells, budget, progress);
-        let before = fine.question.ask(scene)?;
-        let tried = evaluations.load(Ordering::Relaxed);
-        let chosen = Choice::between(scene, &freed, settled, before.clone(), tried)?;
-        let neighbours = Neighbours::new(&fine, &chosen.shares, &chosen.outcome, progress);
+        let fine = Search::new(scene.file(), &freed, question.clone());
+        let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
+        let before = question.ask(scene)?;
+        let own = exact_shares(scene, &freed)?;
+        let before = Weighed::new(&fine, own, before);
+        let chosen = Choice::between(&fine, scene, settled, &before)?;
+        let fragile_optimum = fragile_optimum(&fine, &chosen.saw);
+        Cancellation::current().check()?;
         Ok(Placement {
             parameters: parameters(scene, &freed, &chosen)?,
             scene: chosen.scene,
             improved: chosen.improved,
             without_effect,
-            before,
-            best: chosen.outcome,
-            neighbours,
+            before: before.outcome,
+            worst_before: before.neighbours.worst,
+            best: chosen.saw.outcome,
+            neighbours: chosen.saw.neighbours,
+            fragile_optimum,
             map,
             range: question.range,
+            is_undamped: basis.saw.plate.is_conservative(),
             resolution: question.resolution,
-            evaluations: evaluations.load(Ordering::Relaxed),
+            tally: all.tally().and(coarse.tally()).and(fine.tally()),
         })
     }
+
+    /// The goal of the best saw at the worst of its tolerances.
+    pub fn worst_rad_per_s(&self) -> f64 {
+        value(&self.neighbours.worst)
+    }
+
+    /// The same of the scene as it was.
+    pub fn worst_before_rad_per_s(&self) -> f64 {
+        value(&self.worst_before)
+    }
+
+    /// Number of saws analysed.
+    pub fn evaluations(&self) -> usize {
+        self.tally.saws
+    }
+}
+
+fn value(saw: &Neighbour) -> f64 {
+    saw.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s)
+}
+
+/// Shares of the scene's own numbers, which may lie outside the bounds.
+fn exact_shares(scene: &Scene, freed: &[Freed]) -> Result<Vec<f64>, SceneError> {
+    let shares = freed.iter();
+    let shares = shares.map(|f| Ok(f.share(f.parameter.get(scene.file())?)));
+    shares.collect()
+}
+
+/// The saw that is best by itself of all that were computed on the basis of the answer, where it is better than that one and
+/// loses it within its tolerances.
+fn fragile_optimum(search: &Search<'_>, answer: &Weighed) -> Option<FragileOptimum> {
+    let cheapest = search.cheapest()?;
+    if cheapest.cost >= answer.outcome.cost() {
+        return None;
+    }
+    let outcome = search.outcome(&cheapest.shares)?;
+    let neighbours = Neighbours::new(search, &cheapest.shares, &outcome);
+    let numbers = search.freed.iter().zip(&cheapest.shares);
+    neighbours.are_fragile().then(|| FragileOptimum {
+        worst: neighbours.worst,
+        saw: Neighbour {
+            values: numbers.map(|(freed, share)| freed.value(*share)).collect(),
+            outcome: Some(outcome),
+        },
+    })
 }
 
 /// Every number with what was found for it.
@@ -230,7 +283,7 @@ fn parameters(
     freed: &[Freed],
     chosen: &Choice,
 ) -> Result<Vec<PlacedParameter>, SceneError> {
-    let numbers = freed.iter().zip(&chosen.shares).map(|(freed, share)| {
+    let numbers = freed.iter().zip(&chosen.saw.shares).map(|(freed, share)| {
         Ok(PlacedParameter {
             freed: freed.clone(),
             start: freed.parameter.get(scene.file())?,
@@ -241,10 +294,9 @@ fn parameters(
     numbers.collect()
 }
 
-/// Samples, refines the best of them, and draws the map through the best; a map that shows a
-/// better saw is where the search goes on. The candidates for the finer basis, best first: what
-/// the refinements led to, the start, and the best samples, for a saw next to a cliff on this
-/// basis may be over it on the other.
+/// Samples, refines the best of them, and draws the map through the best; where a cell of the map is better, it is refined too. The
+/// candidates for the finer basis: what the refinements led to, the start, and the best samples, by themselves and within their tolerances, for
+/// a saw next to a jump on this basis may be past it on the other.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
@@ -257,57 +309,43 @@ fn look_everywhere(
         progress("samples", seen.done, samples);
         grower.sampled(search, &seen);
     });
-    let places = options.places.max(1);
-    let starts = Search::apart(&tried, places, APART);
-    let mut candidates: Vec<Tried> = starts
-        .par_iter()
-        .map(|start| search.refine(start, COARSE_STEPS, options.refine))
-        .collect();
-    let mut best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
-    if best.cost >= REFUSED {
+    Cancellation::current().check()?;
+    if tried.first().is_none_or(|best| best.cost >= REFUSED) {
         return Err(PlaceError::NoSaw { tried: samples });
     }
-    let mut map = None;
-    for _ in 0..if options.map < 2 { 0 } else { MAP_ROUNDS } {
+    let places = options.places.max(1);
+    let starts = search.most_robust(&tried, places, APART);
+    let (done, budget) = (AtomicUsize::new(0), options.refine as usize * starts.len());
+    let see = || {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress("refinement", done.min(budget), budget);
+    };
+    let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
+    let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
+    let cheapest = candidates.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    let best = cheapest
+        .cloned()
+        .ok_or(PlaceError::NoSaw { tried: samples })?;
+    let map = (options.map > 1).then(|| {
         let through_best = Map::unknown(search, options.map).through(&best.shares);
-        let drawn = grower.drawn(through_best, search, progress);
-        let on_map = cheapest(&drawn.cells());
-        map = Some(drawn);
-        match on_map {
-            Some(better) if better.cost < best.cost => {
-                best = search.refine(&better, COARSE_STEPS, options.refine);
-                candidates.push(best.clone());
-            }
-            _ => break,
-        }
-    }
-    let own = tried.iter().find(|one| one.shares == own);
-    candidates.extend(own.cloned());
-    candidates.extend(Search::apart(&tried, places + MORE_SAMPLES, APART));
+        grower.drawn(through_best, search, progress)
+    });
+    let cells = map.as_ref().map_or(Vec::new(), Map::cells);
+    let of_map = search.most_robust(&cells, 1, 0.0).pop();
+    let better = of_map.filter(|cell| cell.cost < best.cost);
+    candidates.extend(better.map(|cell| refined(&cell)));
+    candidates.extend(starts);
+    candidates.extend(search.cheapest());
+    candidates.extend(tried.iter().find(|one| one.shares == own).cloned());
+    candidates.extend(tried.into_iter().take(MORE_SAMPLES));
     candidates.retain(|one| one.cost < REFUSED);
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
     Ok((candidates, map))
 }
 
-fn cheapest(tried: &[Tried]) -> Option<Tried> {
-    let least = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
-    least.cloned()
-}
-
 /// Parts the freed numbers into those that move a critical speed or a band, and the others.
-fn moving(
-    scene: &Scene,
-    freed: &[Freed],
-    question: &Question,
-    evaluations: &AtomicUsize,
-) -> (Vec<Freed>, Vec<Freed>) {
-    let search = Search {
-        scene: scene.file(),
-        freed,
-        question,
-        evaluations,
-    };
+fn moving(scene: &Scene, search: &Search<'_>) -> (Vec<Freed>, Vec<Freed>) {
     let speeds = |shares: &[f64]| {
         let of = |outcome: Outcome| {
             let first = outcome.bands.first();
@@ -323,6 +361,6 @@ fn moving(
         let mut pairs = x.iter().zip(y);
         pairs.any(|(x, y)| (x - y).abs() > IDLE * x.abs().max(y.abs()))
     };
-    let Ok(parted) = effective(scene, freed, &LOOKED_AT, speeds, differ);
+    let Ok(parted) = effective(scene, search.freed, &LOOKED_AT, speeds, differ);
     parted
 }

@@ -1,110 +1,56 @@
-//! Saws a little off the best one: is it a hill or the edge of a cliff?
+//! What becomes of a saw whose numbers are off by as much as production leaves open.
 
 use rayon::prelude::*;
 
-use crate::scene::Freed;
+use crate::scene::{Freed, scene_at};
 use crate::stability::{Instability, InstabilityKind};
 
-use super::Progress;
-use super::outcome::Outcome;
+use super::outcome::{Outcome, REFUSED};
 use super::search::Search;
 
-/// A saw whose numbers are off by what a workshop cannot rule out.
+/// A saw whose numbers are off by their tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Neighbour {
     /// Values of the freed numbers.
     pub values: Vec<f64>,
-    /// What it is worth; `None` where there is no such saw.
+    /// What it is worth; `None` where it could not be computed.
     pub outcome: Option<Outcome>,
 }
 
-/// What happens around the best saw.
+impl Neighbour {
+    fn cost(&self) -> f64 {
+        self.outcome.as_ref().map_or(REFUSED, Outcome::cost)
+    }
+}
+
+/// What happens around a saw.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Neighbours {
-    /// How far each number is moved, in its unit.
+    /// The tolerance of each number, in its unit.
     pub offsets: Vec<f64>,
-    /// For each number the saws with less and with more of it; `None` past a bound.
+    /// For each number the saws with less and with more of it; `None` where there is no such saw.
     pub along: Vec<[Option<Neighbour>; 2]>,
-    /// The worst of these and of the corners between them.
-    pub worst: Option<Neighbour>,
-    /// Least value of the goal among them, over that of the best saw.
+    /// The worst of the saw itself, of these and of the corners between them.
+    pub worst: Neighbour,
+    /// Value of the goal there, over that of the saw itself.
     pub worst_share: f64,
-    /// Bands of the best saw that stay a little below the threshold and begin before the
+    /// Bands of the saw that stay a little below the threshold and begin before the
     /// flutter speed: were they to count, it would fall to their onset.
     pub almost: Vec<Instability>,
 }
 
-/// A best saw that loses more than this share of its worth next door is a fragile one.
+/// A saw that loses more than this share of its worth within its tolerances is a fragile one.
 const FRAGILE: f64 = 0.05;
 /// A band with this share of the growth that counts is near to counting.
 const NEAR: f64 = 0.5;
 /// More numbers than these have too many corners.
 const MAX_CORNERS: usize = 4;
+/// So many neighbours are computed at a time before the worst of them is looked at.
+const AT_A_TIME: usize = 4;
 
-impl Neighbours {
-    pub(super) fn new(
-        search: &Search<'_>,
-        at: &[f64],
-        best: &Outcome,
-        progress: Progress<'_>,
-    ) -> Self {
-        let freed = search.freed;
-        let values: Vec<f64> = freed.iter().zip(at).map(|(f, s)| f.value(*s)).collect();
-        let offsets: Vec<f64> = freed
-            .iter()
-            .zip(&values)
-            .map(|(f, v)| offset(f, *v))
-            .collect();
-        let mut steps: Vec<Vec<f64>> = Vec::new();
-        for k in 0..freed.len() {
-            for sign in [-1.0, 1.0] {
-                let mut step = vec![0.0; freed.len()];
-                step[k] = sign;
-                steps.push(step);
-            }
-        }
-        if (2..=MAX_CORNERS).contains(&freed.len()) {
-            steps.extend((0..1_usize << freed.len()).map(|corner| {
-                let sign = |k: usize| if corner >> k & 1 == 0 { -1.0 } else { 1.0 };
-                (0..freed.len()).map(sign).collect()
-            }));
-        }
-        progress("neighbours", 0, steps.len());
-        let neighbours: Vec<Option<Neighbour>> = steps
-            .par_iter()
-            .map(|step| neighbour(search, &values, &offsets, step))
-            .collect();
-        progress("neighbours", steps.len(), steps.len());
-        let along = (0..freed.len())
-            .map(|k| [neighbours[2 * k].clone(), neighbours[2 * k + 1].clone()])
-            .collect();
-        let worth = |n: &Neighbour| n.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s);
-        let worst = neighbours
-            .into_iter()
-            .flatten()
-            .min_by(|x, y| worth(x).total_cmp(&worth(y)));
-        let worst_share = match (&worst, best.value_rad_per_s) {
-            (Some(worst), value) if value > 0.0 => worth(worst) / value,
-            _ => 1.0,
-        };
-        Neighbours {
-            offsets,
-            along,
-            worst,
-            worst_share,
-            almost: almost(best, search.scene.flutter_threshold_per_s),
-        }
-    }
-
-    /// Whether a little more or less of a number costs much.
-    pub fn are_fragile(&self) -> bool {
-        self.worst_share < 1.0 - FRAGILE
-    }
-}
-
-/// What a workshop cannot rule out: two millimetres, a degree, a tenth of a stiffness, one per
-/// cent of other numbers.
-fn offset(freed: &Freed, value: f64) -> f64 {
+/// Tolerances of production, where nothing else is known: two millimetres, a degree, a tenth of a stiffness, one
+/// per cent of other numbers.
+fn tolerance(freed: &Freed, value: f64) -> f64 {
     match freed
         .parameter
         .path()
@@ -119,25 +65,111 @@ fn offset(freed: &Freed, value: f64) -> f64 {
     }
 }
 
-/// `None` past a bound: there no such saw is asked for.
-fn neighbour(
-    search: &Search<'_>,
-    values: &[f64],
-    offsets: &[f64],
-    step: &[f64],
-) -> Option<Neighbour> {
-    let moved: Vec<f64> = (0..values.len())
-        .map(|k| values[k] + step[k] * offsets[k])
-        .collect();
-    let pairs = || search.freed.iter().zip(&moved);
-    if !pairs().all(|(f, v)| (f.from..=f.to).contains(v)) {
-        return None;
+/// Directions to the neighbours: corners of the tolerances, which tell most, and then less and more of each number.
+fn directions(numbers: usize) -> Vec<Vec<f64>> {
+    let mut all: Vec<Vec<f64>> = Vec::new();
+    if (2..=MAX_CORNERS).contains(&numbers) {
+        all.extend((0..1_usize << numbers).map(|corner| {
+            let sign = |k: usize| if corner >> k & 1 == 0 { -1.0 } else { 1.0 };
+            (0..numbers).map(sign).collect()
+        }));
     }
-    let shares: Vec<f64> = pairs().map(|(f, v)| f.share(*v)).collect();
-    Some(Neighbour {
-        outcome: search.outcome(&shares),
-        values: moved,
-    })
+    for k in 0..numbers {
+        for sign in [-1.0, 1.0] {
+            let mut alone = vec![0.0; numbers];
+            alone[k] = sign;
+            all.push(alone);
+        }
+    }
+    all
+}
+
+/// Values and shares of the neighbour in a direction. Production does not know the bounds of a search, but
+/// there may be no such saw: a pad cannot stand beyond the rim.
+fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let numbers = search.freed.iter().zip(shares).zip(direction);
+    let values = numbers.map(|((freed, share), direction)| {
+        let value = freed.value(*share);
+        value + direction * tolerance(freed, value)
+    });
+    let values: Vec<f64> = values.collect();
+    let pairs = search.freed.iter().zip(&values);
+    let shares: Vec<f64> = pairs.map(|(freed, value)| freed.share(*value)).collect();
+    let exists = scene_at(search.scene, search.freed, &shares).is_ok();
+    exists.then_some((values, shares))
+}
+
+/// The cost of a saw at the worst of its tolerances, or that of some of its neighbours if it is beyond a limit.
+pub fn worst_cost(search: &Search<'_>, shares: &[f64], limit: f64) -> f64 {
+    let mut worst = search.cost(shares);
+    for some in directions(shares.len()).chunks(AT_A_TIME) {
+        if worst > limit {
+            break;
+        }
+        let cost_of = |direction: &Vec<f64>| {
+            let (_, shares) = moved(search, shares, direction)?;
+            Some(search.cost(&shares))
+        };
+        let costs: Vec<Option<f64>> = some.par_iter().map(cost_of).collect();
+        worst = costs.into_iter().flatten().fold(worst, f64::max);
+    }
+    worst
+}
+
+impl Neighbours {
+    pub(super) fn new(search: &Search<'_>, shares: &[f64], own: &Outcome) -> Self {
+        let numbers = shares.len();
+        let of = |direction: &Vec<f64>| {
+            let (values, shares) = moved(search, shares, direction)?;
+            let outcome = search.outcome(&shares);
+            Some(Neighbour { values, outcome })
+        };
+        let directions = directions(numbers);
+        let mut around: Vec<Option<Neighbour>> = directions.par_iter().map(of).collect();
+        let alone = around.split_off(directions.len() - 2 * numbers);
+        let pairs = search.freed.iter().zip(shares);
+        let values: Vec<f64> = pairs.map(|(freed, share)| freed.value(*share)).collect();
+        let offsets = search.freed.iter().zip(&values);
+        let offsets = offsets.map(|(f, v)| tolerance(f, *v)).collect();
+        let nominal = Neighbour {
+            values,
+            outcome: Some(own.clone()),
+        };
+        let all = around.iter().chain(&alone).flatten();
+        let worst = all.fold(nominal, |worst, other| match other.cost() > worst.cost() {
+            true => other.clone(),
+            false => worst,
+        });
+        let worth = worst.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s);
+        Neighbours {
+            offsets,
+            worst_share: match own.value_rad_per_s > 0.0 {
+                true => worth / own.value_rad_per_s,
+                false => 1.0,
+            },
+            worst,
+            along: alone
+                .chunks(2)
+                .map(|pair| [pair[0].clone(), pair[1].clone()])
+                .collect(),
+            almost: almost(own, search.scene.flutter_threshold_per_s),
+        }
+    }
+
+    /// Cost of the worst.
+    pub(super) fn worst_cost(&self) -> f64 {
+        self.worst.cost()
+    }
+
+    /// Whether the limit is kept with every number off by its tolerance.
+    pub fn keep_limit(&self) -> bool {
+        self.worst.outcome.as_ref().is_some_and(Outcome::is_kept)
+    }
+
+    /// Whether a little more or less of a number costs much.
+    pub fn are_fragile(&self) -> bool {
+        self.worst_share < 1.0 - FRAGILE
+    }
 }
 
 fn almost(best: &Outcome, threshold_per_s: f64) -> Vec<Instability> {

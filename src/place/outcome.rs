@@ -3,7 +3,7 @@
 use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::stability::{
-    AnalysisError, Evidence, Instability, flutter_onsets, resolved, search_bands,
+    AnalysisError, Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
 use super::Goal;
@@ -24,6 +24,8 @@ pub struct Outcome {
     pub short_rad_per_s: f64,
     /// Every band of the sweep.
     pub bands: Vec<Instability>,
+    /// What this list was held against.
+    pub certificate: Certificate,
 }
 
 /// What is asked of every saw that is tried.
@@ -37,7 +39,7 @@ pub struct Question {
     pub resolution: Resolution,
 }
 
-/// A saw worse than any that can be analysed.
+/// The cost of a saw worse than any that can be analysed.
 pub const REFUSED: f64 = 1e12;
 
 impl Question {
@@ -54,7 +56,7 @@ impl Question {
             // Without a critical speed every limit is kept.
             _ => 0.0,
         };
-        let (bands, _) = search_bands(saw, critical, self.range)?;
+        let (bands, certificate) = search_bands(saw, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let window = match self.goal {
@@ -80,17 +82,18 @@ impl Question {
             window,
             short_rad_per_s: short,
             bands,
+            certificate,
         })
     }
 }
 
 impl Outcome {
-    /// What a minimizer makes small: first the limit is kept, then the value grows.
+    /// What a minimizer makes small: how far the limit is missed, and where it is kept, which no positive
+    /// number is, the value with the other sign.
     pub(crate) fn cost(&self) -> f64 {
-        if self.short_rad_per_s > 0.0 {
-            0.5 * REFUSED + self.short_rad_per_s
-        } else {
-            -self.value_rad_per_s
+        match self.is_kept() {
+            true => -self.value_rad_per_s,
+            false => self.short_rad_per_s,
         }
     }
 

@@ -1,29 +1,38 @@
-//! Looking for the best shares of the freed numbers.
+//! Looking for the shares of the freed numbers that are best at the worst of their tolerances.
 //!
-//! The flutter speed jumps where a band passes the threshold and is smooth in between. So the
-//! box is first sampled evenly, and the best samples are then refined by mesh adaptive direct
-//! search, which needs no derivative and whose theory allows jumps (Audet and Dennis, SIAM J.
-//! Optim. 17, 2006). Both are deterministic.
+//! The flutter speed jumps where a band passes the threshold and is smooth in between. A saw right beside a
+//! jump is worth what is on the other side of it, for its numbers are never met exactly: what counts is the worst of a saw
+//! and of those whose numbers are off by their tolerances. It is never better than the saw itself, so that few of them have to be
+//! computed to rule a saw out. The box is sampled evenly, and the best samples are refined by mesh adaptive direct search, which needs no
+//! derivative and whose theory allows jumps (Audet and Dennis, SIAM J. Optim. 17, 2006). Both are deterministic.
+
+use std::cmp::Ordering;
+use std::collections::HashMap;
+use std::convert::Infallible;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor, Mads,
     PointState,
 };
 use rayon::prelude::*;
-use std::convert::Infallible;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::scene::{Freed, SceneFile, scene_at, spread};
 
+use super::neighbours::worst_cost;
 use super::outcome::{Outcome, Question, REFUSED};
 
-/// Saws with some numbers freed, and what is asked of them.
+/// What is known of a saw: what it is worth, or why it could not be computed; nothing where there is no such saw.
+type Known = Result<Outcome, Option<String>>;
+
+/// Saws with some numbers freed, and what is asked of them; each is computed once.
 pub struct Search<'a> {
     pub scene: &'a SceneFile,
     pub freed: &'a [Freed],
-    pub question: &'a Question,
-    /// Saws analysed so far.
-    pub evaluations: &'a AtomicUsize,
+    question: Question,
+    /// By the bits of the shares.
+    known: Mutex<HashMap<Vec<u64>, Known>>,
 }
 
 /// Shares and what they cost.
@@ -46,25 +55,101 @@ pub struct Seen<'a> {
 /// Called for every saw of many, by the thread that has computed it.
 pub type See<'a> = &'a (dyn Fn(Seen<'_>) + Sync);
 
+/// How many saws were computed, how many of them could not be, and what one of these says.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tally {
+    pub saws: usize,
+    pub failed: usize,
+    pub why: Option<String>,
+}
+
+impl Tally {
+    /// With those of another search.
+    pub fn and(self, other: Tally) -> Tally {
+        Tally {
+            saws: self.saws + other.saws,
+            failed: self.failed + other.failed,
+            why: self.why.or(other.why),
+        }
+    }
+}
+
 impl Tried {
     pub fn new(shares: Vec<f64>, outcome: Option<&Outcome>) -> Self {
         let cost = outcome.map_or(REFUSED, Outcome::cost);
         Tried { shares, cost }
     }
+
+    /// Whether the shares are far from those of some others.
+    fn is_apart(&self, others: &[Tried], distance: f64) -> bool {
+        others.iter().all(|other| {
+            let pairs = self.shares.iter().zip(&other.shares);
+            pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > distance
+        })
+    }
 }
 
-impl Search<'_> {
-    /// What the saw at given shares is worth; `None` where it is refused or cannot be analysed.
-    pub fn outcome(&self, shares: &[f64]) -> Option<Outcome> {
-        self.evaluations.fetch_add(1, Ordering::Relaxed);
-        let scene = scene_at(self.scene, self.freed, shares).ok()?;
-        self.question.ask(&scene).ok()
+impl<'a> Search<'a> {
+    pub fn new(scene: &'a SceneFile, freed: &'a [Freed], question: Question) -> Self {
+        Search {
+            scene,
+            freed,
+            question,
+            known: Mutex::default(),
+        }
     }
 
-    /// Shares with what they cost.
-    pub fn tried(&self, shares: Vec<f64>) -> Tried {
-        let outcome = self.outcome(&shares);
-        Tried::new(shares, outcome.as_ref())
+    fn known(&self) -> MutexGuard<'_, HashMap<Vec<u64>, Known>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What the saw at given shares is worth; `None` where it is refused or cannot be analysed.
+    pub fn outcome(&self, shares: &[f64]) -> Option<Outcome> {
+        let key: Vec<u64> = shares.iter().map(|share| share.to_bits()).collect();
+        let known = self.known().get(&key).cloned();
+        let found = known.unwrap_or_else(|| {
+            let found = match scene_at(self.scene, self.freed, shares) {
+                Ok(scene) => self.question.ask(&scene).map_err(|e| Some(e.to_string())),
+                Err(_) => Err(None),
+            };
+            self.known().insert(key, found.clone());
+            found
+        });
+        found.ok()
+    }
+
+    /// What a saw costs.
+    pub fn cost(&self, shares: &[f64]) -> f64 {
+        self.outcome(shares).as_ref().map_or(REFUSED, Outcome::cost)
+    }
+
+    /// What was computed.
+    pub fn tally(&self) -> Tally {
+        let known = self.known();
+        let failed = known.values().filter_map(|found| found.as_ref().err());
+        let mut why: Vec<&String> = failed.flatten().collect();
+        why.sort();
+        Tally {
+            saws: known.len(),
+            failed: why.len(),
+            why: why.first().map(|why| (*why).clone()),
+        }
+    }
+
+    /// The cheapest saw of all between the bounds that were computed, by itself.
+    pub fn cheapest(&self) -> Option<Tried> {
+        let known = self.known();
+        let all = known.iter().filter_map(|(key, found)| {
+            let shares: Vec<f64> = key.iter().map(|bits| f64::from_bits(*bits)).collect();
+            let is_inside = shares.iter().all(|share| (0.0..=1.0).contains(share));
+            let cost = found.as_ref().ok().filter(|_| is_inside)?.cost();
+            Some(Tried { shares, cost })
+        });
+        // Of equals always the same one, whatever the order of the map.
+        all.min_by(|x, y| {
+            let by_shares = || x.shares.partial_cmp(&y.shares).unwrap_or(Ordering::Equal);
+            x.cost.total_cmp(&y.cost).then_with(by_shares)
+        })
     }
 
     /// What `count` saws are worth, in their order, computed on all threads.
@@ -80,7 +165,7 @@ impl Search<'_> {
             let shares = shares_of(index);
             let outcome = self.outcome(&shares);
             see(Seen {
-                done: done.fetch_add(1, Ordering::Relaxed) + 1,
+                done: done.fetch_add(1, Relaxed) + 1,
                 index,
                 shares: &shares,
                 outcome: outcome.as_ref(),
@@ -90,7 +175,7 @@ impl Search<'_> {
         (0..count).into_par_iter().map(one).collect()
     }
 
-    /// `count` samples of the box, the scene's own first, best first.
+    /// `count` samples of the box, the scene's own first, by what each costs by itself.
     pub fn sample(&self, own: &[f64], count: usize, see: See<'_>) -> Vec<Tried> {
         let shares_of = |index: usize| match index.checked_sub(1) {
             None => own.to_vec(),
@@ -104,25 +189,44 @@ impl Search<'_> {
         tried
     }
 
-    /// The best few that are apart from each other.
-    pub fn apart(tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
+    /// Of saws in the order of what each costs by itself those that cost least at the worst of their tolerances, a few that are
+    /// apart from each other; with that cost.
+    pub fn most_robust(&self, tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
         let mut chosen: Vec<Tried> = Vec::new();
-        for one in tried {
-            let far = |other: &Tried| {
-                let pairs = one.shares.iter().zip(&other.shares);
-                pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > distance
-            };
-            if chosen.len() < count && chosen.iter().all(far) {
-                chosen.push(one.clone());
+        while chosen.len() < count {
+            let mut best: Option<Tried> = None;
+            for one in tried.iter().filter(|one| one.is_apart(&chosen, distance)) {
+                let limit = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
+                if one.cost >= limit {
+                    break;
+                }
+                let cost = worst_cost(self, &one.shares, limit);
+                if cost < limit {
+                    let shares = one.shares.clone();
+                    best = Some(Tried { shares, cost });
+                }
+            }
+            match best {
+                Some(best) => chosen.push(best),
+                None => break,
             }
         }
         chosen
     }
 
-    /// Refines a try by direct search, from a step to a smaller one, both shares of the box.
-    pub fn refine(&self, start: &Tried, (from, to): (f64, f64), budget: u64) -> Tried {
+    /// Refines a try by direct search for what costs least at the worst of its tolerances, from a step to a smaller one,
+    /// both shares of the box. `see` is called after each of its saws.
+    pub fn refine(
+        &self,
+        start: &Tried,
+        (from, to): (f64, f64),
+        budget: u64,
+        see: &(dyn Fn() + Sync),
+    ) -> Tried {
         let problem = Boxed {
             search: self,
+            least: Mutex::new(start.cost),
+            see,
             lower: vec![0.0; self.freed.len()],
             upper: vec![1.0; self.freed.len()],
         };
@@ -145,6 +249,9 @@ impl Search<'_> {
 
 struct Boxed<'a> {
     search: &'a Search<'a>,
+    /// The least cost so far.
+    least: Mutex<f64>,
+    see: &'a (dyn Fn() + Sync),
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
@@ -163,6 +270,12 @@ impl CostFunction for Boxed<'_> {
     type Error = Infallible;
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Infallible> {
-        Ok(self.search.tried(shares.clone()).cost)
+        let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
+        // A cost beyond the least is not told exactly: direct search only asks whether it is less.
+        let limit = *least();
+        let cost = worst_cost(self.search, shares, limit);
+        *least() = limit.min(cost);
+        (self.see)();
+        Ok(cost)
     }
 }

@@ -1,56 +1,79 @@
 //! From candidates of the coarse search to the saw that is answered: candidates and start are held
 //! against each other on the basis asked for.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, SpeedRange, scene_at};
 use crate::stability::ChosenBasis;
 
+use super::neighbours::Neighbours;
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
-use super::{IDLE, PlaceError, Progress, cheapest};
+use super::{IDLE, PlaceError, Progress};
 
 /// First and last steps of the refinement on that basis, as shares of the bounds.
-const FINE_STEPS: (f64, f64) = (0.01, 2e-4);
+const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
 
-/// No more cells of a map are held against the candidates.
-const MOST_CELLS: usize = 64;
+/// A saw, and what becomes of it within its tolerances.
+#[derive(Clone)]
+pub struct Weighed {
+    pub shares: Vec<f64>,
+    pub outcome: Outcome,
+    pub neighbours: Neighbours,
+}
+
+impl Weighed {
+    pub fn new(search: &Search<'_>, shares: Vec<f64>, outcome: Outcome) -> Self {
+        Weighed {
+            neighbours: Neighbours::new(search, &shares, &outcome),
+            shares,
+            outcome,
+        }
+    }
+}
 
 /// The saw that is answered.
 pub struct Choice {
     pub scene: Scene,
-    pub shares: Vec<f64>,
-    pub outcome: Outcome,
+    pub saw: Weighed,
     pub improved: bool,
 }
 
 impl Choice {
-    /// The best saw found, or the scene's own where that is within the bounds and none is better.
+    /// The best saw found, or the scene's own where that is within the bounds and none is better at the worst of its
+    /// tolerances.
     pub fn between(
+        search: &Search<'_>,
         scene: &Scene,
-        freed: &[Freed],
-        settled: Option<(Tried, Outcome)>,
-        before: Outcome,
-        tried: usize,
+        found: Option<Tried>,
+        before: &Weighed,
     ) -> Result<Self, PlaceError> {
-        let better = |found: &Outcome| found.cost() < before.cost() - IDLE * before.cost().abs();
+        let freed = search.freed;
         let own_is_allowed = freed.iter().all(|f| {
             let own = f.parameter.get(scene.file());
             own.is_ok_and(|own| (f.from..=f.to).contains(&own))
         });
-        match settled {
-            Some((best, outcome)) if better(&outcome) || !own_is_allowed => Ok(Choice {
-                scene: placed(scene, freed, &best)?,
-                shares: best.shares,
-                improved: better(&outcome),
-                outcome,
+        let found = found.and_then(|best| {
+            let outcome = search.outcome(&best.shares)?;
+            Some(Weighed::new(search, best.shares, outcome))
+        });
+        let own = before.neighbours.worst_cost();
+        let better = |found: &Weighed| found.neighbours.worst_cost() < own - IDLE * own.abs();
+        match found {
+            Some(best) if better(&best) || !own_is_allowed => Ok(Choice {
+                scene: placed(scene, freed, &best.shares)?,
+                improved: better(&best),
+                saw: best,
             }),
-            None if !own_is_allowed => Err(PlaceError::NoSaw { tried }),
+            None if !own_is_allowed => Err(PlaceError::NoSaw {
+                tried: search.tally().saws,
+            }),
             _ => Ok(Choice {
                 scene: scene.clone(),
-                shares: freed.iter().map(|f| f.share_of(scene.file())).collect(),
-                outcome: before,
+                saw: before.clone(),
                 improved: false,
             }),
         }
@@ -84,36 +107,33 @@ pub fn basis_of_all(
         .unwrap_or(own))
 }
 
-/// Holds the candidates against each other on the basis asked for, and with them the cells of the map, best first, that the coarse
-/// model holds for better than the best of these: next to a jump of the flutter speed all candidates may stand on the wrong
-/// side. Refines the best until direct search finds nothing better.
+/// Holds the candidates against each other on the basis asked for, at the worst of their tolerances, and refines the best.
 pub fn settle(
     search: &Search<'_>,
     candidates: &[Tried],
-    cells: &[Tried],
     budget: u64,
     progress: Progress<'_>,
-) -> Option<(Tried, Outcome)> {
-    progress("refinement", 0, 1);
-    let on_this_basis = |some: &[Tried]| -> Vec<Tried> {
-        let tried = some.par_iter();
-        let tried = tried.map(|candidate| search.tried(candidate.shares.clone()));
-        tried.collect()
+) -> Option<Tried> {
+    let mut by_itself: Vec<Tried> = candidates
+        .par_iter()
+        .map(|candidate| Tried {
+            shares: candidate.shares.clone(),
+            cost: search.cost(&candidate.shares),
+        })
+        .collect();
+    by_itself.sort_by(|x, y| x.cost.total_cmp(&y.cost));
+    let start = search.most_robust(&by_itself, 1, 0.0).pop()?;
+    let done = AtomicUsize::new(0);
+    let see = || {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress("refinement", done.min(budget as usize), budget as usize);
     };
-    let mut settled = on_this_basis(candidates);
-    let best = cheapest(&settled)?;
-    let better = cells.partition_point(|cell| cell.cost < best.cost);
-    settled.extend(on_this_basis(&cells[..better.min(MOST_CELLS)]));
-    let start = cheapest(&settled)?;
-    let best = search.refine(&start, FINE_STEPS, budget);
-    let outcome = search.outcome(&best.shares);
-    progress("refinement", 1, 1);
-    Some((best, outcome?))
+    Some(search.refine(&start, FINE_STEPS, budget, &see))
 }
 
 /// The scene with what was found and a note of where it comes from.
-fn placed(scene: &Scene, freed: &[Freed], best: &Tried) -> Result<Scene, SceneError> {
+fn placed(scene: &Scene, freed: &[Freed], shares: &[f64]) -> Result<Scene, SceneError> {
     let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
     let note = format!("{}: placed by optimization", names.join(", "));
-    scene_at(scene.file(), freed, &best.shares)?.edited(|file| file.notes.push(note))
+    scene_at(scene.file(), freed, shares)?.edited(|file| file.notes.push(note))
 }

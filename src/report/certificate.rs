@@ -173,7 +173,11 @@ impl From<&Mismatch> for MismatchEntry {
 }
 
 /// The sentence that every face shows.
-fn statement(certificate: &Certificate, is_undamped: bool, proven_share: Option<f64>) -> String {
+pub(super) fn statement(
+    certificate: &Certificate,
+    is_undamped: bool,
+    proven_share: Option<f64>,
+) -> String {
     let wrong = contradictions(certificate, is_undamped);
     if !wrong.is_empty() {
         return wrong.join("; ");

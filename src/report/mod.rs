@@ -47,7 +47,8 @@ pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
-    GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+    FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,
+    PlaceReport, PlacedEntry,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};

@@ -1,10 +1,13 @@
-//! `place.json`: the best place for the guides, what saws close to it are worth, and a map.
+//! `place.json`: the place for the guides that is best at the worst of its tolerances, and a map.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
-use crate::place::{Demands, Goal, Map, Neighbours, Outcome, PlacedParameter, Placement};
+use super::certificate::statement;
+use crate::place::{
+    Demands, FragileOptimum, Goal, Map, Neighbour, Neighbours, Outcome, PlacedParameter, Placement,
+};
 use crate::scene::{Scene, SceneFile, rpm, unusual};
 
 /// `place.json`.
@@ -19,9 +22,9 @@ pub struct PlaceReport {
     pub goal: GoalEntry,
     /// Lower limit of the first critical speed, if one was asked for.
     pub min_critical_rpm: Option<f64>,
-    /// Whether the best saw keeps it.
+    /// Whether the best saw keeps it, even at the worst of its tolerances.
     pub kept: bool,
-    /// Whether the best saw is better than the scene as it was. Where none between the bounds
+    /// Whether the best saw is better than the scene as it was, both at the worst of their tolerances. Where none between the bounds
     /// is, `scene`, `best` and the numbers are those of the scene as it was, unless that one lies
     /// outside the bounds.
     pub improved: bool,
@@ -37,22 +40,31 @@ pub struct PlaceReport {
     pub without_effect: Vec<String>,
     /// The scene as it was.
     pub before: OutcomeEntry,
-    /// The best saw.
+    /// The worst of the saws off it by the tolerances, itself included.
+    pub worst_before: NeighbourEntry,
+    /// The best saw: that of the best goal at the worst of its tolerances.
     pub best: OutcomeEntry,
     /// Bands of the best saw.
     pub bands: Vec<InstabilityEntry>,
-    /// Whether a small change of a number loses much of the goal.
+    /// What these bands were held against.
+    pub certificate: PlaceCertificateEntry,
+    /// Whether the best saw loses more than a twentieth of the goal within its tolerances.
     pub fragile: bool,
-    /// The worst of the saws a little off the best one.
+    /// The worst of the saws off the best one by the tolerances, itself included: what the search makes best.
     pub worst_neighbour: Option<NeighbourEntry>,
     /// Its goal divided by that of the best saw.
     pub worst_neighbour_share: f64,
+    /// The saw of the best goal by itself, where that is better than the best saw and worse within its tolerances; null
+    /// where there is none.
+    pub fragile_optimum: Option<FragileOptimumEntry>,
     /// Bands that nearly reach the threshold and begin before the flutter speed.
     pub almost: Vec<InstabilityEntry>,
     /// The goal over two numbers, on the coarse basis of the search.
     pub map: Option<MapEntry>,
     /// Saws analysed.
     pub saws: usize,
+    /// Those among them that could not be computed: they count as the worst.
+    pub failed_saws: usize,
     /// Largest number of nodal diameters of the best saw's basis.
     pub max_diameters: usize,
     /// Radial functions of each.
@@ -87,9 +99,9 @@ pub struct PlacedEntry {
     pub bound_to: f64,
     /// Whether it rests on one of them.
     pub at_bound: bool,
-    /// How far it is moved for the next two.
+    /// Its tolerance of production: it is off by so much for the next two.
     pub offset: f64,
-    /// The goal with so much less of it; none past a bound.
+    /// The goal with so much less of it; none where there is no such saw or it could not be computed.
     pub less_rpm: Option<f64>,
     /// The goal with so much more of it.
     pub more_rpm: Option<f64>,
@@ -112,13 +124,38 @@ pub struct OutcomeEntry {
     pub kept: bool,
 }
 
-/// A saw a little off the best one.
+/// What the bands of the best saw were held against.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceCertificateEntry {
+    /// What was found, in a sentence.
+    pub statement: String,
+    /// Whether every check agrees.
+    pub is_clean: bool,
+    /// Number of speeds at which the Krein index was compared with the modes, or of a damped saw the number of growing
+    /// modes with that of the bands.
+    pub speeds_checked: usize,
+    /// Number of counts of eigenvalues on the whole basis that the modes were compared with.
+    pub full_basis_counts: usize,
+}
+
+/// A saw beside a jump of the goal.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FragileOptimumEntry {
+    /// Values of the numbers, in their order, and the goal.
+    pub saw: NeighbourEntry,
+    /// The worst of the saws off it by the tolerances.
+    pub worst: NeighbourEntry,
+}
+
+/// A saw off another one by the tolerances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NeighbourEntry {
     /// Values of the numbers, in their order.
     pub values: Vec<f64>,
-    /// Its goal; none where there is no such saw.
+    /// Its goal; none where it could not be computed.
     pub outcome: Option<OutcomeEntry>,
 }
 
@@ -149,7 +186,7 @@ impl PlaceReport {
             scene: found.scene.file().clone(),
             goal: GoalEntry::from(demands.goal),
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
-            kept: found.best.is_kept(),
+            kept: neighbours.keep_limit(),
             improved: found.improved,
             from_rpm: rpm(found.range.0),
             to_rpm: rpm(found.range.1),
@@ -161,6 +198,7 @@ impl PlaceReport {
                 .map(|freed| freed.parameter.path().to_owned())
                 .collect(),
             before: OutcomeEntry::from(&found.before),
+            worst_before: NeighbourEntry::from(&found.worst_before),
             best: OutcomeEntry::from(&found.best),
             bands: found
                 .best
@@ -168,22 +206,52 @@ impl PlaceReport {
                 .iter()
                 .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
                 .collect(),
+            certificate: PlaceCertificateEntry::new(found),
             fragile: neighbours.are_fragile(),
-            worst_neighbour: neighbours.worst.as_ref().map(|worst| NeighbourEntry {
-                values: worst.values.clone(),
-                outcome: worst.outcome.as_ref().map(OutcomeEntry::from),
-            }),
+            worst_neighbour: Some(NeighbourEntry::from(&neighbours.worst)),
             worst_neighbour_share: neighbours.worst_share,
+            fragile_optimum: found.fragile_optimum.as_ref().map(Into::into),
             almost: neighbours
                 .almost
                 .iter()
                 .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
                 .collect(),
             map: found.map.as_ref().map(MapEntry::from),
-            saws: found.evaluations,
+            saws: found.tally.saws,
+            failed_saws: found.tally.failed,
             max_diameters: found.resolution.max_diameters,
             radial_functions: found.resolution.radial_functions,
             warnings: warnings(&found.scene, demands, found),
+        }
+    }
+}
+
+impl PlaceCertificateEntry {
+    fn new(found: &Placement) -> Self {
+        let certificate = &found.best.certificate;
+        PlaceCertificateEntry {
+            statement: statement(certificate, found.is_undamped, None),
+            is_clean: certificate.is_clean(),
+            speeds_checked: certificate.speeds_checked,
+            full_basis_counts: certificate.full_basis_counts,
+        }
+    }
+}
+
+impl From<&Neighbour> for NeighbourEntry {
+    fn from(neighbour: &Neighbour) -> Self {
+        NeighbourEntry {
+            values: neighbour.values.clone(),
+            outcome: neighbour.outcome.as_ref().map(OutcomeEntry::from),
+        }
+    }
+}
+
+impl From<&FragileOptimum> for FragileOptimumEntry {
+    fn from(found: &FragileOptimum) -> Self {
+        FragileOptimumEntry {
+            saw: NeighbourEntry::from(&found.saw),
+            worst: NeighbourEntry::from(&found.worst),
         }
     }
 }
@@ -276,8 +344,16 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
             rpm(found.range.1)
         ));
     }
-    if !found.best.is_kept() {
-        warnings.push("no saw between the bounds keeps the limit on the critical speed; this one comes nearest".into());
+    if !found.neighbours.keep_limit() {
+        warnings.push(limit_missed(found));
+    }
+    if found.tally.failed > 0 {
+        warnings.push(format!(
+            "{} of the {} saws tried could not be computed and count as the worst; one of them says: {}",
+            found.tally.failed,
+            found.tally.saws,
+            found.tally.why.as_deref().unwrap_or_default()
+        ));
     }
     if scene.cut().is_some() {
         warnings.push(
@@ -287,14 +363,23 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     warnings
 }
 
+/// Of all saws that were held against each other this one misses it by least.
+fn limit_missed(found: &Placement) -> String {
+    let worst = found.neighbours.worst.outcome.as_ref();
+    let short = worst.map_or(0.0, |worst| rpm(worst.short_rad_per_s));
+    format!(
+        "no saw tried keeps the limit on the critical speed at the worst of its tolerances; this one comes nearest and misses it by {short:.0} rpm there"
+    )
+}
+
 fn not_improved(found: &Placement) -> &'static str {
     let within = |p: &PlacedParameter| (p.freed.from..=p.freed.to).contains(&p.start);
     match found.parameters.iter().all(within) {
         true => {
-            "no saw better than the scene's own was found between the bounds; the scene stays as it was"
+            "no saw between the bounds is better than the scene's own at the worst of their tolerances; the scene stays as it was"
         }
         false => {
-            "the scene's own saw, which lies outside the bounds, is as good as the best one found between them or better; widen the bounds, or keep it"
+            "the scene's own saw, which lies outside the bounds, is as good at the worst of its tolerances as the best one found between them or better; widen the bounds, or keep it"
         }
     }
 }

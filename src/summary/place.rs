@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::wrapped;
-use crate::report::{GoalEntry, OutcomeEntry, PlaceReport, PlacedEntry};
+use crate::report::{
+    FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+};
 
 impl PlaceReport {
     /// The report in words, 80 columns wide, the verdict first.
@@ -21,24 +23,46 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         GoalEntry::FlutterSpeed => "flutter speed",
         GoalEntry::StableWindow => "stable window",
     };
-    writeln!(text, "\n{:<36} {:>12} {:>12}", "", "before", "best")?;
+    writeln!(text, "\n{:<30} {:>10} {:>10}", "", "before", "best")?;
     let number = |rpm: Option<f64>| rpm.map_or("none".to_owned(), |rpm| format!("{rpm:.0}"));
-    let mut line = |name: &str, of: fn(&OutcomeEntry) -> Option<f64>| {
-        let (before, best) = (number(of(&report.before)), number(of(&report.best)));
-        writeln!(text, "{name:<36} {before:>12} {best:>12}")
+    let mut line = |name: &str, before: Option<f64>, best: Option<f64>| {
+        let (before, best) = (number(before), number(best));
+        writeln!(text, "{name:<30} {before:>10} {best:>10}")
     };
-    line("flutter speed [rpm]", |o| o.flutter_rpm)?;
-    line("lowest critical speed [rpm]", |o| o.critical_rpm)?;
+    let mut both = |name: &str, of: fn(&OutcomeEntry) -> Option<f64>| {
+        line(name, of(&report.before), of(&report.best))
+    };
+    both("flutter speed [rpm]", |o| o.flutter_rpm)?;
+    both("lowest critical speed [rpm]", |o| o.critical_rpm)?;
     if report.goal == GoalEntry::StableWindow {
-        line("stable from [rpm]", |o| o.window_rpm.map(|w| w[0]))?;
-        line("stable to [rpm]", |o| o.window_rpm.map(|w| w[1]))?;
+        both("stable from [rpm]", |o| o.window_rpm.map(|w| w[0]))?;
+        both("stable to [rpm]", |o| o.window_rpm.map(|w| w[1]))?;
     }
+    let worst = |saw: Option<&NeighbourEntry>| {
+        let outcome = saw?.outcome?;
+        match report.goal {
+            GoalEntry::FlutterSpeed => outcome.flutter_rpm,
+            GoalEntry::StableWindow => Some(outcome.goal_rpm),
+        }
+    };
+    line(
+        &format!("worst {goal} [rpm]"),
+        worst(Some(&report.worst_before)),
+        worst(report.worst_neighbour.as_ref()),
+    )?;
     for p in &report.parameters {
-        let bound = if p.at_bound { "  at its bound" } else { "" };
-        let (before, best) = (short(p.start), short(p.value));
-        writeln!(text, "{:<36} {before:>12} {best:>12}{bound}", p.path)?;
+        let [before, best, from, to] = [p.start, p.value, p.bound_from, p.bound_to].map(short);
+        let bound = if p.at_bound { ", at bound" } else { "" };
+        let path = &p.path;
+        writeln!(
+            text,
+            "{path:<30} {before:>10} {best:>10}  {from} to {to}{bound}"
+        )?;
     }
     neighbours(text, report, goal)?;
+    if let Some(fragile) = &report.fragile_optimum {
+        writeln!(text, "{}", wrapped(&told_beside(report, fragile, goal)))?;
+    }
     for band in &report.almost {
         let line = format!(
             "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
@@ -46,6 +70,9 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         );
         writeln!(text, "{}", wrapped(&line))?;
     }
+    let certificate = &report.certificate.statement;
+    let certificate = format!("Certificate of the best saw: {certificate}");
+    writeln!(text, "{}", wrapped(&certificate))?;
     for warning in &report.warnings {
         writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
     }
@@ -57,12 +84,15 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
 }
 
 fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::Result {
-    writeln!(text, "\nA little off, the {goal} becomes [rpm]")?;
+    writeln!(
+        text,
+        "\nWith a number of the best saw off by its tolerance the {goal} is [rpm]"
+    )?;
     for p in &report.parameters {
         let PlacedEntry {
             less_rpm, more_rpm, ..
         } = p;
-        let side = |rpm: &Option<f64>| rpm.map_or("past bound".into(), |r| format!("{r:.0}"));
+        let side = |rpm: &Option<f64>| rpm.map_or("no saw".into(), |r| format!("{r:.0}"));
         writeln!(
             text,
             "  {:<30} -{:<7} {:>10}   +{:<7} {:>10}",
@@ -75,9 +105,24 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
     }
     let verdict = if report.fragile { "FRAGILE" } else { "robust" };
     let share = 100.0 * report.worst_neighbour_share;
-    writeln!(
-        text,
-        "The worst of these saws and their corners has {share:.0} % of it: {verdict}"
+    let line = format!(
+        "At the worst of its tolerances, all numbers off at a time included, the best saw has {share:.0} % of its {goal}: {verdict}"
+    );
+    writeln!(text, "{}", wrapped(&line))
+}
+
+/// The saw that is better by itself than the answer.
+fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) -> String {
+    let rpm = |saw: &NeighbourEntry| {
+        let goal = saw.outcome.map(|outcome| outcome.goal_rpm);
+        goal.map_or("unknown".to_owned(), |rpm| format!("{rpm:.0} rpm"))
+    };
+    let numbers = report.parameters.iter().zip(&fragile.saw.values);
+    let numbers = numbers.map(|(p, value)| format!("{} = {}", p.path, short(*value)));
+    let place = numbers.collect::<Vec<_>>().join(", ");
+    let (itself, worst) = (rpm(&fragile.saw), rpm(&fragile.worst));
+    format!(
+        "Not the answer: {place} has a {goal} of {itself}, which falls to {worst} within the tolerances"
     )
 }
 

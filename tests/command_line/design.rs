@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use sawflutter::report::{CheckReport, FitReport, PlaceReport};
+use sawflutter::report::{CheckReport, FitReport, NeighbourEntry, PlaceReport};
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
@@ -183,7 +183,11 @@ fn a_place_is_found_and_written() {
     is_readable(text(&output.stdout));
     let json = read(&folder, "place.json");
     let report: PlaceReport = serde_json::from_str(&json).unwrap();
-    assert!(report.kept && report.best.goal_rpm >= report.before.goal_rpm);
+    let goal = |saw: &NeighbourEntry| saw.outcome.unwrap().goal_rpm;
+    let worst = report.worst_neighbour.as_ref().unwrap();
+    assert!(report.kept && goal(worst) >= goal(&report.worst_before));
+    let summary = text(&output.stdout).replace("\n  ", " ");
+    assert!(summary.contains(&report.certificate.statement), "{summary}");
     assert_eq!(report.best.flutter_rpm, Some(report.best.goal_rpm));
     let placed = Scene::from_json(&read(&folder, "placed-scene.json")).unwrap();
     assert_eq!(placed.file().guides[0].radius_m, report.parameters[0].value);

@@ -9,7 +9,7 @@ use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::PlaceReport;
 use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, Instability, InstabilityKind, Onsets, undamped_bands};
+use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
 
 use super::numbers::{freed, with};
 
@@ -59,6 +59,33 @@ fn flutter_rpm(scene: &Scene) -> f64 {
         .iter()
         .find(strong)
         .map_or(TOP_RPM, |b| rpm(b.from_rad_per_s))
+}
+
+/// The saw and those with a radius 2 mm and an angle 1° off, each alone and all together: the tolerances that `place` states.
+fn within_tolerances(scene: &Scene, paths: &[&str]) -> Vec<Scene> {
+    let step = |path: &str| if path == ANGLE { 1.0 } else { 0.002 };
+    let own = |path: &str| Parameter::new(path).get(scene.file()).unwrap();
+    let mut offs: Vec<Vec<f64>> = vec![Vec::new()];
+    for _ in paths {
+        let longer = |off: &Vec<f64>| [-1.0, 0.0, 1.0].map(|sign| [&off[..], &[sign]].concat());
+        offs = offs.iter().flat_map(longer).collect();
+    }
+    // Corners, and steps along one axis.
+    let moved = |off: &Vec<f64>| off.iter().filter(|sign| **sign != 0.0).count();
+    offs.retain(|off| [0, 1, paths.len()].contains(&moved(off)));
+    let at = |off: Vec<f64>| {
+        let pairs = paths.iter().zip(&off);
+        let numbers = pairs.map(|(path, sign)| (*path, own(path) + sign * step(path)));
+        with(scene, &numbers.collect::<Vec<_>>())
+    };
+    offs.into_iter().map(at).collect()
+}
+
+/// The least flutter speed of these.
+fn worst_flutter_rpm(scene: &Scene, paths: &[&str]) -> f64 {
+    let saws = within_tolerances(scene, paths);
+    let speeds = saws.par_iter().map(flutter_rpm);
+    speeds.reduce(|| f64::INFINITY, f64::min)
 }
 
 /// What `place` relies on where it holds an angle: nothing but the guides stands in space.
@@ -129,9 +156,9 @@ fn the_best_place_turns_with_the_saw() {
     assert!((turn - 40.0).abs() < 1e-6, "{turn}");
 }
 
-/// A grid of 12 × 12 saws finds nothing better than the best by more than half a per cent.
+/// A grid of 7 × 7 saws, each with those off it by the tolerances, finds nothing whose worst is better by more than half a per cent.
 #[test]
-fn brute_force_finds_nothing_better() {
+fn brute_force_finds_nothing_better_at_the_worst_of_its_tolerances() {
     let saw = swept("two-pads");
     let (radii, angles) = ((0.22, 0.28), (-100.0, -20.0));
     let free = freed(
@@ -140,58 +167,92 @@ fn brute_force_finds_nothing_better() {
     );
     let options = Options { map: 7, ..quick() };
     let found = place(&saw, &free, &Demands::default(), &options);
-    let best = rpm(found.best.value_rad_per_s);
-    assert_close(
-        "its own saw",
-        flutter_rpm(&found.scene.swept(saw.sweep().unwrap()).unwrap()),
-        best,
-        1e-6,
+    let (best, worst) = (
+        rpm(found.best.value_rad_per_s),
+        rpm(found.worst_rad_per_s()),
     );
-    let along = |(from, to): (f64, f64), k: usize| from + (to - from) * k as f64 / 11.0;
-    let grid: Vec<f64> = (0..144)
-        .into_par_iter()
-        .map(|i| {
-            let place = [
-                (RADIUS, along(radii, i % 12)),
-                (ANGLE, along(angles, i / 12)),
-            ];
-            flutter_rpm(&with(&saw, &place))
-        })
-        .collect();
-    let brute = grid.iter().copied().fold(0.0, f64::max);
+    let answered = found.scene.swept(saw.sweep().unwrap()).unwrap();
+    assert_close("its own saw", flutter_rpm(&answered), best, 1e-6);
+    let own = worst_flutter_rpm(&answered, &[RADIUS, ANGLE]);
+    assert_close("its worst neighbour", own, worst, 1e-6);
+    let along = |(from, to): (f64, f64), k: usize| from + (to - from) * k as f64 / 6.0;
+    let grid = (0..49).map(|i| {
+        let place = [(RADIUS, along(radii, i % 7)), (ANGLE, along(angles, i / 7))];
+        worst_flutter_rpm(&with(&saw, &place), &[RADIUS, ANGLE])
+    });
+    let brute = grid.fold(0.0, f64::max);
     println!(
-        "best {best} of {} saws, brute force {brute}, before {}",
-        found.evaluations,
-        rpm(found.before.value_rad_per_s)
+        "worst {worst} of {best}, of {} saws, brute force {brute}, before {}",
+        found.evaluations(),
+        rpm(found.worst_before_rad_per_s())
     );
-    assert!(brute <= 1.005 * best, "{brute} is better than {best}");
-    assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
-    let map = PlaceReport::new(&Demands::default(), &found).map.unwrap();
+    assert!(brute <= 1.005 * worst, "{brute} is better than {worst}");
+    assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
+    let report = PlaceReport::new(&Demands::default(), &found);
+    let summary = report.summary().replace("\n  ", " ");
+    assert!(summary.contains("0.2200 to 0.2800"), "bounds: {summary}");
+    let certificate = &report.certificate;
+    assert!(certificate.is_clean && certificate.speeds_checked > 0);
+    assert!(summary.contains(&certificate.statement), "{summary}");
+    let map = report.map.unwrap();
     assert_eq!((map.x.len(), map.y.len(), map.goal_rpm.len()), (7, 7, 7));
 }
 
-/// A saw that a map shows, at 0.25 m and −117°, flutters at 2620 rpm by an analysis of its own. What the coarse model prefers, a saw
-/// next to a jump of the flutter speed, has 2513 rpm on the basis asked for.
+/// No saw keeps the limit: the answer misses it by less than any of a grid of saws, all at the worst of their tolerances.
 #[test]
-fn the_best_saws_of_the_map_are_held_against_the_others_on_the_finer_basis() {
-    let saw = scene("two-pads");
-    let free = freed(&saw, &[(RADIUS, 0.2, 0.3), (ANGLE, -120.0, 0.0)]);
-    let options = Options {
-        map: 21,
-        ..Options::default()
+fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
+    let saw = swept("two-pads");
+    let free = freed(&saw, &[(ANGLE, -115.0, -30.0)]);
+    let lowest = |saw: &Scene| {
+        let critical = SpectralModel::critical_speeds(&Plate::new(saw, SMALL)).unwrap();
+        rpm(critical[0].speed_rad_per_s)
     };
-    let found = place(&saw, &free, &Demands::default(), &options);
-    let best = rpm(found.best.value_rad_per_s);
-    let on_map = Analysis::new(&with(&saw, &[(RADIUS, 0.25), (ANGLE, -117.0)])).unwrap();
-    let on_map = on_map.flutter_speed_rpm().unwrap();
-    println!("{best} found, {on_map} on the map");
-    // The cell is as wide as the coarse model is off.
-    assert!(best > 0.995 * on_map, "{best} {on_map}");
+    let worst = |saw: &Scene| {
+        let saws = within_tolerances(saw, &[ANGLE]);
+        saws.iter().map(lowest).fold(f64::INFINITY, f64::min)
+    };
+    let demands = Demands::new(Goal::FlutterSpeed, Some(5000.0)).unwrap();
+    let found = place(&saw, &free, &demands, &quick());
+    let answered = worst(&found.scene);
+    let grid = (0..=17).map(|k| worst(&with(&saw, &[(ANGLE, -115.0 + 5.0 * f64::from(k))])));
+    let nearest = grid.fold(0.0, f64::max);
+    assert!(answered >= 0.999 * nearest, "{answered} {nearest}");
+    let report = PlaceReport::new(&demands, &found);
+    assert!(!report.kept);
+    let missed = format!(
+        "comes nearest and misses it by {:.0} rpm",
+        5000.0 - answered
+    );
+    assert!(
+        report.warnings.iter().any(|w| w.contains(&missed)),
+        "{missed}: {:?}",
+        report.warnings
+    );
+}
+
+/// A rim that is hotter than the blade bears buckles it: such saws are tried here, and counted.
+#[test]
+fn saws_that_cannot_be_computed_are_counted() {
+    let saw = scene("gallery/heated-rim").swept(SpeedRange {
+        from_rad_per_s: 0.0,
+        to_rad_per_s: rad_per_s(4000.0),
+    });
+    let saw = saw.unwrap();
+    let free = freed(&saw, &[("membrane.temperature.rim_rise_k", 0.0, 66.0)]);
+    let found = place(&saw, &free, &Demands::default(), &quick());
+    let report = PlaceReport::new(&Demands::default(), &found);
+    assert!(report.failed_saws > 0 && report.failed_saws < report.saws);
+    let said = format!("{} of the {} saws tried", report.failed_saws, report.saws);
+    assert!(
+        report.warnings.iter().any(|w| w.starts_with(&said)),
+        "{:?}",
+        report.warnings
+    );
 }
 
 /// The farther the two pads stand apart, the higher is the lowest critical speed; flutter comes
 /// latest in between. A limit above the critical speed of the best saw makes it give way and is
-/// kept; one that no saw keeps is said to be broken.
+/// kept.
 #[test]
 fn a_limit_on_the_critical_speed_is_active_and_kept() {
     let saw = swept("two-pads");
@@ -214,10 +275,8 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
         rpm(kept)
     );
     assert!(limited.best.is_kept() && kept >= limit);
+    assert!(PlaceReport::new(&at_least(limit), &limited).kept);
     assert!(limited.best.value_rad_per_s < unlimited.best.value_rad_per_s);
-    let impossible = place(&saw, &free, &at_least(3.0 * loose), &quick());
-    assert!(!impossible.best.is_kept());
-    assert!(impossible.best.critical_rad_per_s.unwrap() >= kept);
 }
 
 #[test]
@@ -233,7 +292,7 @@ fn the_window_is_free_of_bands_and_wider_than_before() {
     let found = place(&saw, &free, &demands, &quick());
     let (from, to) = found.best.window.unwrap();
     assert!(from < around_rad_per_s && around_rad_per_s < to);
-    assert!(found.best.value_rad_per_s >= found.before.value_rad_per_s);
+    assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
     let threshold = saw.flutter_threshold_per_s();
     for band in &found.best.bands {
         let counts =
@@ -290,18 +349,29 @@ fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
     place(saw, &freed(saw, &[(RADIUS, 0.15, 0.3)]), demands, &options)
 }
 
-/// On the coarse basis the best radius lies past a cliff of the finer one, on which that saw
-/// flutters from 1907 rpm on and the start from 2256. Both are analysed as `analyze` does.
+/// On the coarse basis the best radius lies past a jump of the finer one, on which that saw
+/// flutters from 1907 rpm on and the start from 2256. Both are analysed as `analyze` does, and so are the saws 2 mm off them.
 #[test]
 fn the_answer_is_never_below_the_start() {
     let saw = draft("paper");
     let found = one_radius(&saw, &Demands::default());
     let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed_rad_per_s.unwrap();
-    let (before, after) = (flutter(&saw), flutter(&found.scene));
+    let worst = |saw: &Scene| {
+        let saws = within_tolerances(saw, &[RADIUS]);
+        saws.iter().map(flutter).fold(f64::INFINITY, f64::min)
+    };
+    let (before, after) = (worst(&saw), worst(&found.scene));
     println!("{} -> {} rpm", rpm(before), rpm(after));
     assert!(after >= before);
-    assert_close("before", found.before.value_rad_per_s, before, 1e-3);
-    assert_close("after", found.best.value_rad_per_s, after, 1e-3);
+    assert_close("before", found.before.value_rad_per_s, flutter(&saw), 1e-3);
+    assert_close("worst before", found.worst_before_rad_per_s(), before, 1e-3);
+    assert_close(
+        "after",
+        found.best.value_rad_per_s,
+        flutter(&found.scene),
+        1e-3,
+    );
+    assert_close("worst after", found.worst_rad_per_s(), after, 1e-3);
     assert_eq!(found.improved, after > before);
 }
 
@@ -330,9 +400,14 @@ fn the_window_is_never_narrower_than_before() {
         let to = above.map(|(from, _)| *from);
         to.fold(f64::INFINITY, f64::min) - from
     };
-    let (before, after) = (window(&saw), window(&found.scene));
+    let worst = |saw: &Scene| {
+        let saws = within_tolerances(saw, &[RADIUS]);
+        saws.iter().map(window).fold(f64::INFINITY, f64::min)
+    };
+    let (before, after) = (worst(&saw), worst(&found.scene));
     assert!(after >= before, "{} {}", rpm(before), rpm(after));
-    assert_close("window", found.best.value_rad_per_s, after, 1e-2);
+    let own = window(&found.scene);
+    assert_close("window", found.best.value_rad_per_s, own, 1e-2);
 }
 
 /// Below 1600 rpm no saw flutters, so that none is better than another: the start stays, to the
@@ -364,7 +439,7 @@ fn a_start_outside_the_bounds_is_reported_as_it_is() {
     );
     let value = found.parameters[0].value;
     assert!((own + 0.02..=own + 0.04).contains(&value), "{value}");
-    let gained = found.best.value_rad_per_s > found.before.value_rad_per_s;
+    let gained = found.worst_rad_per_s() > found.worst_before_rad_per_s();
     assert_eq!(found.improved, gained);
 }
 

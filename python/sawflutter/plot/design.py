@@ -114,10 +114,20 @@ def place(r: PlaceReport, facts: str) -> Chart:
     else:
         y = np.array([values.get(found.y_path, np.nan)])
         best = Points(x, y, colours()["alarm"], "best saw", hover=said)
-        panel = Panel(
-            named(found.x_path), named(found.y_path), [Heat(found.x, found.y, kept, goal), best]
-        )
+        items: list[Item] = [Heat(found.x, found.y, kept, goal), *_fragile(r), best]
+        panel = Panel(named(found.x_path), named(found.y_path), items)
     return Chart(r.scene["name"], facts, (panel,))
+
+
+def _fragile(r: PlaceReport) -> list[Item]:
+    """The saw that is better than the best one by itself, on a map of two numbers."""
+    found, fragile = r.map, r.fragile_optimum
+    if found is None or fragile is None or fragile.saw.outcome is None:
+        return []
+    values = dict(zip((p.path for p in r.parameters), fragile.saw.values, strict=True))
+    x, y = (np.array([values.get(path or "", np.nan)]) for path in (found.x_path, found.y_path))
+    said = [f"by itself {fragile.saw.outcome.goal_rpm:.0f} rpm, fragile"]
+    return [Points(x, y, colours()["quiet"], "better by itself, fragile", hover=said)]
 
 
 def tradeoff(settings: Sequence[Setting], name: str) -> Chart:
