@@ -15,7 +15,8 @@ mod refine;
 use faer::c64;
 use rayon::prelude::*;
 
-use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError};
+use crate::scene::rpm;
+use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError, Work};
 
 pub(crate) use matching::{Sighted, match_modes};
 pub(crate) use refine::{Closeness, refined};
@@ -32,7 +33,7 @@ pub enum CampbellError {
     Spectrum(#[from] SpectrumError),
     /// The modes of all speeds of a chart would not fit into the memory allowed.
     #[error(
-        "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; end the sweep earlier or ask for a coarser accuracy"
+        "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; {}ask for a coarser accuracy", end_in_words(*.largest_end_rpm)
     )]
     TooLarge {
         /// Memory needed.
@@ -43,7 +44,14 @@ pub enum CampbellError {
         modes: usize,
         /// Speeds.
         speeds: usize,
+        /// Largest end of a sweep whose chart would fit, if any does.
+        largest_end_rpm: Option<f64>,
     },
+}
+
+fn end_in_words(largest_end_rpm: Option<f64>) -> String {
+    let in_words = |end: f64| format!("end the sweep at {end:.0} rpm or earlier, or ");
+    largest_end_rpm.map_or_else(String::new, in_words)
 }
 
 /// All modes of one speed.
@@ -83,23 +91,63 @@ pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
 /// Memory that the modes of a chart may take. A saw needs a tenth of it at most.
 const MEMORY_BUDGET_MB: usize = 1024;
 
-/// What the modes of a chart will take, judged by the number of modes at the last speed, where
-/// there are most.
-fn check_memory(model: &SpectralModel, modes: usize, speeds: usize) -> Result<(), CampbellError> {
-    // A shape and, at most as long, its projected coordinates; a share of each harmonic.
+/// Memory that a mode of a chart takes: a shape and, at most as long, its projected coordinates; a share of each
+/// harmonic.
+fn bytes_of_mode(model: &SpectralModel) -> usize {
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
-    let one = size_of::<DescribedMode>() + shape + shares;
-    let needed_mb = (speeds * modes * one) >> 20;
-    if needed_mb > MEMORY_BUDGET_MB {
-        return Err(CampbellError::TooLarge {
-            needed_mb,
-            allowed_mb: MEMORY_BUDGET_MB,
-            modes,
-            speeds,
-        });
+    size_of::<DescribedMode>() + shape + shares
+}
+
+/// Speeds of which so many modes each fit into the memory allowed.
+fn most_speeds(model: &SpectralModel, modes: usize) -> usize {
+    (MEMORY_BUDGET_MB << 20) / (modes.max(1) * bytes_of_mode(model))
+}
+
+/// As many speeds more as a chart has room for, beside those that it has.
+pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> usize {
+    let modes = samples.iter().map(|sample| sample.modes.len()).max();
+    most_speeds(model, modes.unwrap_or(0)).saturating_sub(samples.len())
+}
+
+/// What the modes of a chart will take, judged by the number of modes at the last speed, where
+/// there are most.
+fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(), CampbellError> {
+    let most = most_speeds(model, modes);
+    if speeds.len() <= most {
+        return Ok(());
     }
-    Ok(())
+    Err(CampbellError::TooLarge {
+        needed_mb: (speeds.len() * modes * bytes_of_mode(model)) >> 20,
+        allowed_mb: MEMORY_BUDGET_MB,
+        modes,
+        speeds: speeds.len(),
+        largest_end_rpm: largest_end(model, speeds, most).map(rpm),
+    })
+}
+
+/// Whether the modes of some speeds fit into the memory allowed, before anything else is searched at them.
+///
+/// # Errors
+/// [`CampbellError`] of the last speed, or [`CampbellError::TooLarge`].
+pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), CampbellError> {
+    let Some(last) = speeds.last() else {
+        return Ok(());
+    };
+    check_memory(model, model.drawn_modes(*last)?.len(), speeds)
+}
+
+/// Speeds of a chart at each of its critical speeds.
+const AT_CRITICAL: usize = 3;
+
+/// Where a sweep may end of which so many speeds are charted: an earlier end leaves critical speeds out.
+fn largest_end(model: &SpectralModel, speeds: &[f64], most: usize) -> Option<f64> {
+    let last = *speeds.last()?;
+    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
+    let critical: Vec<f64> = critical.filter(|speed| *speed < last).collect();
+    let even = speeds.len().checked_sub(AT_CRITICAL * critical.len())?;
+    let room = most.checked_sub(even)? / AT_CRITICAL;
+    critical.get(room).copied()
 }
 
 /// Computes the modes at every speed, in parallel; the order of the result, and
@@ -116,19 +164,21 @@ pub fn sample(
     let Some((last, others)) = speeds.split_last() else {
         return Ok(Vec::new());
     };
+    let step = Work::of("speeds of the chart", speeds.len());
     let done = std::sync::atomic::AtomicUsize::new(0);
     let sampled = |speed_rad_per_s: &f64| {
         let modes = model.drawn_modes(*speed_rad_per_s)?;
         let modes = model.describe(*speed_rad_per_s, modes);
         let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         progress(so_far, speeds.len());
+        step.advance();
         Ok(SpeedSample {
             speed_rad_per_s: *speed_rad_per_s,
             modes,
         })
     };
     let last = sampled(last)?;
-    check_memory(model, last.modes.len(), speeds.len())?;
+    check_memory(model, last.modes.len(), speeds)?;
     let samples: Vec<Result<SpeedSample, CampbellError>> = others.par_iter().map(sampled).collect();
     samples.into_iter().chain([Ok(last)]).collect()
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::matching::{Match, Sighted, match_modes};
-use super::{CampbellError, SpeedSample, sample};
+use super::{CampbellError, SpeedSample, room_for_more, sample};
 use crate::spectrum::{DescribedMode, ModeKind, SpectralModel};
 
 /// How closely the lines of a chart follow its branches.
@@ -41,7 +41,7 @@ impl Closeness {
 /// of the larger one: a parabola that is known at five of its points is left as it is.
 const GROWTH_CHORD: f64 = 0.13;
 
-/// Adds speeds to samples at ascending speeds until the lines between them are close.
+/// Adds speeds to samples at ascending speeds until the lines between them are close, or there is no room for more.
 ///
 /// # Errors
 /// [`CampbellError`] of a speed that fails.
@@ -61,7 +61,7 @@ pub fn refined(
             .filter(|pair| is_doubtful(model, [&pair[0], &pair[1]], closeness))
             .map(|pair| (pair[0].speed_rad_per_s, pair[1].speed_rad_per_s))
             .collect();
-        if doubtful.is_empty() {
+        if doubtful.is_empty() || doubtful.len() > room_for_more(model, &samples) {
             break;
         }
         let middle: Vec<f64> = doubtful

@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, SpeedRange};
-use crate::stability::{Analysis, AnalysisOptions};
+use crate::stability::Analysis;
 use anyhow::Context;
 use clap::Args;
 
-use super::common::{Finely, NamedFile, Output, progress_bar, read_scene, show};
+use super::common::{Finely, NamedFile, Output, read_scene};
 use super::output::OutputFolder;
 use super::pictures::{drawn, figure_names};
+use super::progress::watched;
 use super::several;
 
 pub const EXAMPLES: &str = "\
@@ -111,13 +112,11 @@ fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Res
 }
 
 fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
-    let bar = progress_bar("speeds");
-    let options = AnalysisOptions {
-        progress: &|done, of| show(&bar, done, of),
-        ..AnalysisOptions::default()
-    };
-    let analysis = Analysis::with_options(scene, options)?;
-    bar.finish_and_clear();
+    watched(|_| watched_report(arguments, scene))?
+}
+
+fn watched_report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
+    let analysis = Analysis::new(scene)?;
     let mut report = analysis.report();
     if let Some(rpm) = arguments.at_rpm {
         let speed = SpeedRange::from(analysis.range_rad_per_s).speed_at("--at-rpm", rpm)?;

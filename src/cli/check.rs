@@ -11,6 +11,7 @@ use clap::Args;
 use super::common::{Input, of_option, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
+use super::progress::watched;
 use crate::summary::wrapped;
 
 pub const EXAMPLES: &str = "\
@@ -68,7 +69,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         .as_deref()
         .map(OutputFolder::open)
         .transpose()?;
-    let check = Check::new(&scene, &limits)?;
+    let check = watched(|_| Check::new(&scene, &limits))??;
     let report = CheckReport::new(&scene, &limits, &check);
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {

@@ -1,13 +1,12 @@
 //! What every command that looks at a scene has in common.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError};
 use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::output::{OutputFolder, Writing};
 use super::paint::Paint;
@@ -201,20 +200,4 @@ impl Output {
         }
         Ok(())
     }
-}
-
-/// A bar on the terminal's error stream, and nothing where that is not a terminal.
-pub fn progress_bar(what: &str) -> ProgressBar {
-    if !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style =
-        ProgressStyle::with_template(&format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}"));
-    ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-/// Moves a bar.
-pub fn show(bar: &ProgressBar, done: usize, of: usize) {
-    bar.set_length(of as u64);
-    bar.set_position(done as u64);
 }

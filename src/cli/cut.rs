@@ -4,9 +4,10 @@ use crate::report::CutReport;
 use crate::transient::Cutting;
 use clap::Args;
 
-use super::common::{Common, progress_bar, show};
+use super::common::Common;
 use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
+use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -30,9 +31,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
     let folder = arguments.common.folder()?;
-    let bar = progress_bar("points of the map");
-    let cutting = Cutting::new(&scene, &runs, &|done, of| show(&bar, done, of))?;
-    bar.finish_and_clear();
+    let cutting = watched(|progress| {
+        let map = |done, of| progress.show("points of the map", done, of);
+        Cutting::new(&scene, &runs, &map)
+    })??;
     let report = CutReport::new(&cutting);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;

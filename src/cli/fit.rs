@@ -8,9 +8,10 @@ use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
 use clap::Args;
 
-use super::common::{Common, of_option, progress_bar, read_text, refused, show};
+use super::common::{Common, of_option, read_text, refused};
 use super::free::named_bounds;
 use super::pictures::drawn;
+use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -74,11 +75,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let options = options.checked(&measurement).map_err(of_option)?;
     let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
     let folder = arguments.common.folder()?;
-    let bar = progress_bar("starts");
-    let fit = Fit::new(&scene, &measurement, &freed, &options, &|done, of| {
-        show(&bar, done, of);
-    })?;
-    bar.finish_and_clear();
+    let fit = watched(|progress| {
+        let starts = |done, of| progress.show("starts", done, of);
+        Fit::new(&scene, &measurement, &freed, &options, &starts)
+    })??;
     let report = FitReport::new(&fit);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;

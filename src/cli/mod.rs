@@ -14,6 +14,7 @@ mod paint;
 mod paste;
 mod pictures;
 mod place;
+mod progress;
 mod runup;
 mod scheduler;
 mod schema;

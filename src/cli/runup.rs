@@ -4,9 +4,10 @@ use crate::report::RunUpReport;
 use crate::transient::RunningUp;
 use clap::Args;
 
-use super::common::{Common, progress_bar, show};
+use super::common::Common;
 use super::paste::pasted;
 use super::pictures::drawn;
+use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -27,9 +28,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     pasted(&scene, scene.needed_runup())?;
     let folder = arguments.common.folder()?;
-    let bar = progress_bar("steps");
-    let found = RunningUp::new(&scene, &|done, of| show(&bar, done, of))?;
-    bar.finish_and_clear();
+    let found = watched(|progress| {
+        let steps = |done, of| progress.show("steps", done, of);
+        RunningUp::new(&scene, &steps)
+    })??;
     let report = RunUpReport::new(&found);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;

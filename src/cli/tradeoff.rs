@@ -6,7 +6,8 @@ use crate::figure;
 use crate::stability::{Method, Setting, recommended, tradeoff};
 use clap::Args;
 
-use super::common::{Common, progress_bar, show};
+use super::common::Common;
+use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -23,9 +24,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let folder = arguments.common.folder()?;
-    let bar = progress_bar("settings");
-    let settings = tradeoff(&scene, &|done, of| show(&bar, done, of))?;
-    bar.finish_and_clear();
+    let settings = watched(|progress| {
+        let settings = |done, of| progress.show("settings", done, of);
+        tradeoff(&scene, &settings)
+    })??;
     let json = serde_json::to_string_pretty(&settings)?;
     let png = figure::tradeoff(&scene.file().name, &settings).png()?;
     let files = [

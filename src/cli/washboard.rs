@@ -4,9 +4,10 @@ use crate::report::WashboardReport;
 use crate::washboarding::Washboard;
 use clap::Args;
 
-use super::common::{Common, progress_bar, show};
+use super::common::Common;
 use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
+use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -32,10 +33,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let cut = pasted(&scene, scene.needed_washboarding())?;
     let run = cut.at_rpm(scene.needed_operating_rpm(arguments.rpm)?)?;
     let folder = arguments.common.folder()?;
-    let bar = progress_bar("speeds");
-    let progress = |done, of| show(&bar, done, of);
-    let found = Washboard::new(&scene, &run, &progress)?;
-    bar.finish_and_clear();
+    let found = watched(|progress| {
+        let speeds = |done, of| progress.show("speeds", done, of);
+        Washboard::new(&scene, &run, &speeds)
+    })??;
     let report = WashboardReport::new(&found);
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;

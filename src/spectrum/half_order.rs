@@ -13,6 +13,7 @@ use super::companion::{companion_eigenpairs, time_scale};
 use super::error::SpectrumError;
 use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, unit};
+use super::work::Cancellation;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
@@ -35,6 +36,7 @@ pub fn eigenpairs(
     if !system.is_conservative() || !system.free_rigid.is_empty() {
         return companion_eigenpairs(system, speed_rad_per_s);
     }
+    Cancellation::current().check()?;
     let (matrix, scale) = hamiltonian_matrix(system, speed_rad_per_s);
     let failed = |_: NoConvergence| SpectrumError::NoConvergence {
         order: matrix.nrows(),
@@ -75,7 +77,7 @@ pub struct UpperPairs {
 }
 
 /// Eigenpairs of a Hamiltonian matrix. `None` where squares are next to zero or to one another, at critical
-/// speeds and where waves coalesce: there only the matrix itself tells its eigenvalues.
+/// speeds and where waves coalesce: there only the matrix itself tells its eigenvalues; and once the computation was asked to end.
 ///
 /// # Errors
 /// [`NoConvergence`] where the eigenproblem does not converge.
@@ -83,7 +85,9 @@ pub fn hamiltonian_eigenpairs(
     matrix: MatRef<'_, f64>,
 ) -> Result<Option<UpperPairs>, NoConvergence> {
     let square = matrix * matrix;
-    let (span, compressed) = isotropic(&square);
+    let Some((span, compressed)) = isotropic(&square) else {
+        return Ok(None);
+    };
     let eigen = RealEigen::new(compressed.as_ref())?;
     if !are_apart(&eigen.values, LEAST_APART.get() * square.norm_l2()) {
         return Ok(None);
@@ -133,8 +137,10 @@ fn upper_roots(square: c64) -> impl Iterator<Item = c64> {
     roots.into_iter().flatten()
 }
 
-/// V and H = VᵀWV of a skew-Hamiltonian matrix W.
-fn isotropic(square: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
+/// V and H = VᵀWV of a skew-Hamiltonian matrix W. `None` once the computation was asked to end: of a large
+/// matrix this takes seconds.
+fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
+    let cancellation = Cancellation::current();
     let order = square.nrows();
     let half = order / 2;
     // v₁, Jv₁, v₂, Jv₂, …
@@ -142,6 +148,9 @@ fn isotropic(square: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
     let mut compressed = Mat::<f64>::zeros(half, half);
     let mut next = scattered(order, 0);
     for k in 0..half {
+        if cancellation.is_cancelled() {
+            return None;
+        }
         let known = span.subcols(0, 2 * k);
         let (size, shares) = orthogonalise(known, &mut next);
         match (k.checked_sub(1), size > 0.0) {
@@ -167,7 +176,7 @@ fn isotropic(square: &Mat<f64>) -> (Mat<f64>, Mat<f64>) {
         add(&shares, &mut compressed, last);
     }
     let vectors = Mat::from_fn(order, half, |i, k| span[(i, 2 * k)]);
-    (vectors, compressed)
+    Some((vectors, compressed))
 }
 
 /// Puts the shares in v₁, v₂, … into a column; those in Jv₁, Jv₂, … are rounding.
@@ -281,7 +290,7 @@ mod tests {
             (false, k) if k + half == i => -f64::powi(kinds[k % 3], 2),
             _ => 0.0,
         });
-        let (_, compressed) = isotropic(&(&matrix * &matrix));
+        let (_, compressed) = isotropic(&(&matrix * &matrix)).unwrap();
         let mut squares = RealEigen::new(compressed.as_ref()).unwrap().values;
         squares.sort_by(|x, y| y.re.total_cmp(&x.re));
         let exact = [1.0, 1.0, 1.0, 4.0, 4.0, 4.0, 9.0, 9.0];
@@ -289,5 +298,15 @@ mod tests {
             assert!((found + exact).norm() < 1e-12, "{found} {exact}");
         }
         assert!(hamiltonian_eigenpairs(matrix.as_ref()).unwrap().is_none());
+    }
+
+    /// Within the Krylov vectors of one matrix, not after them.
+    #[test]
+    fn a_cancelled_computation_ends_within_an_eigenproblem() {
+        let matrix = hamiltonian(12);
+        let flag = Cancellation::default();
+        flag.cancel();
+        let found = flag.watched(|| isotropic(&(&matrix * &matrix)));
+        assert!(found.unwrap().is_none());
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::error::SpectrumError;
+use super::progress::{Progress, count_eigenproblem};
 
 /// Work done, so that a silent slow-down fails a test.
 #[derive(Debug, Default)]
@@ -54,7 +55,7 @@ impl Cancellation {
         Ok(self.pool(rayon::current_num_threads())?.install(work))
     }
 
-    /// Threads of which this is the current flag.
+    /// Threads of which this is the current flag; who is told of progress is told of theirs too.
     ///
     /// # Errors
     /// When the system gives no more threads.
@@ -62,10 +63,23 @@ impl Cancellation {
         &self,
         threads: usize,
     ) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-        let stop = self.clone();
+        self.told_pool(&Progress::current(), threads)
+    }
+
+    /// The same with others to be told.
+    pub(super) fn told_pool(
+        &self,
+        progress: &Progress,
+        threads: usize,
+    ) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+        let (stop, progress) = (self.clone(), progress.clone());
+        let enter = move |_| {
+            CURRENT.set(stop.clone());
+            progress.enter();
+        };
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
-            .start_handler(move |_| CURRENT.set(stop.clone()))
+            .start_handler(enter)
             .build()
     }
 
@@ -79,9 +93,12 @@ impl Cancellation {
         self.0.load(Ordering::Relaxed)
     }
 
+    /// Looks whether the next eigenproblem is to be solved, and counts it.
+    ///
     /// # Errors
     /// [`SpectrumError::Cancelled`] once the computation was asked to end.
     pub fn check(&self) -> Result<(), SpectrumError> {
+        count_eigenproblem();
         match self.is_cancelled() {
             true => Err(SpectrumError::Cancelled),
             false => Ok(()),

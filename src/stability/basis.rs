@@ -10,7 +10,7 @@ use super::ladder::{DENSE_LADDER, LADDER, ahead, larger_than, resolution, rung_o
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
 use crate::spectrum::{
-    Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, SpectrumError,
+    Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, SpectrumError, Work,
 };
 use crate::tuned::Tuned;
 
@@ -77,6 +77,7 @@ impl ChosenBasis {
             });
         }
         let mut rung = rung_of(least);
+        let sizes = Work::of("sizes of the basis", LADDER.len() - rung);
         loop {
             cancellation.check()?;
             let saw = Assembled::from(Plate::new(scene, resolution(LADDER[rung])));
@@ -91,6 +92,7 @@ impl ChosenBasis {
             let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
             if !is_last && top_of_sweep.is_some_and(|to| is_too_small(&saw, to)) {
                 rung += 1;
+                sizes.advance();
                 continue;
             }
             let ((critical, resting), larger) = rayon::join(
@@ -107,6 +109,7 @@ impl ChosenBasis {
             let resolved = unresolved(&saw.plate, &critical, range_rad_per_s.1);
             if resolved.is_err() && !is_last {
                 rung += 1;
+                sizes.advance();
                 continue;
             }
             resolved?;
@@ -124,7 +127,9 @@ impl ChosenBasis {
                     larger,
                 });
             }
-            rung = next(rung, excess);
+            let larger = next(rung, excess);
+            (rung..larger).for_each(|_| sizes.advance());
+            rung = larger;
         }
     }
 }

@@ -14,7 +14,7 @@ use super::basis::REMAINDER;
 use super::chart::StabilityChart;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
-    DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State,
+    Cancellation, DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State, Work,
     companion_eigenpairs, critical_speeds, orthonormal, split,
 };
 use crate::system::GyroscopicSystem;
@@ -110,10 +110,12 @@ impl Estimates {
             drawn,
             bands: Vec::new(),
         };
+        let step = Work::of("errors of bands", chart.instabilities.len());
         let bands: Result<Vec<BandError>, SpectrumError> = chart
             .instabilities
             .par_iter()
             .map(|band| {
+                Cancellation::current().check()?;
                 let at_peak = samples
                     .iter()
                     .find(|s| s.speed_rad_per_s == band.peak_rad_per_s);
@@ -121,6 +123,7 @@ impl Estimates {
                     Some(sample) => estimates.band(model, band, sample)?,
                     None => BandError::default(),
                 };
+                step.advance();
                 Ok(told.of(band, least))
             })
             .collect();

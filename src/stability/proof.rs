@@ -20,7 +20,7 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::full_basis::{FullBasis, Gap, gaps};
 use super::signature::Signature;
-use crate::spectrum::{AtSpeed, SpectrumError};
+use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
 use crate::tuned::Tuned;
 
 /// Stretches below this share of the highest speed are not halved any more.
@@ -51,9 +51,11 @@ impl Proof<'_> {
         let least = LEAST_WIDTH * last.speed_rad_per_s;
         let ends: Vec<End> = signatures.iter().map(|s| self.end(s)).collect();
         let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
-        let open: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = ends
-            .par_chunk_by(is_uncritical)
-            .map(|stretch| self.within(stretch, &[], least))
+        let stretches: Vec<&[End]> = ends.chunk_by(is_uncritical).collect();
+        let step = &Work::of("stretches of the proof", stretches.len());
+        let open: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = stretches
+            .into_par_iter()
+            .map(|stretch| self.within(stretch, (&[], least), step))
             .collect();
         let mut open: Vec<(f64, f64)> = open
             .into_iter()
@@ -89,20 +91,24 @@ impl Proof<'_> {
     fn within(
         &self,
         ends: &[End],
-        known: &[Line],
-        least: f64,
+        (known, least): (&[Line], f64),
+        step: &Work,
     ) -> Result<Vec<(f64, f64)>, SpectrumError> {
         let [a, .., b] = ends else {
+            step.advance();
             return Ok(Vec::new());
         };
         let mut known = known.to_vec();
+        Cancellation::current().check()?;
         if b.speed <= a.speed || self.is_proven(a, b, &mut known) {
+            step.advance();
             return Ok(Vec::new());
         }
         let halves = |below: &[End], above: &[End]| {
+            step.extend(1);
             let (below, above) = rayon::join(
-                || self.within(below, &known, least),
-                || self.within(above, &known, least),
+                || self.within(below, (&known, least), step),
+                || self.within(above, (&known, least), step),
             );
             let mut open = below?;
             open.extend(above?);
@@ -116,6 +122,7 @@ impl Proof<'_> {
         }
         let is_open = self.full.has_free_motions() || self.full.is_dense();
         if is_open || b.speed - a.speed <= least || self.evaluator.is_exhausted() {
+            step.advance();
             return Ok(vec![(a.speed, b.speed)]);
         }
         let middle = match a.halfway(b) {

@@ -15,7 +15,7 @@ use super::pair_continuation::{
 use super::signature::{
     Change, Sign, Signature, SignedMode, between_crossings, change, crossing, may_touch,
 };
-use crate::spectrum::SpectrumError;
+use crate::spectrum::{SpectrumError, Work};
 use crate::tuned::Tuned;
 
 /// Intervals below this relative width are not halved any more.
@@ -72,11 +72,16 @@ impl Path {
         evaluator: &SignatureEvaluator<'_>,
         signatures: Vec<Signature>,
     ) -> Result<Self, SpectrumError> {
+        let work = &Work::of(
+            "intervals of the search",
+            signatures.len().saturating_sub(1),
+        );
         let pieces: Vec<Result<Path, SpectrumError>> = signatures
             .par_windows(2)
             .map(|pair| {
                 let mut piece = Path::default();
-                Search { evaluator }.between(&pair[0], &pair[1], 0, &mut piece)?;
+                Search { evaluator, work }.between(&pair[0], &pair[1], 0, &mut piece)?;
+                work.advance();
                 Ok(piece)
             })
             .collect();
@@ -101,6 +106,7 @@ impl Path {
 
 struct Search<'a> {
     evaluator: &'a SignatureEvaluator<'a>,
+    work: &'a Work,
 }
 
 impl Search<'_> {
@@ -146,7 +152,9 @@ impl Search<'_> {
                     true => self.evaluator.exactly_at(middle)?,
                     false => self.evaluator.at(middle)?,
                 };
+                self.work.extend(1);
                 self.between(a, &middle, depth + 1, path)?;
+                self.work.advance();
                 self.between(&middle, b, depth + 1, path)
             }
         }

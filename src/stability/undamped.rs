@@ -46,12 +46,14 @@ pub(super) fn charted(
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
     };
     let search = from_lowest_critical(model, &search);
+    campbell::check_room(model, &speeds)?;
     let (samples, found) = rayon::join(
         || campbell::sample(model, &speeds, progress),
         || bands(model, search, depth),
     );
     let (mut samples, (instabilities, mut certificate)) = (samples?, found?);
-    let between = inside(&instabilities, &samples, within_bands, range);
+    let room = campbell::room_for_more(model, &samples);
+    let between = inside(&instabilities, &samples, (within_bands, room), range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = campbell::refined(model, samples, closeness)?;
@@ -182,13 +184,16 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-/// Speeds inside and beside the bands, so that the narrowest one is drawn.
+/// Speeds inside and beside the bands, so that the narrowest one is drawn; of hundreds of bands as many at each as there is
+/// room for, the peaks first.
 fn inside(
     instabilities: &[Instability],
     samples: &[SpeedSample],
-    shares: &[f64],
+    (shares, room): (&[f64], usize),
     range: (f64, f64),
 ) -> Vec<f64> {
+    let at_each = room / instabilities.len().max(1);
+    let shares = &shares[..shares.len().min(at_each.saturating_sub(1))];
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {

@@ -1,0 +1,203 @@
+//! How far a computation has come, told to whoever waits for it.
+//!
+//! A loop over work of a known amount is a [`Work`]. Loops lie within loops: the one that was begun first is told, and in
+//! between the number of eigenproblems moves, which counts wherever the cancellation flag is looked at.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use super::work::Cancellation;
+
+/// What a computation is at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Stage {
+    /// What is counted.
+    pub what: &'static str,
+    /// How many of them are done.
+    pub done: usize,
+    /// How many there are, as far as is known yet.
+    pub of: usize,
+    /// Eigenproblems, and pieces of work as small, since the computation began.
+    pub eigenproblems: usize,
+}
+
+/// Whoever is told how far a computation has come; nobody by default.
+#[derive(Clone, Default)]
+pub struct Progress(Option<Arc<Told>>);
+
+struct Told {
+    tell: Box<dyn Fn(Stage) + Send + Sync>,
+    stage: Mutex<Stage>,
+    eigenproblems: AtomicUsize,
+    /// Whether a step is being told.
+    is_busy: AtomicBool,
+}
+
+thread_local! {
+    /// Of the computation that this thread works for.
+    static CURRENT: RefCell<Progress> = RefCell::default();
+}
+
+impl Progress {
+    /// Calls a function whenever a computation has come further.
+    pub fn new(tell: impl Fn(Stage) + Send + Sync + 'static) -> Self {
+        Progress(Some(Arc::new(Told {
+            tell: Box::new(tell),
+            stage: Mutex::default(),
+            eigenproblems: AtomicUsize::new(0),
+            is_busy: AtomicBool::new(false),
+        })))
+    }
+
+    /// Does work that tells how far it has come: on threads of its own, as many as the current pool has.
+    ///
+    /// # Errors
+    /// When the system gives no more threads.
+    pub fn watched<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, rayon::ThreadPoolBuildError> {
+        let pool = Cancellation::current().told_pool(self, rayon::current_num_threads())?;
+        Ok(pool.install(work))
+    }
+
+    /// That of the computation that this thread works for.
+    pub(super) fn current() -> Self {
+        CURRENT.with_borrow(Clone::clone)
+    }
+
+    /// Makes it that of the thread.
+    pub(super) fn enter(&self) {
+        CURRENT.set(self.clone());
+    }
+
+    /// Tells of a loop that is not a step: until it is done no step within it is told.
+    pub fn show(&self, what: &'static str, done: usize, of: usize) {
+        if let Some(told) = &self.0 {
+            told.is_busy.store(done < of, Ordering::Relaxed);
+            told.at(what, done, of);
+        }
+    }
+}
+
+impl Told {
+    fn stage(&self) -> MutexGuard<'_, Stage> {
+        self.stage.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn at(&self, what: &'static str, done: usize, of: usize) {
+        let mut stage = self.stage();
+        let eigenproblems = self.eigenproblems.load(Ordering::Relaxed);
+        *stage = Stage {
+            what,
+            done,
+            of,
+            eigenproblems,
+        };
+        (self.tell)(*stage);
+    }
+}
+
+/// One more eigenproblem is about to be solved for the computation of this thread.
+pub(super) fn count_eigenproblem() {
+    CURRENT.with_borrow(|progress| {
+        if let Some(told) = &progress.0 {
+            let mut stage = told.stage();
+            stage.eigenproblems = 1 + told.eigenproblems.fetch_add(1, Ordering::Relaxed);
+            (told.tell)(*stage);
+        }
+    });
+}
+
+/// A loop over work of a known amount.
+pub(crate) struct Work {
+    told: Option<Arc<Told>>,
+    /// Whether it is this step that is told.
+    is_told: AtomicBool,
+    what: &'static str,
+    done: AtomicUsize,
+    of: AtomicUsize,
+}
+
+impl Work {
+    /// Begins a step of so many parts.
+    pub fn of(what: &'static str, parts: usize) -> Self {
+        let step = Work {
+            told: Progress::current().0,
+            is_told: AtomicBool::new(false),
+            what,
+            done: AtomicUsize::new(0),
+            of: AtomicUsize::new(parts),
+        };
+        step.tell();
+        step
+    }
+
+    /// One more part is done.
+    pub fn advance(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+        self.tell();
+    }
+
+    /// It has so many parts more than it seemed.
+    pub fn extend(&self, parts: usize) {
+        self.of.fetch_add(parts, Ordering::Relaxed);
+    }
+
+    fn tell(&self) {
+        let Some(told) = &self.told else { return };
+        let is_next = || !told.is_busy.swap(true, Ordering::Relaxed);
+        if self.is_told.load(Ordering::Relaxed) || is_next() {
+            self.is_told.store(true, Ordering::Relaxed);
+            let [done, of] = [&self.done, &self.of].map(|n| n.load(Ordering::Relaxed));
+            told.at(self.what, done.min(of), of);
+        }
+    }
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        if let (Some(told), true) = (&self.told, *self.is_told.get_mut()) {
+            told.is_busy.store(false, Ordering::Relaxed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rayon::prelude::*;
+
+    use super::*;
+
+    /// What is told is the outer of two loops, part by part, and every eigenproblem.
+    #[test]
+    fn the_outer_loop_is_told_and_every_eigenproblem_counts() {
+        let told = Arc::new(Mutex::new(Vec::new()));
+        let seen = told.clone();
+        let progress = Progress::new(move |stage| seen.lock().unwrap().push(stage));
+        let work = || {
+            let outer = Work::of("saws", 8);
+            (0..8).into_par_iter().for_each(|_| {
+                let inner = Work::of("speeds", 3);
+                for _ in 0..3 {
+                    Cancellation::current().check().unwrap();
+                    inner.advance();
+                }
+                outer.advance();
+            });
+            drop(outer);
+            Work::of("points", 1).advance();
+        };
+        progress.watched(work).unwrap();
+        let told = told.lock().unwrap();
+        assert!(told.iter().all(|stage| stage.what != "speeds"));
+        assert_eq!(told[0].what, "saws");
+        assert_eq!(told.iter().map(|stage| stage.eigenproblems).max(), Some(24));
+        let last = told[told.len() - 1];
+        assert_eq!((last.what, last.done, last.of), ("points", 1, 1));
+        let saws = told.iter().filter(|stage| stage.what == "saws");
+        assert_eq!(saws.map(|stage| stage.done).max(), Some(8));
+    }
+}
