@@ -17,7 +17,7 @@ mod webdriver;
 /// The first pad.
 pub const PAD: &str = "[data-path='guides[0]'] .body";
 /// Longer than anything takes, also where others use the machine.
-pub const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(180);
 
 /// A program that is ended with its owner.
 pub struct Running(pub Child);
