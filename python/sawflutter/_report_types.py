@@ -20,9 +20,11 @@ Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
 
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
-Verdict: TypeAlias = Literal["stable", "unstable"]
+CutVerdict: TypeAlias = Literal["stable", "leaves_model", "unstable"]
 
 CutCriterion: TypeAlias = Literal["eigenvalues", "time_history", "moving_tooth_loads", "spline_reaction", "out_of_cut"]
+
+Verdict: TypeAlias = Literal["stable", "unstable"]
 
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
@@ -1025,8 +1027,9 @@ class CutRun(Entry):
     lateral_n_per_tooth: float
     """Force across the blade on each tooth."""
 
-    verdict: Verdict
-    """The worst of the criteria."""
+    verdict: CutVerdict
+    """The worst of the criteria; where none grows, whether the deflection stays within the
+    model."""
 
     decided_by: CutCriterion
     """The criterion of fastest growth."""
@@ -1144,8 +1147,9 @@ class Parameter(Entry):
     """Value that fits best."""
 
     interval_from: float | None
-    """Least value of the interval; none at a bound, and where the data do not tell this number
-    from others."""
+    """Least value of the interval; none at a bound, and where the data do not determine this
+    number: they do not tell it from others, or leave it an interval wider than the distance
+    between its bounds."""
 
     interval_to: float | None
     """Largest value of the interval."""
@@ -1548,12 +1552,14 @@ class RunUpBand(Entry):
     """Time that the run-up spends in it."""
 
     growth_exponent: float
-    """Largest Re λ integrated over that time: a mode that follows the speed grows by e to this
-    power."""
+    """Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows by e
+    to this power."""
 
     seen_amplification: float | None
     """Largest deflection at the probe within the band over that in as many speeds before; null
-    where the linear model ends before the band does."""
+    where the linear model ends before the band does. Every mode that rings contributes to it:
+    beside a small exponent it says how other modes beat, not that the band makes a motion
+    grow."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1613,6 +1619,10 @@ class RunUpReport(Entry):
 
     bands: tuple[RunUpBand, ...]
     """Bands of instability and what they do to the run-up."""
+
+    first_doubling_rpm: float | None
+    """Onset of the first band that more than doubles a motion at this rate, e to the power of its
+    exponent; null where none does."""
 
     campbell: Campbell
     """Branches over the speeds of the run-up."""

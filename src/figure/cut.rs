@@ -9,7 +9,7 @@ use super::style::{
     ALARM, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
     SUBTITLE_SIZE, Weight, shorten, tint,
 };
-use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, Verdict};
+use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, CutVerdict, Verdict};
 
 const PANELS: Columns = Columns {
     lefts: [92.0, 680.0],
@@ -85,8 +85,8 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
         ..*panel
     };
     let shade = match run.verdict {
-        Verdict::Unstable => FLUTTER_SHADE,
-        Verdict::Stable => tint(FORWARD, 0.12),
+        CutVerdict::Unstable | CutVerdict::LeavesModel => FLUTTER_SHADE,
+        CutVerdict::Stable => tint(FORWARD, 0.12),
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
@@ -150,9 +150,10 @@ fn draw_envelope(
 
 fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     let (text, colour): (String, Colour) = match run.verdict {
-        Verdict::Stable => (format!("{} rpm: stable", run.rpm), FORWARD),
-        Verdict::Unstable => (
-            format!("{} rpm: unstable ({})", run.rpm, run.decided_by),
+        CutVerdict::Stable => (format!("{} rpm: {}", run.rpm, run.verdict), FORWARD),
+        CutVerdict::LeavesModel => (format!("{} rpm: {}", run.rpm, run.verdict), ALARM),
+        CutVerdict::Unstable => (
+            format!("{} rpm: {} ({})", run.rpm, run.verdict, run.decided_by),
             ALARM,
         ),
     };

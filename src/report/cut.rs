@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::certificate::CutCertificateEntry;
-pub use self::criteria::{CutCriterion, CutCriterionEntry, Verdict};
+pub use self::criteria::{CutCriterion, CutCriterionEntry, CutVerdict, Verdict};
 use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
@@ -51,8 +51,8 @@ pub struct CutRunEntry {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// The worst of the criteria.
-    pub verdict: Verdict,
+    /// The worst of the criteria; where none grows, whether the deflection stays within the model.
+    pub verdict: CutVerdict,
     /// The criterion of fastest growth.
     pub decided_by: CutCriterion,
     /// What each criterion says.
@@ -206,7 +206,9 @@ impl CutRunEntry {
         let run = history.run;
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
         let criteria = criteria(scene, computed);
-        let (verdict, decided_by) = worst(&criteria);
+        let (growth, decided_by) = worst(&criteria);
+        let leaves_model =
+            history.linear_until_s.is_some() || passing.passing_deflection_m.is_none();
         let dominant = history.dominant_rad_per_s;
         let [in_cut_m, after_m] = largest_deflections(history);
         CutRunEntry {
@@ -214,7 +216,7 @@ impl CutRunEntry {
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
-            verdict,
+            verdict: CutVerdict::new(growth, leaves_model),
             decided_by,
             criteria,
             growth_per_s: history.in_cut.growth_per_s,

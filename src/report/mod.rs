@@ -37,7 +37,7 @@ pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::cut::{
     ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
-    ToothPassingEntry, Verdict, VerdictMapEntry,
+    CutVerdict, ToothPassingEntry, Verdict, VerdictMapEntry,
 };
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::{WIDTH, shortened, wrapped};
-use crate::report::{CutCriterion, CutReport, CutRunEntry, Verdict};
+use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
+use crate::transient::LINEAR_THICKNESSES;
 
 impl CutReport {
     /// The report in words, 80 columns wide, the verdict first.
@@ -18,7 +19,11 @@ impl CutReport {
 fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     for run in &report.runs {
-        writeln!(text, "{}", wrapped(&in_one_line(run)))?;
+        writeln!(
+            text,
+            "{}",
+            wrapped(&in_one_line(run, report.linear_limit_m))
+        )?;
     }
     for run in &report.runs {
         of_run(text, run)?;
@@ -33,10 +38,23 @@ fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
 }
 
 /// The verdict of a speed.
-fn in_one_line(run: &CutRunEntry) -> String {
+fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
+    let rpm = run.rpm;
+    match run.verdict {
+        CutVerdict::Stable => format!("{rpm} rpm: stable"),
+        CutVerdict::LeavesModel => format!(
+            "{rpm} rpm: NO GROWTH, BUT THE DEFLECTION LEAVES THE MODEL: it exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), more than any kerf",
+            1e3 * linear_limit_m
+        ),
+        CutVerdict::Unstable => unstable(run),
+    }
+}
+
+/// How fast the motion grows, at which frequency, and what says so.
+fn unstable(run: &CutRunEntry) -> String {
     let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
-    let Some(entry) = decisive.filter(|entry| entry.verdict == Verdict::Unstable) else {
-        return format!("{} rpm: stable", run.rpm);
+    let Some(entry) = decisive else {
+        return format!("{} rpm: UNSTABLE", run.rpm);
     };
     let frequency = match entry.frequency_hz {
         Some(hz) if hz > 0.0 => format!(" at {hz:.2} Hz"),

@@ -2,7 +2,7 @@
 //!
 //! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
-use sawflutter::report::{CutReport, RunUpReport, Verdict};
+use sawflutter::report::{CutReport, CutVerdict, RunUpReport};
 use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
 
@@ -34,14 +34,14 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
     }
     let json = std::fs::read(folder.path().join("out/cut.json")).unwrap();
     let report: CutReport = serde_json::from_slice(&json).unwrap();
-    let verdicts: Vec<(f64, Verdict, Option<bool>)> = report
+    let verdicts: Vec<(f64, CutVerdict, Option<bool>)> = report
         .runs
         .iter()
         .map(|run| (run.rpm, run.verdict, run.agree))
         .collect();
     let expected = [
-        (1800.0, Verdict::Stable, Some(true)),
-        (2800.0, Verdict::Unstable, Some(true)),
+        (1800.0, CutVerdict::Stable, Some(true)),
+        (2800.0, CutVerdict::Unstable, Some(true)),
     ];
     assert_eq!(verdicts, expected);
     // The certificate of each speed, in both faces, with as many growing modes as the verdict says.

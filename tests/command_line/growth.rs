@@ -2,8 +2,8 @@
 //!
 //! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
 
-use sawflutter::report::{CutReport, RunUpReport, Verdict};
-use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::report::{CutReport, CutVerdict, RunUpReport};
+use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -34,7 +34,7 @@ fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
                 run.idle_growth_per_s,
             ];
             let grows = growths.iter().any(|growth| *growth >= threshold);
-            assert_eq!(run.verdict == Verdict::Unstable, grows, "{growths:?}");
+            assert_eq!(run.verdict == CutVerdict::Unstable, grows, "{growths:?}");
             let word = if grows { "UNSTABLE" } else { "stable" };
             let line = format!("{} rpm: {word}", run.rpm);
             assert!(summary.contains(&line), "{line} is not in {summary}");
@@ -48,6 +48,55 @@ fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
 #[test]
 fn item_3_a_violent_saw_is_unstable() {
     assert_unstable(1e4);
+}
+
+/// The paper's saw in its cut at a speed, under a lateral force on each tooth.
+fn pushed(rpm: f64, lateral_n: f64) -> SceneFile {
+    let mut file = Scene::paper().file().clone();
+    let cut = file.cut.as_mut().unwrap();
+    cut.lateral_n_per_tooth = Some(lateral_n);
+    cut.speeds = vec![CutSpeedFile {
+        rpm,
+        ..CutSpeedFile::default()
+    }];
+    file
+}
+
+/// The model is linear: what a hundredth of the force deflects the blade by says whether the whole
+/// force leaves the model. A saw of which nothing grows is called stable only where it does not.
+#[test]
+fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
+    for (rpm, leaves) in [(1200.0, true), (1800.0, false)] {
+        let force_n = 4.5;
+        let (_, json) = done("cut", &pushed(rpm, 0.01 * force_n));
+        let little: CutReport = serde_json::from_slice(&json).unwrap();
+        let run = &little.runs[0];
+        assert_eq!(run.verdict, CutVerdict::Stable);
+        let largest = [
+            run.largest_deflection_in_cut_m.unwrap(),
+            run.largest_deflection_after_m.unwrap(),
+            run.tooth_passing.passing_deflection_m.unwrap(),
+        ];
+        let largest_m = 100.0 * largest.into_iter().fold(0.0, f64::max);
+        assert_eq!(largest_m > little.linear_limit_m, leaves, "{largest_m} m");
+
+        let (summary, json) = done("cut", &pushed(rpm, force_n));
+        assert_in_80_columns(&summary);
+        let report: CutReport = serde_json::from_slice(&json).unwrap();
+        let (verdict, headline) = match leaves {
+            true => (
+                CutVerdict::LeavesModel,
+                "NO GROWTH, BUT THE DEFLECTION LEAVES",
+            ),
+            false => (CutVerdict::Stable, "stable"),
+        };
+        assert_eq!(report.runs[0].verdict, verdict);
+        assert_eq!(report.runs[0].certificate.growing_modes, 0);
+        assert!(
+            summary.contains(&format!("{rpm} rpm: {headline}")),
+            "{summary}"
+        );
+    }
 }
 
 /// Numbers of a text.

@@ -13,14 +13,14 @@ def cut(r: CutReport, facts: str) -> Chart:
     """Deflection at the probe over time, one panel a speed."""
     panels = []
     for run in r.runs:
-        colour = colours()["flutter" if run.verdict == "unstable" else "forward"]
+        colour = colours()["forward" if run.verdict == "stable" else "flutter"]
         frequency = "" if run.frequency_hz is None else f" at {run.frequency_hz:.2f} Hz"
         hover = [f"{t:.3f} s<br>{1e3 * w:.4g} mm" for t, w in zip(run.time_s, run.deflection_m)]
         items: list[Item] = [
             Shade(run.forces_from_s, run.forces_to_s, colours()["grid"], "forces act"),
             Line(run.time_s, 1e3 * run.deflection_m, colour, f"{run.rpm:.0f} rpm", hover=hover),
         ]
-        title = f"{run.rpm:.0f} rpm: {run.verdict}, {run.growth_per_s:.3g} 1/s{frequency}"
+        title = f"{run.rpm:.0f} rpm: {run.verdict.replace('_', ' ')}, {run.growth_per_s:.3g} 1/s{frequency}"
         panels.append(Panel("time [s]", "deflection [mm]", items, title=title))
     return Chart(r.scene["name"], facts, tuple(panels))
 

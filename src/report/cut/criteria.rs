@@ -17,6 +17,19 @@ pub enum Verdict {
     Unstable,
 }
 
+/// What becomes of a cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CutVerdict {
+    /// No motion grows as fast as the threshold, and the deflection stays within the linear model.
+    Stable,
+    /// No motion grows so fast, but the forces alone deflect the blade beyond the linear model, and
+    /// beyond any kerf.
+    LeavesModel,
+    /// Some motion grows.
+    Unstable,
+}
+
 /// What a verdict rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -135,6 +148,26 @@ impl std::fmt::Display for Verdict {
         formatter.write_str(match self {
             Verdict::Stable => "stable",
             Verdict::Unstable => "unstable",
+        })
+    }
+}
+
+impl CutVerdict {
+    pub(super) fn new(growth: Verdict, leaves_model: bool) -> Self {
+        match growth {
+            Verdict::Unstable => CutVerdict::Unstable,
+            Verdict::Stable if leaves_model => CutVerdict::LeavesModel,
+            Verdict::Stable => CutVerdict::Stable,
+        }
+    }
+}
+
+impl std::fmt::Display for CutVerdict {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            CutVerdict::Stable => "stable",
+            CutVerdict::LeavesModel => "no growth, but the deflection leaves the model",
+            CutVerdict::Unstable => "unstable",
         })
     }
 }

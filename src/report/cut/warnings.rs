@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{CutCriterion, CutRunEntry, Verdict};
+use super::{CutCriterion, CutRunEntry, CutVerdict, Verdict};
 use crate::transient::LINEAR_THICKNESSES;
 
 /// Beyond this many thicknesses a plate stretches as it bends, and is stiffer than a linear
@@ -15,6 +15,7 @@ pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
         without_lateral_force(run),
         moving_loads_alone(run),
         large_deflection(run, thickness_m),
+        moving_loads_deflect(run, thickness_m),
         contradicted(run),
     ];
     all.into_iter().flatten().collect()
@@ -35,12 +36,14 @@ fn against_power(run: &CutRunEntry) -> Option<String> {
     let ratio = run.tangential_n_per_tooth / by_power.tangential_n_per_tooth;
     ((ratio - 1.0).abs() > 0.05).then(|| {
         format!(
-            "at {:.0} rpm the tangential force given, {:.0} N a tooth, is {ratio:.1} times the {:.0} N that the power allows at the rim; with the latter the cut is {} ({:.2} 1/s)",
+            "at {:.0} rpm the tangential force given, {:.0} N a tooth, is {ratio:.1} times the {:.0} N that the power allows at the rim; with the latter {}",
             run.rpm,
             run.tangential_n_per_tooth,
             by_power.tangential_n_per_tooth,
-            by_power.verdict,
-            by_power.growth_per_s
+            match by_power.verdict {
+                Verdict::Stable => "no motion grows".to_owned(),
+                Verdict::Unstable => format!("a motion grows by {:.2} 1/s", by_power.growth_per_s),
+            }
         )
     })
 }
@@ -62,7 +65,7 @@ fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
         .max(passing.mean_growth_per_s)
         .max(run.growth_per_s);
     let alone = run.decided_by == CutCriterion::MovingToothLoads
-        && run.verdict == Verdict::Unstable
+        && run.verdict == CutVerdict::Unstable
         && others < 0.5 * passing.passing_growth_per_s;
     // A shift of the tooth frequency by the growth rate leaves the resonance.
     let width_rpm = run.rpm * passing.passing_growth_per_s / (TAU * passing.tooth_frequency_hz);
@@ -86,6 +89,18 @@ fn seconds(seconds: f64) -> String {
 fn one_digit(value: f64) -> String {
     let decimals = (-value.max(1e-6).log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.decimals$}")
+}
+
+/// Where the moving loads alone deflect the blade so far.
+fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+    let alone = run.linear_until_s.is_none() && run.tooth_passing.passing_deflection_m.is_none();
+    alone.then(|| {
+        format!(
+            "at {:.0} rpm the moving tooth loads deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), beyond the linear model; loads that stand still do not",
+            run.rpm,
+            1e3 * LINEAR_THICKNESSES * thickness_m
+        )
+    })
 }
 
 fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
