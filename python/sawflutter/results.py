@@ -297,7 +297,7 @@ class CutResults(Result, CutReport):
         return draw(self.map_chart(run))
 
     def _facts(self) -> str:
-        return ", ".join(f"{run.verdict} at {run.rpm:.0f} rpm" for run in self.runs)
+        return ", ".join(f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs)
 
 
 class RunUpResults(Result, RunUpReport):
@@ -330,7 +330,10 @@ class RunUpResults(Result, RunUpReport):
         return draw(self.response_chart())
 
     def _facts(self) -> str:
-        return f"{self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm, {len(self.bands)} bands crossed"
+        doubling = self.first_doubling_rpm
+        at = "none" if doubling is None else f"the first at {doubling:.0f} rpm"
+        crossed = f"{self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm, {len(self.bands)} bands crossed"
+        return f"{crossed}; that more than double a motion: {at}"
 
 
 class WashboardResults(Result, WashboardReport):

@@ -12,8 +12,8 @@ import pytest
 import sawflutter as sf
 
 
-def test_the_free_blade_has_the_critical_speed_of_the_paper() -> None:
-    # Exact, 1476.6 rpm; the paper's finite elements: 1475 rpm.
+def test_the_free_blade_has_its_exact_critical_speed() -> None:
+    # Exact, 1476.6 rpm.
     free = sf.Scene.paper().replace({"guides": []})
     lowest = free.run_campbell().critical_rpm[0]
     assert lowest == pytest.approx(1476.6, abs=0.2)

@@ -39,6 +39,9 @@ pub struct RunUpReport {
     pub critical_speeds: Vec<CriticalSpeedEntry>,
     /// Bands of instability and what they do to the run-up.
     pub bands: Vec<RunUpBand>,
+    /// Onset of the first band that more than doubles a motion at this rate, e to the power of its exponent; null
+    /// where none does.
+    pub first_doubling_rpm: Option<f64>,
     /// Branches over the speeds of the run-up.
     pub campbell: CampbellEntry,
     /// Response over speed and frequency.
@@ -55,11 +58,12 @@ pub struct RunUpBand {
     pub band: InstabilityEntry,
     /// Time that the run-up spends in it.
     pub time_s: f64,
-    /// Largest Re λ integrated over that time: a mode that follows the speed grows by e to this
-    /// power.
+    /// Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows by e to
+    /// this power.
     pub growth_exponent: f64,
-    /// Largest deflection at the probe within the band over that in as many speeds before;
-    /// null where the linear model ends before the band does.
+    /// Largest deflection at the probe within the band over that in as many speeds before; null where
+    /// the linear model ends before the band does. Every mode that rings contributes to it: beside a small exponent it
+    /// says how other modes beat, not that the band makes a motion grow.
     pub seen_amplification: Option<f64>,
 }
 
@@ -85,7 +89,7 @@ impl RunUpReport {
         let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());
         let linear_until_rpm = history.linear_until_rad_per_s.map(rpm);
         let within = |band: &InstabilityEntry| linear_until_rpm.is_none_or(|end| band.to_rpm < end);
-        let bands = chart
+        let bands: Vec<RunUpBand> = chart
             .instabilities
             .into_iter()
             .zip(&found.growths)
@@ -111,6 +115,7 @@ impl RunUpReport {
             step_s: history.step_s,
             deflection_m: history.deflection_m.clone(),
             critical_speeds: chart.critical_speeds,
+            first_doubling_rpm: first_doubling_rpm(&bands),
             bands,
             campbell: chart.campbell,
             response: ResponseEntry {
@@ -126,6 +131,15 @@ impl RunUpReport {
             rpm: speeds,
         }
     }
+}
+
+/// The exponent that doubles a motion.
+const DOUBLING: f64 = std::f64::consts::LN_2;
+
+fn first_doubling_rpm(bands: &[RunUpBand]) -> Option<f64> {
+    let doubling = bands.iter().filter(|band| band.growth_exponent > DOUBLING);
+    let onsets = doubling.map(|band| band.band.from_rpm);
+    onsets.min_by(f64::total_cmp)
 }
 
 /// Largest deflection in the band over the largest in a stretch of the same length before.

@@ -44,6 +44,7 @@ mod verdict;
 
 pub(crate) use analysis::OPERATING_LIMIT;
 pub use analysis::{Analysis, AnalysisOptions};
+pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::resolved;

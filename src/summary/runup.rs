@@ -25,6 +25,7 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
             "No instability: nothing grows at any speed of the run-up"
         )?;
     } else {
+        writeln!(text, "{}", wrapped(&first_doubling(report)))?;
         bands(text, report)?;
     }
     for warning in &report.warnings {
@@ -55,14 +56,23 @@ fn verdict(report: &RunUpReport) -> String {
     )
 }
 
+fn first_doubling(report: &RunUpReport) -> String {
+    match report.first_doubling_rpm {
+        Some(rpm) => {
+            format!("First band that more than doubles a motion at this rate: {rpm:.0} rpm")
+        }
+        None => "No band more than doubles a motion at this rate".to_owned(),
+    }
+}
+
 fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(
         text,
-        "\nInstabilities        from         to     time  exponent  amplification"
+        "\nInstabilities        from         to     time  exponent    grows by  deflection"
     )?;
     writeln!(
         text,
-        "                    [rpm]      [rpm]      [s]  ∫Re λ dt  predicted  simulated"
+        "                    [rpm]      [rpm]      [s]  ∫Re λ dt  e^exponent   in/before"
     )?;
     for entry in &report.bands {
         let kind = match entry.band.kind {
@@ -71,7 +81,7 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
         };
         writeln!(
             text,
-            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>10} {:>10}",
+            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>11} {:>11}",
             entry.band.from_rpm,
             entry.band.to_rpm,
             entry.time_s,
@@ -80,7 +90,9 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
             entry.seen_amplification.map_or("-".into(), times)
         )?;
     }
-    Ok(())
+    let meaning = "in/before: largest deflection at the probe in the band over that in as many rpm before it. \
+                   All modes ring in it: beside a small exponent it is beating, not growth.";
+    writeln!(text, "{}", wrapped(meaning))
 }
 
 /// What multiplies a motion by more leaves the linear model however small it was.

@@ -9,6 +9,7 @@
 //! In goes a scene with its `cut` or `runup`; out comes a [`Cutting`] or a [`RunningUp`]: times in
 //! s, speeds in rad/s, deflections in m, growth rates in 1/s.
 
+mod band_growth;
 mod cut;
 mod linear;
 mod newmark;
@@ -23,6 +24,7 @@ mod sinusoids;
 mod teeth;
 mod verdict_map;
 
+pub(crate) use band_growth::{BandGrowth, band_growths};
 pub(crate) use cut::CutHistory;
 pub(crate) use cut::{Growth, cut_history};
 pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
@@ -33,7 +35,6 @@ pub(crate) use response::ResponseMap;
 pub(crate) use response::response_map;
 pub(crate) use runup::RunUpHistory;
 pub(crate) use runup::run_up;
-pub(crate) use runup::{BandGrowth, band_growths};
 pub(crate) use saw_in_cut::SawInCut;
 pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};

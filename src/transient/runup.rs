@@ -1,13 +1,11 @@
 //! The saw while it runs up under a constant lateral force.
 
 use faer::Col;
-use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp, rpm};
-use crate::spectrum::{Cancellation, Mode, SpectralModel};
-use crate::stability::Instability;
+use crate::spectrum::Cancellation;
 use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
@@ -29,13 +27,6 @@ pub(crate) struct RunUpHistory {
     pub step_s: f64,
 }
 
-/// What a band of instability does to a run-up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BandGrowth {
-    /// ∫ Re λ dt while the speed is within the band.
-    pub exponent: f64,
-}
-
 /// Speeds whose modes span the motion.
 const SNAPSHOTS: usize = 7;
 /// Modes of each: what a probe sees of a slow force.
@@ -46,8 +37,6 @@ const STEPS_A_PERIOD: f64 = 24.0;
 const HELD_STEPS: usize = 8;
 /// Samples of the record.
 const MAX_SAMPLES: usize = 30_000;
-/// Points of the quadrature over a band.
-const BAND_POINTS: usize = 24;
 
 /// The basis of a run-up: modes of a few speeds and the answers to the force.
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
@@ -156,34 +145,4 @@ fn static_deflection(system: &GyroscopicSystem, speed_rad_per_s: f64, load: &Col
         Ok(factors) => factors.solve(load),
         Err(_) => Col::zeros(system.order()),
     }
-}
-
-/// ∫ Re λ dt over each band, at the rate of the run-up. Growth starts and ends like a
-/// square root, which Gauss–Chebyshev points of the second kind integrate exactly.
-///
-/// # Errors
-/// [`TransientError::Spectrum`].
-pub fn band_growths(
-    model: &SpectralModel,
-    bands: &[Instability],
-    rate_rad_per_s2: f64,
-) -> Result<Vec<BandGrowth>, TransientError> {
-    let weight = std::f64::consts::PI / (BAND_POINTS + 1) as f64;
-    bands
-        .par_iter()
-        .map(|band| {
-            let half = 0.5 * (band.to_rad_per_s - band.from_rad_per_s);
-            let mut sum = 0.0;
-            for k in 1..=BAND_POINTS {
-                let (sin, cos) = (weight * k as f64).sin_cos();
-                let speed = band.from_rad_per_s + half * (1.0 - cos);
-                let modes = model.modes(speed)?;
-                let growth = modes.iter().map(Mode::growth_per_s).fold(0.0, f64::max);
-                sum += weight * sin * growth;
-            }
-            Ok(BandGrowth {
-                exponent: sum * half / rate_rad_per_s2,
-            })
-        })
-        .collect()
 }

@@ -28,7 +28,7 @@ fn free_critical_rpm(model: &SpectralModel, diameters: usize) -> f64 {
     speeds[0]
 }
 
-/// No pad, hence nothing calibrated: the paper itself says 1475 rpm for the first.
+/// No pad, hence nothing calibrated. The paper gives none of these: its 1475 rpm is of the guided saw.
 #[test]
 fn free_critical_speeds() {
     let model = free_model();
