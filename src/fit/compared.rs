@@ -33,8 +33,6 @@ pub(crate) struct Compared {
 const CURVE_SPEEDS: usize = 121;
 /// They reach a little past the last fitted speed.
 const BEYOND: f64 = 1.12;
-/// A fit at rest alone is drawn a little way, for there has to be an axis.
-const LEAST_RPM: f64 = 100.0;
 
 /// The `count` lowest frequencies at speeds in rpm, in Hz.
 fn frequencies_hz(
@@ -59,10 +57,7 @@ impl Compared {
         resolution: Resolution,
     ) -> Result<Self, SpectrumError> {
         let used = measured.up_to(to_rpm);
-        let top = match used.top_rpm() {
-            rpm if rpm > 0.0 => BEYOND * rpm,
-            _ => LEAST_RPM,
-        };
+        let top = BEYOND * used.end_of_range_rpm();
         let [before, fitted] = scenes.map(|scene| LowestModes::new(&Plate::new(scene, resolution)));
         let of = |rpm: Vec<f64>, measurement: &Measurement| -> Result<_, SpectrumError> {
             let depth = measurement.depth();

@@ -26,6 +26,8 @@ pub struct Row {
 /// Rows and frequencies beyond these are no table that a person measured.
 const MAX_ROWS: usize = 1000;
 const MAX_COLUMNS: usize = 24;
+/// A range of speeds has to have a length, however little a frequency at rest needs of it.
+const LEAST_RPM: f64 = 100.0;
 /// As far as scenes go, in Hz.
 const MAX_HZ: f64 = 1e9;
 
@@ -113,6 +115,15 @@ impl Measurement {
     /// Largest speed.
     pub fn top_rpm(&self) -> f64 {
         self.rows.iter().fold(0.0, |top, row| row.rpm.max(top))
+    }
+
+    /// End of a range of speeds that holds those measured: of a tap test at rest, of which every speed is zero, a
+    /// little above it.
+    pub(super) fn end_of_range_rpm(&self) -> f64 {
+        match self.top_rpm() {
+            rpm if rpm > 0.0 => rpm,
+            _ => LEAST_RPM,
+        }
     }
 
     /// How many of the lowest frequencies any row takes.

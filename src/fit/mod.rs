@@ -113,8 +113,8 @@ pub struct FittedParameter {
     pub start: f64,
     /// What fits best.
     pub value: f64,
-    /// Where the truth is with the confidence asked for; `None` at a bound, and where the data
-    /// do not tell this number from others.
+    /// Where the truth is with the confidence asked for; `None` at a bound, and where the data do not determine this
+    /// number: they do not tell it from others, or leave it an interval wider than the distance between its bounds.
     pub interval: Option<(f64, f64)>,
     /// Whether it rests on a bound.
     pub at_bound: bool,
@@ -263,6 +263,9 @@ fn moving(
     effective(scene, freed, &LOOKED_AT, residuals, differ)
 }
 
+/// Half of the distance between the bounds: who gave them knew as much.
+const WIDEST_HALF: f64 = 0.5;
+
 /// Every number with what was found for it, from shares of its bounds.
 fn parameters(
     scene: &Scene,
@@ -276,10 +279,9 @@ fn parameters(
             freed: freed.clone(),
             start: freed.parameter.get(scene.file())?,
             value: freed.value(shares[k]),
-            // Of a number that is hardly determined the ends may outgrow every number.
             interval: half_widths[k]
-                .map(|h| (end(-h), end(h)))
-                .filter(|(from, to)| from.is_finite() && to.is_finite()),
+                .filter(|h| *h <= WIDEST_HALF)
+                .map(|h| (end(-h), end(h))),
             at_bound: at_bound(shares[k]),
         })
     });
@@ -298,7 +300,7 @@ fn basis(
 ) -> Result<(Resolution, f64), FitError> {
     let swept = scene.swept(SpeedRange {
         from_rad_per_s: 0.0,
-        to_rad_per_s: rad_per_s(measurement.top_rpm()),
+        to_rad_per_s: rad_per_s(measurement.end_of_range_rpm()),
     })?;
     let chosen = ChosenBasis::new(&swept, tolerance)?;
     Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))

@@ -25,6 +25,9 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
             report.measured_frequencies, report.source, report.rms_hz, report.rms_before_hz
         ))
     )?;
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
     writeln!(
         text,
         "\n  {:<34} {:>10} {:>10}  {:.0} % interval",
@@ -68,11 +71,7 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
         report.starts.iter().filter(reached).count(),
         report.max_diameters,
         report.radial_functions
-    )?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    )
 }
 
 /// Lines and columns of the table before the rest is only counted.
@@ -88,7 +87,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
     speeds.dedup();
     for rpm in speeds.iter().take(ROWS) {
         let own = report.residuals.iter().filter(|r| r.rpm == *rpm);
-        let mut line = format!("{rpm:>8.0}");
+        let mut line = format!("{:>8}", (100.0 * rpm).round() / 100.0);
         let mut fitted = true;
         for r in own {
             if r.place <= COLUMNS {

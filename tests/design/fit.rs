@@ -365,3 +365,82 @@ fn a_start_outside_the_bounds_is_reported_as_it_is() {
         1e-9,
     );
 }
+
+/// A tap test has no speed but zero: the pad comes back from frequencies at rest of a finer basis.
+#[test]
+fn a_tap_test_at_rest_gives_the_pad_back() {
+    let saw = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
+    let saw = saw.unwrap();
+    let numbers = [(RADIUS, 0.24), (STIFFNESS, 9e6)];
+    let fine = Resolution {
+        max_diameters: 16,
+        radial_functions: 10,
+    };
+    let truth = LowestModes::new(&Plate::new(&with(&saw, &numbers), fine));
+    let modes = truth.at(0.0, 6).unwrap();
+    let taps: Vec<_> = modes.iter().map(|m| Some(m.lambda.im / TAU)).collect();
+    let measurement = Measurement {
+        source: "taps".into(),
+        rows: vec![Row::new(0.0, &taps)],
+    };
+    let free = freed(&saw, &[(RADIUS, 0.1, 0.355), (STIFFNESS, 1e5, 1e9)]);
+    let options = Options {
+        starts: 4,
+        ..Options::default()
+    };
+    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    for (p, (path, value)) in fit.parameters.iter().zip(numbers) {
+        assert_close(path, p.value, value, 0.03);
+    }
+}
+
+/// Frequencies that no such saw has, far above its own: what is left over is of their size, and Student's interval is
+/// wider than the bounds are apart.
+#[test]
+fn a_saw_that_does_not_have_the_frequencies_is_told_so() {
+    let saw = scene("paper");
+    let row = |rpm: f64, hz: [f64; 4]| Row::new(rpm, &hz.map(Some));
+    let measurement = Measurement {
+        source: "another saw".into(),
+        rows: vec![
+            row(0.0, [90.0, 105.0, 126.0, 143.0]),
+            row(250.0, [55.0, 140.0, 165.0, 242.0]),
+        ],
+    };
+    let free = freed(&saw, &[(RADIUS, 0.15, 0.3), (STIFFNESS, 1e6, 1e8)]);
+    let options = Options {
+        starts: 2,
+        resolution: Some(SMALL),
+        ..Options::default()
+    };
+    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let report = FitReport::new(&fit);
+    let warned = |words: &str| report.warnings.iter().any(|w| w.contains(words));
+    assert!(fit.rms_hz > 60.0 && warned("does not have these frequencies"));
+    for found in &report.parameters {
+        let none = found.interval_from.is_none() && found.interval_to.is_none();
+        assert!(none, "{found:?}");
+        let open = format!("do not determine {}", found.path);
+        assert!(found.at_bound || warned(&open), "{:?}", report.warnings);
+    }
+}
+
+#[test]
+fn speeds_in_thousands_of_rpm_are_noticed() {
+    let saw = scene("paper");
+    let mut measurement = table_5(&saw);
+    for row in &mut measurement.rows {
+        row.rpm /= 1000.0;
+    }
+    let free = freed(&saw, &[(RADIUS, 0.15, 0.3)]);
+    let options = Options {
+        starts: 1,
+        resolution: Some(SMALL),
+        ..Options::default()
+    };
+    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let summary = FitReport::new(&fit).summary();
+    let summary = summary.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = "are these thousands of rpm? That would be 1250 rpm";
+    assert!(summary.contains(said), "{summary}");
+}
