@@ -56,6 +56,52 @@ pub struct NamedCriticalSpeed {
     pub shape: Col<f64>,
 }
 
+/// Share of a speed by which it is clear of a critical speed: λ² passes through zero there, and is told from zero by far
+/// at half this distance, even where two waves of a free blade stand at once.
+const CLEAR: f64 = 2e-4;
+
+/// The range over which bands are searched for that are asked for within another: a little wider, with ends at which
+/// no eigenvalue is next to zero and, but by chance, none is about to coalesce where the range asked for ends at a
+/// band's edge.
+pub(crate) fn searched_range(
+    critical: &[NamedCriticalSpeed],
+    (from, to): (f64, f64),
+) -> (f64, f64) {
+    let [below, above] = [from * (1.0 - CLEAR), to * (1.0 + CLEAR)];
+    (clear_below(critical, below), clear_above(critical, above))
+}
+
+/// The speeds of a range from the first to the last at which no eigenvalue is next to zero.
+pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64)) -> (f64, f64) {
+    let clear = (clear_above(critical, from), clear_below(critical, to));
+    match clear.0 < clear.1 {
+        true => clear,
+        false => (from, to),
+    }
+}
+
+/// The lowest speed from one on that is clear of every critical speed.
+fn clear_above(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
+    let critical = critical.iter().map(|c| c.speed_rad_per_s);
+    critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {
+        true => speed,
+        false => c * (1.0 + CLEAR),
+    })
+}
+
+/// The highest speed up to one that is clear of every critical speed.
+fn clear_below(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
+    let critical = critical.iter().rev().map(|c| c.speed_rad_per_s);
+    critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {
+        true => speed,
+        false => c * (1.0 - CLEAR),
+    })
+}
+
+fn is_clear(speed_rad_per_s: f64, critical_rad_per_s: f64) -> bool {
+    (speed_rad_per_s / critical_rad_per_s - 1.0).abs() >= CLEAR
+}
+
 /// Critical speeds of the components of a plate, all together ascending, with the names of their waves.
 pub(super) fn named(
     plate: &Plate,

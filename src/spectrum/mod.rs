@@ -64,9 +64,9 @@ pub(crate) use companion::time_scale;
 #[doc(hidden)]
 pub use component::Component;
 pub use critical::NamedCriticalSpeed;
-pub(crate) use critical::standing_name;
 #[doc(hidden)]
 pub use critical::{CriticalSpeed, critical_speeds};
+pub(crate) use critical::{clear_range, searched_range, standing_name};
 pub use error::SpectrumError;
 pub(crate) use growth::fastest_growing;
 #[doc(hidden)]

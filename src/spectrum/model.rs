@@ -14,7 +14,7 @@ use crate::plate::Plate;
 use super::assembled::Assembled;
 use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution};
-use super::critical::NamedCriticalSpeed;
+use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
@@ -84,7 +84,7 @@ const STRUCTURED: usize = 200;
 pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
-    /// Prepares the modes for a range of speeds, (from, to) in rad/s.
+    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for a search of the bands within it.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -142,7 +142,8 @@ impl SpectralModel {
     }
 
     /// Projects each component on the low modes of a few speeds.
-    fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+    fn reduce(&mut self, asked: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+        let range = searched_range(&self.critical, asked);
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
         let is_large = self.plate.degrees_of_freedom() >= STRUCTURED;

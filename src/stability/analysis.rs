@@ -200,7 +200,7 @@ impl Analysis {
     /// With what is told of an analysis as a whole.
     fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
         if let Some(speed) = self.scene.operating_rad_per_s() {
-            self.fastest_operating = self.fastest(speed)?;
+            self.look_at_operating(speed)?;
         }
         if let Some(listed) = listed {
             self.close_list(listed)?;
@@ -247,17 +247,20 @@ impl Analysis {
         Ok(())
     }
 
-    /// λ of the mode that grows fastest at a speed, or decays most slowly; `None` outside the
-    /// sweep.
-    fn fastest(&self, speed_rad_per_s: f64) -> Result<Option<c64>, SpectrumError> {
+    /// Finds the mode that grows fastest at the operating speed, or decays most slowly, and holds the bands against the
+    /// modes there: the verdict follows from the bands alone. Nothing outside the sweep.
+    fn look_at_operating(&mut self, speed_rad_per_s: f64) -> Result<(), SpectrumError> {
         if self.verdict(speed_rad_per_s).state == StabilityState::OutsideSweep {
-            return Ok(None);
+            return Ok(());
         }
         let modes = self.model.modes(speed_rad_per_s)?;
+        self.chart
+            .hold_against(&self.model, speed_rad_per_s, &modes)?;
         let growing = modes
             .iter()
             .map(|m| c64::new(m.growth_per_s(), m.lambda.im));
-        Ok(growing.max_by(|x, y| x.re.total_cmp(&y.re)))
+        self.fastest_operating = growing.max_by(|x, y| x.re.total_cmp(&y.re));
+        Ok(())
     }
 
     /// Every band of instability within the range of speeds, by onset.

@@ -5,6 +5,7 @@ use super::certificate::{Certificate, Mismatch, mismatches};
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::SignatureEvaluator;
 use super::flutter::flutter;
+use super::found::Found;
 use super::full_basis::{FullBasis, Miscount};
 use super::proof::Proof;
 use super::search::{Path, least_beside};
@@ -31,10 +32,11 @@ const BESIDE: f64 = 0.02;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
-/// Every band between the first and the last of the speeds, which begin no later than the lowest
-/// critical one. Where modes are miscounted the bands are searched again on the whole basis.
+/// Every band within a range, searched for between the first and the last of some speeds, which begin no later than
+/// the range or the lowest critical speed. Where modes are miscounted the bands are searched again on the whole basis.
 pub(super) fn bands(
     model: &SpectralModel,
+    range: (f64, f64),
     speeds: &[f64],
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
@@ -43,7 +45,7 @@ pub(super) fn bands(
         model,
         SignatureEvaluator::new(model, speeds)?,
         &full,
-        speeds,
+        (range, speeds),
         depth,
     )?;
     if found.1.miscounts.is_empty() {
@@ -54,7 +56,7 @@ pub(super) fn bands(
         return Ok(found);
     }
     let whole = SignatureEvaluator::on_whole_basis(model, speeds)?;
-    let (instabilities, mut certificate) = searched(model, whole, &full, speeds, depth)?;
+    let (instabilities, mut certificate) = searched(model, whole, &full, (range, speeds), depth)?;
     certificate.searched_again = true;
     Ok((instabilities, certificate))
 }
@@ -63,7 +65,7 @@ fn searched(
     model: &SpectralModel,
     evaluator: SignatureEvaluator<'_>,
     full: &Option<FullBasis<'_>>,
-    speeds: &[f64],
+    (range, speeds): ((f64, f64), &[f64]),
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let signatures = evaluator.at_all(speeds)?;
@@ -77,18 +79,67 @@ fn searched(
         return Ok((Vec::new(), certificate));
     };
     let path = Path::search(&evaluator, signatures)?;
-    let mut bands = divergence(model, &evaluator, &path)?;
-    bands.extend(close_pairs(model, &evaluator, speeds)?);
-    bands.extend(flutter(&evaluator, &path)?);
-    bands.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
+    let mut found = divergence(model, &evaluator, &path, range)?;
+    found.extend(close_pairs(model, &evaluator, speeds, range)?);
+    found.extend(flutter(&evaluator, &path, range)?);
+    let (mut bands, mut within) = (Vec::new(), Vec::new());
+    for Found {
+        whole,
+        within: part,
+    } in found
+    {
+        bands.push(whole);
+        within.extend(part);
+    }
+    let by_onset = |x: &Instability, y: &Instability| x.from_rad_per_s.total_cmp(&y.from_rad_per_s);
+    bands.sort_by(by_onset);
+    within.sort_by(by_onset);
     let checks = Checks {
         evaluator: &evaluator,
         full,
         bands: &bands,
         path: &path,
     };
-    let certificate = checks.certificate(depth)?;
-    Ok((bands, certificate))
+    let mut certificate = checks.certificate(depth)?;
+    if let Some(unproven) = &mut certificate.unproven_rad_per_s {
+        unproven.extend(unsearched(model, range, speeds));
+        *unproven = clipped(unproven, range);
+    }
+    Ok((within, certificate))
+}
+
+/// What of a range lies outside the speeds of a search. Below the lowest critical speed there is nothing to search for.
+fn unsearched(
+    model: &SpectralModel,
+    (from, to): (f64, f64),
+    speeds: &[f64],
+) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let lowest = model.critical.first();
+    let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
+    let (first, last) = match speeds {
+        [first, .., last] => (*first, *last),
+        [only] => (*only, *only),
+        [] => (f64::INFINITY, f64::NEG_INFINITY),
+    };
+    [(from.max(lowest), first.min(to)), (last.max(from), to)].into_iter()
+}
+
+/// Stretches within a range, ascending and joined where they touch.
+fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
+    let mut clipped: Vec<(f64, f64)> = stretches
+        .iter()
+        .map(|(from, to)| (from.max(range.0), to.min(range.1)))
+        .filter(|(from, to)| from < to)
+        .collect();
+    clipped.sort_by(|x, y| x.0.total_cmp(&y.0));
+    clipped.dedup_by(|next, last| {
+        let touches = next.0 <= last.1;
+        if touches {
+            last.1 = last.1.max(next.1);
+        }
+        touches
+    });
+    clipped
 }
 
 /// A list of bands, and what it is held against.
@@ -198,7 +249,7 @@ pub(super) fn drawn_share(k: u64) -> f64 {
 
 /// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
 /// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
-const GROWTH_FLOOR: f64 = 1e-5;
+pub(super) const GROWTH_FLOOR: f64 = 1e-5;
 
 /// Where a list of bands contradicts the modes found at some speeds.
 pub(super) fn contradictions(

@@ -2,12 +2,14 @@
 
 use super::band::Instability;
 use super::certificate::Certificate;
+use super::certified::{GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::detail::Detail;
 use super::error::AnalysisError;
+use super::signature::Signature;
 use super::undamped;
 use crate::campbell::{Campbell, Progress};
-use crate::spectrum::SpectralModel;
+use crate::spectrum::{Mode, SpectralModel, SpectrumError};
 
 /// Speeds of a chart, before those that its events add.
 pub(super) const CHART_SPEEDS: usize = 51;
@@ -21,6 +23,33 @@ pub struct StabilityChart {
     pub instabilities: Vec<Instability>,
     /// Krein index against spectrum.
     pub certificate: Certificate,
+}
+
+impl StabilityChart {
+    /// Holds the bands against the modes of one more speed: what grows there and is in no band contradicts them.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(super) fn hold_against(
+        &mut self,
+        model: &SpectralModel,
+        speed_rad_per_s: f64,
+        modes: &[Mode],
+    ) -> Result<(), SpectrumError> {
+        let (bands, certificate) = (&self.instabilities, &mut self.certificate);
+        match model.is_conservative() {
+            true => {
+                let signature = Signature::new(speed_rad_per_s, modes.iter());
+                let wrong = contradictions(bands, &[signature], GROWTH_FLOOR);
+                certificate.mismatches.extend(wrong);
+            }
+            false => {
+                let wrong = damped::contradicted(model, bands, speed_rad_per_s)?;
+                certificate.violations_rad_per_s.extend(wrong);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Charts a range of speeds, sampled at `count` even speeds and where it matters.

@@ -1,7 +1,8 @@
 //! Divergence: a real λ > 0, from one critical speed to the next.
 
 use super::band::{Instability, InstabilityKind};
-use super::evaluator::{CRITICAL_GROUP, SignatureEvaluator};
+use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
+use super::found::Found;
 use super::maximum::{Sample, maximise};
 use super::pair_continuation::Coalescence;
 use super::search::{Event, Path};
@@ -14,7 +15,8 @@ pub(super) fn divergence(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     path: &Path,
-) -> Result<Vec<Instability>, SpectrumError> {
+    range: (f64, f64),
+) -> Result<Vec<Found>, SpectrumError> {
     let signatures = &path.signatures;
     let is_unstable = |index: usize| !signatures[index].real.is_empty();
     let mut bands = Vec::new();
@@ -30,7 +32,10 @@ pub(super) fn divergence(
                 (next < signatures.len()).then_some(next),
                 index,
             );
-            bands.push(band(evaluator, &signatures[first..next], [begins, ends])?);
+            let unstable = &signatures[first..next];
+            bands.push(Found::new(range, |limits| {
+                band(evaluator, unstable, [begins, ends], limits)
+            })?);
             start = None;
         }
     }
@@ -43,8 +48,10 @@ const PARTS: usize = 8;
 fn band(
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
-    [(from, begins), (to, ends)]: [(f64, Edge); 2],
+    [(begin, begins), (end, ends)]: [(f64, Edge); 2],
+    limits: (f64, f64),
 ) -> Result<Instability, SpectrumError> {
+    let (from, to) = (begin.max(limits.0), end.min(limits.1));
     let of = |signature: &Signature| {
         signature.divergence().map(|mode| Sample {
             at: signature.speed_rad_per_s,
@@ -54,8 +61,14 @@ fn band(
     };
     let mut samples: Vec<Sample> = signatures.iter().filter_map(of).collect();
     let at = |speed: f64| Ok(of(&evaluator.at(speed)?));
-    for part in 1..PARTS {
-        samples.extend(at(from + (to - from) * part as f64 / PARTS as f64)?);
+    let parts = (1..PARTS).map(|part| from + (to - from) * part as f64 / PARTS as f64);
+    let is_clear = |speed: &f64| {
+        [begin, end]
+            .iter()
+            .all(|edge| (speed / edge - 1.0).abs() > CRITICAL_GAP.get())
+    };
+    for speed in parts.filter(is_clear) {
+        samples.extend(at(speed)?);
     }
     // λ² passes linearly through zero at a critical speed: the chord is its slope.
     let zero = |at: f64| Sample {
@@ -63,8 +76,13 @@ fn band(
         value: 0.0,
         slope: f64::NAN,
     };
-    samples.extend((begins == Edge::Critical).then(|| zero(from)));
-    samples.extend((ends == Edge::Critical).then(|| zero(to)));
+    samples.extend((begins == Edge::Critical).then(|| zero(begin)));
+    samples.extend((ends == Edge::Critical).then(|| zero(end)));
+    let cuts = [(begin < from).then_some(from), (to < end).then_some(to)];
+    for cut in cuts.into_iter().flatten() {
+        let value = evaluator.divergence(cut)?.powi(2);
+        samples.push(Sample { value, ..zero(cut) });
+    }
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximise(samples, at)?;
@@ -103,30 +121,40 @@ pub(super) fn close_pairs(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     speeds: &[f64],
-) -> Result<Vec<Instability>, SpectrumError> {
+    range: (f64, f64),
+) -> Result<Vec<Found>, SpectrumError> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Ok(Vec::new());
     };
     let close = |pair: &[f64]| (1e-12..=CRITICAL_GROUP).contains(&(pair[1] / pair[0] - 1.0));
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    let mut bands = Vec::new();
-    for (below, pair) in critical.windows(2).enumerate() {
-        if below % 2 == 1 || pair[0] < first || pair[1] > last || !close(pair) {
-            continue;
-        }
-        let peak = 0.5 * (pair[0] + pair[1]);
-        bands.push(Instability {
-            kind: InstabilityKind::Divergence,
-            from_rad_per_s: pair[0],
-            to_rad_per_s: pair[1],
-            closed: true,
-            peak_rad_per_s: peak,
-            peak_growth_per_s: evaluator.divergence(peak)?,
-            frequency_rad_per_s: 0.0,
-            curve: Vec::new(),
-        });
-    }
-    Ok(bands)
+    let pairs = critical.windows(2).enumerate();
+    let pairs = pairs.filter(|(below, pair)| {
+        below % 2 == 0 && first <= pair[0] && pair[1] <= last && close(pair)
+    });
+    pairs
+        .map(|(_, pair)| Found::new(range, |limits| between(evaluator, pair, limits)))
+        .collect()
+}
+
+/// The band between two critical speeds as close as that, within limits: its growth hardly changes.
+fn between(
+    evaluator: &SignatureEvaluator<'_>,
+    critical: &[f64],
+    limits: (f64, f64),
+) -> Result<Instability, SpectrumError> {
+    let (from, to) = (critical[0].max(limits.0), critical[1].min(limits.1));
+    let peak = 0.5 * (from + to);
+    Ok(Instability {
+        kind: InstabilityKind::Divergence,
+        from_rad_per_s: from,
+        to_rad_per_s: to,
+        closed: true,
+        peak_rad_per_s: peak,
+        peak_growth_per_s: evaluator.divergence(peak)?,
+        frequency_rad_per_s: 0.0,
+        curve: Vec::new(),
+    })
 }
 
 /// What a stretch of divergence begins or ends at.

@@ -55,19 +55,36 @@ pub fn maximise(
     Ok(greatest(&samples))
 }
 
-/// Share of the way and value of the largest f that the cubic between two samples promises.
-fn promise(ends: &[Sample]) -> (f64, f64) {
+/// The function at a speed by the cubic between its neighbours among samples of ascending speeds, or that of the sample
+/// at the end beyond which it lies; zero without samples.
+pub fn between(samples: &[Sample], at: f64) -> f64 {
+    let place = samples.partition_point(|sample| sample.at < at);
+    match samples.get(place.saturating_sub(1)..=place) {
+        Some(ends @ [before, after]) => cubic(ends).at((at - before.at) / (after.at - before.at)),
+        _ => samples
+            .get(place)
+            .or(samples.last())
+            .map_or(0.0, |sample| sample.value),
+    }
+}
+
+/// That between two samples.
+fn cubic(ends: &[Sample]) -> Cubic {
     let width = ends[1].at - ends[0].at;
     let secant = ends[1].value - ends[0].value;
     let slope = |sample: &Sample| match sample.slope.is_finite() {
         true => sample.slope * width,
         false => secant,
     };
-    let cubic = Cubic {
+    Cubic {
         values: [ends[0].value, ends[1].value],
         slopes: [slope(&ends[0]), slope(&ends[1])],
-    };
-    let (share, value) = cubic.highest();
+    }
+}
+
+/// Share of the way and value of the largest f that the cubic between two samples promises.
+fn promise(ends: &[Sample]) -> (f64, f64) {
+    let (share, value) = cubic(ends).highest();
     // Next to an end the cubic says no more than the sample there.
     if (1e-6..=1.0 - 1e-6).contains(&share) {
         (share, value)

@@ -20,6 +20,7 @@ mod estimate;
 mod evaluator;
 mod excitation;
 mod flutter;
+mod found;
 mod full_basis;
 mod growing;
 mod heat;

@@ -87,10 +87,8 @@ pub enum Passage {
 /// A band between two speeds at which the pair is apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NarrowBand {
-    /// Onset, in rad/s.
-    pub from_rad_per_s: f64,
-    /// End, in rad/s.
-    pub to_rad_per_s: f64,
+    /// Onset and end.
+    pub edges: [Edge; 2],
     /// Speed of the largest growth, in rad/s.
     pub peak_rad_per_s: f64,
     /// Largest growth.
@@ -136,7 +134,7 @@ impl<'a> PairContinuation<'a> {
     }
 
     /// Follows the pair to a speed. `None` where it is lost.
-    fn to(&self, speed: f64) -> Option<Self> {
+    pub fn to(&self, speed: f64) -> Option<Self> {
         Some(PairContinuation {
             evaluator: self.evaluator,
             pair: self.evaluator.moved(&self.pair, speed)?,
@@ -263,7 +261,7 @@ impl<'a> PairContinuation<'a> {
     }
 
     /// σ² with its slope, for the search of its maximum.
-    fn sample(&self) -> Sample {
+    pub fn sample(&self) -> Sample {
         let ([slope, _], _) = self.derivatives(NEWTON_DIFFERENCE.get());
         Sample {
             at: self.speed,
@@ -352,10 +350,9 @@ pub fn passage(
     let Some(edges) = from.zip(to) else {
         return Ok(None);
     };
-    let (peak, fastest) = vertex.fastest([edges.0, edges.1])?;
+    let (peak, fastest) = vertex.fastest(edges.into())?;
     Ok(Some(Passage::Band(NarrowBand {
-        from_rad_per_s: edges.0.speed_rad_per_s,
-        to_rad_per_s: edges.1.speed_rad_per_s,
+        edges: edges.into(),
         peak_rad_per_s: peak,
         growth_per_s: fastest[0].max(0.0).sqrt(),
         frequency_rad_per_s: fastest[1].max(0.0).sqrt(),

@@ -40,7 +40,7 @@ const CLOSING: f64 = 0.1;
 const LONGEST: Tuned = Tuned::new("stability/proof::LONGEST", 0.5);
 
 impl Proof<'_> {
-    /// Stretches between ascending signatures that are not proven, joined where they touch.
+    /// Stretches between ascending signatures that are not proven.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -67,15 +67,7 @@ impl Proof<'_> {
             .windows(2)
             .filter(|pair| !is_uncritical(&pair[0], &pair[1]));
         open.extend(critical.map(|pair| (pair[0].speed, pair[1].speed)));
-        open.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let mut joined: Vec<(f64, f64)> = Vec::new();
-        for (from, to) in open {
-            match joined.last_mut() {
-                Some(last) if last.1 >= from => last.1 = to,
-                _ => joined.push((from, to)),
-            }
-        }
-        Ok(joined)
+        Ok(open)
     }
 
     fn end(&self, signature: &Signature) -> End {

@@ -8,7 +8,7 @@ use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, Progress, SpeedSample};
-use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
 use crate::tuned::Tuned;
 
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
@@ -26,30 +26,27 @@ pub(super) fn charted(
     detail: Detail,
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
-    let even = campbell::even_speeds(range, count);
+    let drawn = clear_range(&model.critical, range);
+    let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
-        Detail::Full => with_critical_speeds(model, range, even),
+        Detail::Full => with_critical_speeds(model, drawn, even),
         // A curve that is followed through zero needs no speeds beside it.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
-        Detail::Sketch => with_critical_speeds(model, range, even),
+        Detail::Sketch => with_critical_speeds(model, drawn, even),
     };
     // A free blade has no bands to search for, and is only held against the Krein index.
     let search = match model.plate.is_axisymmetric() {
-        true => speeds.clone(),
-        false => {
-            let even = campbell::even_speeds(range, SEARCH_SPEEDS.count());
-            with_critical_speeds(model, range, even)
-        }
+        true => from_lowest_critical(model, speeds.clone()),
+        false => search_speeds(model, range, SEARCH_SPEEDS.count()),
     };
     let (within_bands, closeness, depth) = match detail {
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
     };
-    let search = from_lowest_critical(model, &search);
     campbell::check_room(model, &speeds)?;
     let (samples, found) = rayon::join(
         || campbell::sample(model, &speeds, progress),
-        || bands(model, search, depth),
+        || bands(model, range, &search, depth),
     );
     let (mut samples, (instabilities, mut certificate)) = (samples?, found?);
     let room = campbell::room_for_more(model, &samples);
@@ -70,7 +67,8 @@ fn signature_of(sample: &SpeedSample) -> Signature {
 }
 
 /// Every band of an undamped blade in a range of speeds, searched from `count` even
-/// speeds and both sides of every critical one, and the proof that none is missing.
+/// speeds and both sides of every critical one, and the proof that none is missing. One in which the range begins
+/// or ends is cut there.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -79,8 +77,16 @@ pub fn undamped_bands(
     range: (f64, f64),
     count: usize,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
-    bands(model, from_lowest_critical(model, &speeds), Depth::Counts)
+    let speeds = search_speeds(model, range, count);
+    bands(model, range, &speeds, Depth::Counts)
+}
+
+/// Speeds from which the bands of a range are searched for: `count` even ones and both sides of every critical one. The
+/// first and the last are a little outside the range, clear of every critical speed.
+pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
+    let searched = searched_range(&model.critical, range);
+    let even = campbell::even_speeds(searched, count);
+    from_lowest_critical(model, with_critical_speeds(model, searched, even))
 }
 
 /// Share of |ω| + Ω below which growth of a mode that is only drawn is not held against the bands: frequencies are right to
@@ -89,11 +95,12 @@ const DRAWN_FLOOR: f64 = 1e-3;
 
 /// Ascending speeds without those at which nothing can be unstable: below its lowest critical
 /// speed K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
-fn from_lowest_critical<'a>(model: &SpectralModel, speeds: &'a [f64]) -> &'a [f64] {
+fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let lowest = model.critical.first();
     let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
     let below = speeds.partition_point(|speed| *speed < lowest);
-    &speeds[below.saturating_sub(1)..]
+    speeds.drain(..below.saturating_sub(1));
+    speeds
 }
 
 /// Critical speeds closer than this, relatively, are one double critical speed: that of a wave

@@ -44,7 +44,7 @@ prop_compose! {
 
 /// The bands at a speed against the growing eigenvalues: as many, of the same kind, none with
 /// more growth than the peak of its band, each with the growth of a band's curve.
-fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), String> {
+pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), String> {
     let covering: Vec<&Instability> = bands
         .iter()
         .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s)

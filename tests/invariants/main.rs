@@ -18,6 +18,7 @@ mod survivors;
 mod band_lists;
 mod certified_bands;
 mod charts;
+mod cut_ranges;
 mod damped;
 mod fuzz;
 mod properties;

@@ -1,18 +1,20 @@
 use super::*;
-use crate::campbell::even_speeds;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Accuracy, Scene, rad_per_s, rpm};
 use crate::spectrum::Strategy;
-use crate::stability::undamped::with_critical_speeds;
+use crate::stability::undamped::search_speeds;
 
 fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
     let range = (0.0, rad_per_s(3000.0));
     let plate = Plate::new(&Scene::paper(), Resolution::of(accuracy));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    let speeds = with_critical_speeds(&model, range, even_speeds(range, 25));
-    let lowest = model.critical[0].speed_rad_per_s;
-    let below = speeds.partition_point(|speed| *speed < lowest);
-    (model, speeds[below - 1..].to_vec())
+    let speeds = search_speeds(&model, range, 25);
+    (model, speeds)
+}
+
+/// From rest to the end of a search, so that nothing that it finds is cut.
+fn whole(speeds: &[f64]) -> (f64, f64) {
+    (0.0, speeds[speeds.len() - 1])
 }
 
 /// The paper's saw, its list of bands, and the speeds that gave it.
@@ -24,7 +26,7 @@ struct Sound {
 
 fn sound() -> Sound {
     let (model, speeds) = paper(Accuracy::Draft);
-    let (bands, certificate) = bands(&model, &speeds, Depth::Proof).unwrap();
+    let (bands, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
     assert!(certificate.is_clean(), "{certificate:?}");
     assert!(!certificate.searched_again && certificate.full_basis_counts > 80);
     Sound {
@@ -116,12 +118,19 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
         model.lose_wave(rad_per_s(speed), place);
         let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
         let full = FullBasis::new(&model);
-        let (_, certificate) = searched(&model, evaluator, &full, &speeds, Depth::Counts).unwrap();
+        let (_, certificate) = searched(
+            &model,
+            evaluator,
+            &full,
+            (whole(&speeds), &speeds),
+            Depth::Counts,
+        )
+        .unwrap();
         assert!(
             !certificate.miscounts.is_empty(),
             "{speed} {place}: {certificate:?}"
         );
-        let (found, certificate) = bands(&model, &speeds, Depth::Proof).unwrap();
+        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
         assert!(
             certificate.searched_again && certificate.is_clean(),
             "{certificate:?}"
@@ -156,10 +165,17 @@ fn a_projection_on_too_few_speeds_is_found_out() {
         model.keep_modes_of(&kept);
         let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
         let full = FullBasis::new(&model);
-        let (without, _) = searched(&model, evaluator, &full, &speeds, Depth::Counts).unwrap();
+        let (without, _) = searched(
+            &model,
+            evaluator,
+            &full,
+            (whole(&speeds), &speeds),
+            Depth::Counts,
+        )
+        .unwrap();
         let is_wrong = !are_same(&without, &sound.bands, 1e-4);
         wrong += usize::from(is_wrong);
-        let (found, certificate) = bands(&model, &speeds, Depth::Proof).unwrap();
+        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
         assert!(certificate.searched_again || !is_wrong, "{kept:?}");
         assert!(are_same(&found, &sound.bands, 1e-4), "{kept:?}");
         assert!(certificate.is_clean(), "{kept:?} {certificate:?}");
@@ -217,7 +233,7 @@ fn cost_of_the_proof() {
     for accuracy in [Accuracy::Design, Accuracy::Reference] {
         let (model, speeds) = paper(accuracy);
         for depth in [Depth::Counts, Depth::Proof] {
-            let all = || bands(&model, &speeds, depth).unwrap();
+            let all = || bands(&model, whole(&speeds), &speeds, depth).unwrap();
             let (bands, certificate) = timed(&format!("{accuracy:?} {depth:?}"), all);
             println!(
                 "{} bands, {} speeds, {} counts, mismatches {:?}, miscounts {:?}",

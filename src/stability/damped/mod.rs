@@ -21,7 +21,7 @@ use super::certificate::Certificate;
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
 use crate::campbell::{self, Progress, SpeedSample};
-use crate::spectrum::{Assembled, SpectralModel, SpectrumError, Strategy};
+use crate::spectrum::{Assembled, SpectralModel, SpectrumError, Strategy, clear_range};
 use crate::tuned::Tuned;
 use counts::Counts;
 pub(super) use counts::counted_in_window;
@@ -39,8 +39,11 @@ pub(super) fn charted(
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let twin = twin_bands(model, range)?;
-    let mut speeds = with_critical_speeds(model, range, campbell::even_speeds(range, count));
+    let drawn = clear_range(&model.critical, range);
+    let mut speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
+    // Eigenvalues are simple but for single speeds, also where one of them passes through zero.
+    speeds.extend([range.0, range.1]);
     speeds.extend(
         twin.iter()
             .flat_map(|band| [band.from_rad_per_s, band.peak_rad_per_s, band.to_rad_per_s]),
@@ -109,6 +112,20 @@ fn bands(
         ..Certificate::default()
     };
     Ok((instabilities, certificate))
+}
+
+/// The speed, if there are more or fewer growing modes than bands.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub(super) fn contradicted(
+    model: &SpectralModel,
+    bands: &[Instability],
+    speed_rad_per_s: f64,
+) -> Result<Vec<f64>, SpectrumError> {
+    let solver = Solver::new(model);
+    let spectrum = solver.at(speed_rad_per_s)?;
+    Ok(mismatches(&solver, &[spectrum], bands))
 }
 
 /// Speeds at which there are more or fewer growing modes than bands.
