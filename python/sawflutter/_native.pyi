@@ -54,6 +54,7 @@ def check(
     min_flutter_rpm: float | None = None,
     min_critical_rpm: float | None = None,
     max_rim_m_per_s: float = 100.0,
+    accept_unusual: bool = False,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...

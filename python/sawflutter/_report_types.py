@@ -705,6 +705,10 @@ class CampbellReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
     terms: tuple[str, ...]
     """Terms of the equation of motion that were assembled."""
 
@@ -777,7 +781,10 @@ class Criterion(Entry):
     """Short name of the limit, for programs."""
 
     name: str
-    """What is compared, in words."""
+    """What is asked, in words."""
+
+    finding: str
+    """What the saw does, in words."""
 
     found_rpm: float | None
     """What was found; none where there is no such speed within the sweep."""
@@ -812,8 +819,15 @@ class CheckReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
+    accept_unusual: bool
+    """Whether a saw with such numbers may pass."""
+
     passed: bool
-    """Whether every limit is kept."""
+    """Whether every limit is kept, by a saw whose numbers saws have, or that are accepted."""
 
     criteria: tuple[Criterion, ...]
     """Every limit."""
@@ -856,7 +870,7 @@ class CheckReport(Entry):
     """Estimated relative error of the critical speeds."""
 
     warnings: tuple[str, ...]
-    """Remarks on numbers of the scene that are unusual for a saw."""
+    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1114,6 +1128,10 @@ class CutReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
     degrees_of_freedom: int
     """Size of the basis."""
 
@@ -1224,6 +1242,10 @@ class FitReport(Entry):
 
     scene: SceneDict
     """The scene with the numbers found."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
 
     source: str
     """Who measured the frequencies."""
@@ -1461,6 +1483,10 @@ class PlaceReport(Entry):
     scene: SceneDict
     """The scene with the numbers found."""
 
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
     goal: Goal
     """What was made large."""
 
@@ -1585,6 +1611,10 @@ class RunUpReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -1819,6 +1849,10 @@ class StudyReport(Entry):
     scene: SceneDict
     """The saw without deviations."""
 
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
     study: StudyDict
     """The study."""
 
@@ -1946,6 +1980,10 @@ class WashboardReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
 
     rpm: float
     """Rotation speed of the verdict."""

@@ -124,7 +124,9 @@ class Result:
         return type(self).from_json, (self._text,)
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {self._facts()}>"
+        unusual = self.raw.get("unusual_numbers")
+        warned = f"unusual numbers: {'; '.join(unusual)}; " if unusual else ""
+        return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
 
     def _facts(self) -> str:
         """The answer in a line."""
@@ -237,8 +239,10 @@ class CheckResults(Result, CheckReport):
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """Names of the limits that are not kept."""
-        return tuple(criterion.name for criterion in self.criteria if not criterion.passed)
+        """Numbers that no saw has, unless they were accepted, and names of the limits that are not
+        kept."""
+        unusual = () if self.accept_unusual else self.unusual_numbers
+        return unusual + tuple(c.name for c in self.criteria if not c.passed)
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row a limit; needs pandas."""
@@ -258,8 +262,7 @@ class CheckResults(Result, CheckReport):
 
 def _missed(criterion: Criterion) -> str:
     """A limit that is not kept, in the words of the program."""
-    found = "none" if criterion.found_rpm is None else f"{criterion.found_rpm:.1f} rpm"
-    return f"{criterion.name}: {found}, asked {criterion.asked_rpm:.1f} rpm"
+    return f"{criterion.name}: {criterion.finding}"
 
 
 class CutResults(Result, CutReport):

@@ -278,6 +278,7 @@ class Scene:
         min_flutter_rpm: float | None = None,
         min_critical_rpm: float | None = None,
         max_rim_m_per_s: float = 100.0,
+        accept_unusual: bool = False,
         accuracy: Accuracy | None = None,
         tolerance: float | None = None,
     ) -> CheckResults:
@@ -293,6 +294,8 @@ class Scene:
             Least flutter speed and least first critical speed.
         max_rim_m_per_s : float
             Largest speed of the rim.
+        accept_unusual : bool
+            Whether a saw may pass that has numbers no saw has.
 
         Examples
         --------
@@ -301,7 +304,7 @@ class Scene:
         >>> saw.check(operating_rpm=1250, accuracy="draft").passed
         True
         >>> saw.check(operating_rpm=1400, accuracy="draft").failures
-        ('lowest critical speed, operating speed over margin',)
+        ('85 % rule',)
         """
         scene = self.with_accuracy(accuracy, tolerance)
         text = _native.check(
@@ -311,6 +314,7 @@ class Scene:
             min_flutter_rpm=min_flutter_rpm,
             min_critical_rpm=min_critical_rpm,
             max_rim_m_per_s=max_rim_m_per_s,
+            accept_unusual=accept_unusual,
         )
         return CheckResults.from_json(text)
 

@@ -2,7 +2,7 @@
 //! as JSON.
 
 use pyo3::prelude::*;
-use sawflutter::check::{Check, LimitsFile};
+use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::place::{Options as PlaceOptions, Placement};
 use sawflutter::report::{
@@ -75,7 +75,8 @@ pub fn modes(
 #[allow(clippy::too_many_arguments, reason = "they are Python's")]
 #[pyfunction]
 #[pyo3(signature = (scene, *, operating_rpm=None, margin=0.85, min_flutter_rpm=None,
-                    min_critical_rpm=None, max_rim_m_per_s=100.0, progress=None))]
+                    min_critical_rpm=None, max_rim_m_per_s=100.0, accept_unusual=false,
+                    progress=None))]
 pub fn check(
     py: Python<'_>,
     scene: &str,
@@ -84,6 +85,7 @@ pub fn check(
     min_flutter_rpm: Option<f64>,
     min_critical_rpm: Option<f64>,
     max_rim_m_per_s: f64,
+    accept_unusual: bool,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -95,7 +97,10 @@ pub fn check(
     };
     let limits = asked.limits(&scene);
     let limits = limits.and_then(|limits| limits.with_rim_speed(max_rim_m_per_s));
-    let limits = limits.map_err(Failure::from)?;
+    let limits = Limits {
+        accept_unusual,
+        ..limits.map_err(Failure::from)?
+    };
     compute(py, progress, move |_| {
         let check = Check::new(&scene, &limits)?;
         json(&CheckReport::new(&scene, &limits, &check))

@@ -33,7 +33,16 @@ def test_the_truth_of_a_check_is_whether_it_passed(draft: sf.Scene) -> None:
     with pytest.raises(AssertionError) as raised:
         assert draft.check(operating_rpm=1250, min_critical_rpm=1600)
     shown = str(raised.value)
-    assert "lowest critical speed" in shown and "1600" in shown and "153" in shown
+    assert "first critical speed" in shown and "1600" in shown and "153" in shown
+
+
+def test_a_number_in_another_unit_fails_a_check_unless_it_is_accepted(draft: sf.Scene) -> None:
+    failed = draft.check(operating_rpm=1.25)
+    assert not failed.passed
+    assert "thousands of rpm? That would be 1250 rpm" in failed.failures[0]
+    assert failed.unusual_numbers == failed.failures[:1] and "1250 rpm" in repr(failed)
+    accepted = draft.check(operating_rpm=1.25, accept_unusual=True)
+    assert accepted.passed and accepted.failures == ()
 
 
 def test_limits_that_no_check_has_are_refused(draft: sf.Scene) -> None:

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
+use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s, unusual_number};
 use crate::stability::OPERATING_LIMIT;
 
 /// What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a study.
@@ -48,6 +48,7 @@ impl LimitsFile {
             min_flutter_rad_per_s: speed("min_flutter_rpm", self.min_flutter_rpm)?,
             min_critical_rad_per_s: speed("min_critical_rpm", self.min_critical_rpm)?,
             max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+            accept_unusual: false,
         })
     }
 }
@@ -65,6 +66,8 @@ pub struct Limits {
     pub min_critical_rad_per_s: Option<f64>,
     /// Largest speed of the rim.
     pub max_rim_m_per_s: f64,
+    /// Whether a saw with numbers that no saw has may pass.
+    pub accept_unusual: bool,
 }
 
 /// Saws for wood are run with 60 to 90 m/s at the rim, and makers of carbide-tipped blades allow no
@@ -102,7 +105,39 @@ impl Limits {
             min_flutter_rad_per_s: None,
             min_critical_rad_per_s: None,
             max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+            accept_unusual: false,
         }
+    }
+
+    /// Numbers that no saw has: those of a scene, and speeds that are asked for and not in it.
+    pub fn unusual_numbers(&self, scene: &Scene) -> Vec<String> {
+        let file = scene.file();
+        let operating_rpm = rpm(self.operating_rad_per_s);
+        let is_asked = scene.operating_rad_per_s() != Some(self.operating_rad_per_s);
+        let asked = [
+            (
+                "the operating speed",
+                "operating_rpm",
+                is_asked.then_some(operating_rpm),
+            ),
+            (
+                "the least flutter speed",
+                "sweep.to_rpm",
+                self.min_flutter_rad_per_s.map(rpm),
+            ),
+            (
+                "the least critical speed",
+                "sweep.to_rpm",
+                self.min_critical_rad_per_s.map(rpm),
+            ),
+        ];
+        let of_limits = asked
+            .into_iter()
+            .filter_map(|(label, path, value)| unusual_number(file, label, path, value?));
+        file.unusual_numbers()
+            .into_iter()
+            .chain(of_limits)
+            .collect()
     }
 
     /// How far a sweep has to go: past every speed asked for, so that a band that begins there

@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod criteria;
 mod limits;
 mod static_deflection;
 
@@ -22,10 +23,10 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::AnalysisError;
-use crate::stability::{Analysis, Evidence, Instability};
+use crate::stability::{Analysis, AnalysisError};
 use crate::system::GyroscopicSystem;
 
+use criteria::{of_gaps, without_stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
@@ -50,8 +51,10 @@ pub enum CheckError {
 pub struct Criterion {
     /// Which limit, in one word, for tables.
     pub key: &'static str,
-    /// What is compared, in words.
+    /// What is asked, in words.
     pub name: String,
+    /// What the saw does, in words.
+    pub finding: String,
     /// What was found, in rad/s; `None` where there is no such speed within the sweep.
     pub found: Option<f64>,
     /// What was asked, in rad/s.
@@ -76,6 +79,10 @@ pub struct Check {
     /// The same at the operating speed; `None` from the first critical speed on: K(Ω) is not
     /// positive definite there, and force over deflection may be anything, of either sign.
     pub rim_stiffness_n_per_m: Option<f64>,
+    /// Numbers that no saw has, of the scene and of the limits.
+    pub unusual_numbers: Vec<String>,
+    /// Whether a saw with such numbers may pass.
+    pub accept_unusual: bool,
     /// What the speeds were taken from.
     pub analysis: Analysis,
 }
@@ -125,6 +132,8 @@ impl Check {
                 &analysis.chart.instabilities,
                 scene.flutter_threshold_per_s(),
             ),
+            unusual_numbers: limits.unusual_numbers(scene),
+            accept_unusual: limits.accept_unusual,
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
             rim_stiffness_n_per_m: is_stiff.then(|| rim_stiffness_n_per_m(plate, angle, operating)),
             analysis,
@@ -136,145 +145,36 @@ impl Check {
         self.criteria.iter().chain(&self.of_rim_and_gaps)
     }
 
-    /// Whether every limit is kept.
-    pub fn passed(&self) -> bool {
-        self.all_criteria().all(|criterion| criterion.passed)
+    /// Numbers that no saw has, where they keep the check from being passed.
+    fn refused_numbers(&self) -> &[String] {
+        match self.accept_unusual {
+            true => &[],
+            false => &self.unusual_numbers,
+        }
     }
 
-    /// The limits that are not kept, with their numbers in rpm: for assertions.
+    /// Whether every limit is kept, by a saw whose numbers saws have, or that are accepted.
+    pub fn passed(&self) -> bool {
+        self.refused_numbers().is_empty() && self.all_criteria().all(|criterion| criterion.passed)
+    }
+
+    /// Numbers that no saw has, and the limits that are not kept, with their numbers in rpm: for
+    /// assertions.
     pub fn failures(&self) -> Vec<String> {
         let failed = self.all_criteria().filter(|criterion| !criterion.passed);
-        failed.map(Criterion::to_string).collect()
+        let failed = failed.map(Criterion::to_string);
+        self.refused_numbers()
+            .iter()
+            .cloned()
+            .chain(failed)
+            .collect()
     }
 }
 
 impl std::fmt::Display for Criterion {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let found = self
-            .found
-            .map_or("none".into(), |w| format!("{:.1} rpm", rpm(w)));
-        write!(
-            formatter,
-            "{}: {found}, asked {:.1} rpm",
-            self.name,
-            rpm(self.asked)
-        )
+        write!(formatter, "{}: {}", self.name, self.finding)
     }
-}
-
-impl Limits {
-    /// Every limit held against the speeds and bands of a saw, in rad/s; bands that grow more
-    /// slowly than the threshold are none.
-    pub fn criteria(
-        &self,
-        lowest_critical: Option<f64>,
-        flutter_speed: Option<f64>,
-        bands: &[Instability],
-        threshold_per_s: f64,
-    ) -> Vec<Criterion> {
-        let operating = self.operating_rad_per_s;
-        let at_least = |key, name: &str, found: Option<f64>, asked: f64| Criterion {
-            key,
-            name: name.to_owned(),
-            found,
-            asked,
-            // A speed that is not reached within the sweep is beyond all that is asked.
-            passed: found.is_none_or(|found| found >= asked),
-        };
-        let mut criteria = vec![at_least(
-            "margin",
-            "lowest critical speed, operating speed over margin",
-            lowest_critical,
-            operating / self.margin,
-        )];
-        let evidence = Evidence {
-            bands,
-            // The limit above is the one of critical speeds.
-            critical_rad_per_s: &[],
-            threshold_per_s,
-            range_rad_per_s: (0.0, self.reach_rad_per_s()),
-        };
-        let verdict = evidence.verdict(operating);
-        let inside = verdict.stretch.map(|(from, _)| from);
-        criteria.push(Criterion {
-            key: "operating",
-            name: "instability at the operating speed, from".to_owned(),
-            found: inside,
-            asked: operating,
-            passed: inside.is_none(),
-        });
-        if let Some(asked) = self.min_critical_rad_per_s {
-            let name = "lowest critical speed";
-            criteria.push(at_least("min_critical", name, lowest_critical, asked));
-        }
-        if let Some(asked) = self.min_flutter_rad_per_s {
-            criteria.push(at_least(
-                "min_flutter",
-                "flutter speed",
-                flutter_speed,
-                asked,
-            ));
-        }
-        criteria
-    }
-}
-
-impl Limits {
-    /// The speed at which the rim runs as fast as it may.
-    fn of_rim(&self, rim_radius_m: f64) -> Criterion {
-        let found = self.max_rim_m_per_s / rim_radius_m;
-        let operating = self.operating_rad_per_s;
-        let (now, most) = (operating * rim_radius_m, self.max_rim_m_per_s);
-        Criterion {
-            key: "rim_speed",
-            name: format!("rim at {most:.0} m/s ({now:.0} m/s when operating)"),
-            found: Some(found),
-            asked: operating,
-            passed: found >= operating,
-        }
-    }
-}
-
-/// A limit that no speed keeps: a side force moves the blade away.
-fn without_stiffness(operating: f64) -> Criterion {
-    Criterion {
-        key: "held",
-        name: "static stiffness (nothing holds the blade's rigid motions)".to_owned(),
-        found: None,
-        asked: operating,
-        passed: false,
-    }
-}
-
-/// Of every guide with a gap the speed at which the lateral forces of the cut press the blade
-/// through it. A blade past its lowest critical speed has no static deflection to hold against it.
-fn of_gaps(
-    scene: &Scene,
-    plate: &Plate,
-    bending: Option<&StaticDeflection>,
-    operating: f64,
-) -> Vec<Criterion> {
-    let guides = scene.file().guides.iter().enumerate();
-    let with_gap = guides.filter_map(|(index, guide)| Some((index, guide, guide.gap_m?)));
-    with_gap
-        .filter_map(|(index, guide, gap_m)| {
-            let bending = bending?;
-            let place = point(plate, guide.radius_m, guide.angle_deg.to_radians());
-            bending.in_cut_m(&place, 0.0)?;
-            let found = bending.fills_gap_at(&place, gap_m);
-            Some(Criterion {
-                key: "gap",
-                name: format!(
-                    "gap of guide {} ({:.0} µm) filled in the cut",
-                    index + 1,
-                    1e6 * gap_m
-                ),
-                found,
-                asked: operating,
-                passed: found.is_none_or(|found| found > operating),
-            })
-        })
-        .collect()
 }
 
 /// 1/(φᵀ K(Ω)⁻¹ φ) with φ the functions at the rim: force over deflection of a point that

@@ -57,8 +57,11 @@ fn painted(line: &str) -> String {
 fn telling(line: &str) -> Option<(usize, usize, Tone)> {
     let firsts = [
         ("Warning:", Tone::Doubtful),
+        ("Unusual number", Tone::Doubtful),
+        ("FAILED", Tone::Bad),
         ("FAIL", Tone::Bad),
-        ("pass", Tone::Good),
+        ("PASSED", Tone::Good),
+        ("PASS", Tone::Good),
     ];
     let first = firsts.iter().find(|(word, _)| line.starts_with(word));
     if let Some((word, tone)) = first {

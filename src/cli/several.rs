@@ -85,7 +85,7 @@ impl Row {
             lowest_critical_rpm: of.and_then(|r| r.critical_speeds.first()).map(|c| c.rpm),
             flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
             instabilities: of.map_or(0, |r| r.instabilities.len()),
-            warnings: of.map_or(0, |r| r.warnings.len()),
+            warnings: of.map_or(0, |r| r.unusual_numbers.len() + r.warnings.len()),
             error,
         }
     }

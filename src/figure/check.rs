@@ -75,12 +75,15 @@ fn row(k: usize) -> Frame {
 }
 
 fn facts(report: &CheckReport) -> String {
-    [
+    let unusual =
+        (!report.unusual_numbers.is_empty()).then(|| "with numbers that no saw has".into());
+    let facts = [
         format!("operating speed {:.0} rpm", report.operating_rpm),
         format!("margin {:.0} %", 100.0 * report.margin),
         report.rim_stiffness_in_words(),
-    ]
-    .join(BETWEEN_FACTS)
+    ];
+    let all: Vec<String> = unusual.into_iter().chain(facts).collect();
+    all.join(BETWEEN_FACTS)
 }
 
 /// Bands and critical speeds, whatever is asked of them.
@@ -115,19 +118,15 @@ fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colou
 /// to spare, or is wanting.
 fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, frame: Frame) {
     let (colour, word) = match criterion.passed {
-        true => (PASS, "pass"),
+        true => (PASS, "PASS"),
         false => (ALARM, "FAIL"),
     };
     let found = criterion.found_rpm;
     // A band at the operating speed is not a limit to stay away from: there is one or not.
     let is_limit = criterion.key != "operating";
     let asked = criterion.asked_rpm;
-    let said = match found {
-        Some(rpm) => format!("{word}: {rpm:.1} rpm, asked {asked:.1} rpm"),
-        None if is_limit => format!("{word}: none in the sweep, asked {asked:.1} rpm"),
-        None => format!("{word}: none at {asked:.1} rpm"),
-    };
-    name(sheet, frame, &criterion.name, &said, colour);
+    let above = format!("{word} {}", criterion.name);
+    name(sheet, frame, &above, &criterion.finding, colour);
     let middle = 0.5 * (frame.top + frame.bottom);
     let asked = speed.at(asked);
     let unreached = if is_limit { RIGHT } else { asked };
@@ -213,7 +212,7 @@ mod tests {
         assert_tidy(&sheet);
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
-        assert_eq!((with("pass: "), with("FAIL: ")), (4, 1), "{said:?}");
+        assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
     }
 
     /// A saw whose lowest critical speed lies beyond its sweep.

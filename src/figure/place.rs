@@ -152,6 +152,7 @@ mod tests {
         PlaceReport {
             sawflutter: "0".into(),
             scene: Scene::paper().file().clone(),
+            unusual_numbers: Vec::new(),
             goal: GoalEntry::FlutterSpeed,
             min_critical_rpm: Some(1500.0),
             kept: true,

@@ -95,6 +95,7 @@ pub fn empty_report(name: &str) -> Report {
         excitation: None,
         membrane: None,
         sensitivities: Vec::new(),
+        unusual_numbers: Vec::new(),
         warnings: Vec::new(),
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::InstabilityEntry;
 use super::branches::Numbered;
 use crate::check::{Check, Criterion, Limits};
-use crate::scene::{Scene, SceneFile, rpm, unusual, unusual_number};
+use crate::scene::{Scene, SceneFile, rpm};
 
 /// A saw held against limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,7 +16,14 @@ pub struct CheckReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Whether every limit is kept.
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
+    /// Whether a saw with such numbers may pass.
+    #[serde(default)]
+    pub accept_unusual: bool,
+    /// Whether every limit is kept, by a saw whose numbers saws have, or that are accepted.
     pub passed: bool,
     /// Every limit.
     pub criteria: Vec<CriterionEntry>,
@@ -45,7 +52,7 @@ pub struct CheckReport {
     pub max_rim_m_per_s: f64,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
-    /// Remarks on numbers of the scene that are unusual for a saw.
+    /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }
 
@@ -66,8 +73,10 @@ pub struct RimStiffnessEntry {
 pub struct CriterionEntry {
     /// Short name of the limit, for programs.
     pub key: String,
-    /// What is compared, in words.
+    /// What is asked, in words.
     pub name: String,
+    /// What the saw does, in words.
+    pub finding: String,
     /// What was found; none where there is no such speed within the sweep.
     pub found_rpm: Option<f64>,
     /// What was asked.
@@ -88,6 +97,8 @@ impl CheckReport {
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            unusual_numbers: check.unusual_numbers.clone(),
+            accept_unusual: check.accept_unusual,
             passed: check.passed(),
             criteria: check.all_criteria().map(CriterionEntry::from).collect(),
             operating_rpm: rpm(limits.operating_rad_per_s),
@@ -118,12 +129,8 @@ impl CheckReport {
 }
 
 fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
-    let mut warnings = unusual(scene.file());
+    let mut warnings = Vec::new();
     let operating = limits.operating_rad_per_s;
-    if scene.operating_rad_per_s() != Some(operating) {
-        let asked = unusual_number("the operating speed", "operating_rpm", rpm(operating));
-        warnings.extend(asked);
-    }
     if let Some(critical_rpm) = check.analysis.critical_rpm_at(operating) {
         warnings.push(format!(
             "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm, where a constant side \
@@ -175,6 +182,7 @@ impl From<&Criterion> for CriterionEntry {
         CriterionEntry {
             key: criterion.key.to_owned(),
             name: criterion.name.clone(),
+            finding: criterion.finding.clone(),
             found_rpm: criterion.found.map(rpm),
             asked_rpm: rpm(criterion.asked),
             passed: criterion.passed,

@@ -14,7 +14,7 @@ pub use self::criteria::{CutCriterion, CutCriterionEntry, CutVerdict, Verdict};
 use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
-use crate::scene::{Scene, SceneFile, unusual, unusual_number};
+use crate::scene::{Scene, SceneFile, unusual_number};
 use crate::transient::{CutHistory, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m};
 
 /// `cut.json`.
@@ -25,6 +25,10 @@ pub struct CutReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
     /// Growth rate from which a cut is called unstable.
@@ -162,6 +166,7 @@ impl CutReport {
         CutReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            unusual_numbers: unusual_numbers(scene, cutting),
             degrees_of_freedom: cutting.plate.degrees_of_freedom(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             linear_limit_m,
@@ -170,18 +175,17 @@ impl CutReport {
                 .tooth_angles_rad()
                 .map(f64::to_degrees)
                 .collect(),
-            warnings: unusual(scene.file())
-                .into_iter()
-                .chain(unusual_speeds(scene, cutting))
-                .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
+            warnings: runs
+                .iter()
+                .flat_map(|run| warnings(run, thickness_m))
                 .collect(),
             runs,
         }
     }
 }
 
-/// Warnings of speeds that the scene does not name, in another unit perhaps.
-fn unusual_speeds(scene: &Scene, cutting: &Cutting) -> Vec<String> {
+/// Those of the scene, and speeds of the cut that it does not name.
+fn unusual_numbers(scene: &Scene, cutting: &Cutting) -> Vec<String> {
     let named = |rpm: f64| {
         scene
             .cut()
@@ -189,8 +193,19 @@ fn unusual_speeds(scene: &Scene, cutting: &Cutting) -> Vec<String> {
     };
     let speeds = cutting.runs.iter().map(|run| run.history.run.rpm);
     let asked = speeds.filter(|rpm| !named(*rpm));
-    asked
-        .filter_map(|rpm| unusual_number("the speed of the cut", "cut.speeds[].rpm", rpm))
+    let asked = asked.filter_map(|rpm| {
+        unusual_number(
+            scene.file(),
+            "the speed of the cut",
+            "cut.speeds[].rpm",
+            rpm,
+        )
+    });
+    scene
+        .file()
+        .unusual_numbers()
+        .into_iter()
+        .chain(asked)
         .collect()
 }
 

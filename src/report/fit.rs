@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::{BeforeAndAfter, Fit, FittedParameter, Measurement, Row, Start};
-use crate::scene::{SceneFile, unusual, unusual_number};
+use crate::scene::{SceneFile, unusual_number};
 
 /// `fit.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,6 +14,10 @@ pub struct FitReport {
     pub sawflutter: String,
     /// The scene with the numbers found.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// Who measured the frequencies.
     pub source: String,
     /// Probability with which the intervals cover the truth.
@@ -122,6 +126,7 @@ impl FitReport {
         FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: fit.scene.file().clone(),
+            unusual_numbers: unusual_numbers(fit),
             source: fit.measurement.source.clone(),
             confidence: fit.confidence,
             parameters: fit.parameters.iter().map(ParameterEntry::from).collect(),
@@ -219,16 +224,24 @@ fn misfit(fit: &Fit, used: &Measurement) -> Option<String> {
     })
 }
 
+/// Those of the scene, and of measurements that are not in it.
+fn unusual_numbers(fit: &Fit) -> Vec<String> {
+    let scene = fit.scene.file();
+    let mut told = scene.unusual_numbers();
+    if told
+        .iter()
+        .all(|sentence| !sentence.contains("measured.rows"))
+    {
+        let top_rpm = fit.measurement.up_to(fit.to_rpm).top_rpm();
+        let label = "the highest measured speed";
+        told.extend(unusual_number(scene, label, "sweep.to_rpm", top_rpm));
+    }
+    told
+}
+
 fn warnings(fit: &Fit) -> Vec<String> {
     let used = fit.measurement.up_to(fit.to_rpm);
-    let mut warnings = unusual(fit.scene.file());
-    let top_rpm = used.top_rpm();
-    warnings.extend(unusual_number(
-        "the highest measured speed",
-        "sweep.to_rpm",
-        top_rpm,
-    ));
-    warnings.extend(misfit(fit, &used));
+    let mut warnings: Vec<String> = misfit(fit, &used).into_iter().collect();
     for freed in &fit.without_effect {
         warnings.push(format!(
             "{} moves no measured frequency and stays as it was",

@@ -68,6 +68,10 @@ pub struct Report {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// Terms of the equation of motion that were assembled.
     pub terms: Vec<String>,
     /// The lowest modes of the blade at rest, ascending.

@@ -8,7 +8,7 @@ use super::certificate::statement;
 use crate::place::{
     Demands, FragileOptimum, Goal, Map, Neighbour, Neighbours, Outcome, PlacedParameter, Placement,
 };
-use crate::scene::{Scene, SceneFile, rpm, unusual};
+use crate::scene::{Scene, SceneFile, rpm};
 
 /// `place.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,6 +18,10 @@ pub struct PlaceReport {
     pub sawflutter: String,
     /// The scene with the numbers found.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// What was made large.
     pub goal: GoalEntry,
     /// Lower limit of the first critical speed, if one was asked for.
@@ -184,6 +188,7 @@ impl PlaceReport {
         PlaceReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
+            unusual_numbers: found.scene.file().unusual_numbers(),
             goal: GoalEntry::from(demands.goal),
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
             kept: neighbours.keep_limit(),
@@ -320,7 +325,7 @@ fn parameters(found: &Placement) -> Vec<PlacedEntry> {
 }
 
 fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> {
-    let mut warnings = unusual(scene.file());
+    let mut warnings = Vec::new();
     for freed in &found.without_effect {
         let path = freed.parameter.path();
         warnings.push(if path.ends_with("angle_deg") {

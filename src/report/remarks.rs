@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{MembraneSource, Plate};
-use crate::scene::{Blade, Bore, Scene, unusual};
+use crate::scene::{Blade, Bore, Scene};
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
 
@@ -93,11 +93,7 @@ pub fn warnings(
         contradicted(certificate),
         left_free(analysis),
     ];
-    let of_scene = unusual(scene.file());
-    of_scene
-        .into_iter()
-        .chain(found.into_iter().flatten())
-        .collect()
+    found.into_iter().flatten().collect()
 }
 
 fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {

@@ -17,6 +17,10 @@ pub struct RunUpReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
     /// First speed of the run-up.
@@ -106,6 +110,7 @@ impl RunUpReport {
         RunUpReport {
             sawflutter: chart.sawflutter,
             scene: scene.file().clone(),
+            unusual_numbers: chart.unusual_numbers,
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             from_rpm: rpm(runup.speeds.from_rad_per_s),
             to_rpm: rpm(runup.speeds.to_rad_per_s),

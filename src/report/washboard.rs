@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Verdict;
-use crate::scene::{SceneFile, rpm, unusual, unusual_number};
+use crate::scene::{SceneFile, rpm, unusual_number};
 use crate::spectrum::Direction;
 use crate::washboarding::{Washboard, WashboardMode};
 
@@ -19,6 +19,10 @@ pub struct WashboardReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// Rotation speed of the verdict.
     pub rpm: f64,
     /// Whether a motion grows at that speed.
@@ -116,6 +120,7 @@ impl WashboardReport {
         WashboardReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
+            unusual_numbers: unusual_numbers(found),
             rpm: run.rpm,
             verdict: if stable {
                 Verdict::Stable
@@ -187,14 +192,19 @@ fn warnings(found: &Washboard) -> Vec<String> {
         unconfirmed(found),
         without_pitch(found),
     ];
-    let of_scene = unusual(found.scene.file());
-    let rpm = found.run.rpm;
-    let asked = (found.scene.file().operating_rpm != Some(rpm))
-        .then(|| unusual_number("the speed of the cut", "operating_rpm", rpm));
-    of_scene
+    all.into_iter().flatten().collect()
+}
+
+/// Those of the scene, and a speed of the cut that it does not name.
+fn unusual_numbers(found: &Washboard) -> Vec<String> {
+    let (scene, rpm) = (found.scene.file(), found.run.rpm);
+    let is_asked = scene.operating_rpm != Some(rpm);
+    let asked =
+        is_asked.then(|| unusual_number(scene, "the speed of the cut", "operating_rpm", rpm));
+    scene
+        .unusual_numbers()
         .into_iter()
         .chain(asked.flatten())
-        .chain(all.into_iter().flatten())
         .collect()
 }
 

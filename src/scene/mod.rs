@@ -24,6 +24,7 @@ mod runup;
 mod spline;
 mod teeth_in_cut;
 mod thickness;
+mod unusual;
 mod validate;
 mod validated;
 mod washboarding;
@@ -53,7 +54,6 @@ pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(feature = "explore")]
 pub(crate) use quantity::{QUANTITIES, Quantity};
-pub(crate) use quantity::{unusual, unusual_number};
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
@@ -67,6 +67,7 @@ pub use spline::SplineFile;
 pub(crate) use thickness::RimMass;
 pub(crate) use thickness::ThicknessProfile;
 pub use thickness::{RimFile, ThicknessRow};
+pub(crate) use unusual::unusual_number;
 pub(crate) use validated::Damping;
 pub use validated::{Blade, Bore, Scene, SpeedRange};
 pub(crate) use washboarding::MAX_CUTTING_STIFFNESS;

@@ -1,9 +1,6 @@
 //! What the numbers of a scene are, in which unit, and between which values those of saws lie.
 
 use serde::Serialize;
-use serde_json::Value;
-
-use super::SceneFile;
 
 /// A number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -73,7 +70,7 @@ pub const QUANTITIES: [Quantity; 82] = [
     q("membrane.residual_stress[].hoop_pa", "hoop stress", "Pa", -3e9, 3e9),
     q("membrane.residual_stress[].radial_pa", "radial stress", "Pa", -3e9, 3e9),
     q("spline.teeth", "number of spline teeth", "", 1.0, 200.0),
-    q("spline.pressure_angle_deg", "pressure angle", "°", 0.0, 60.0),
+    q("spline.pressure_angle_deg", "pressure angle", "°", 5.0, 60.0),
     q("spline.contact_stiffness_n_per_m_3_2", "contact stiffness", "N/m^(3/2)", 1e3, 1e14),
     q("spline.contact_damping_n_s_3_2_per_m_3_2", "contact damping", "N·(s/m)^(3/2)", 1e-3, 1e9),
     q("spline.clearance_m", "clearance of the spline", "m", 1e-7, 0.02),
@@ -100,11 +97,11 @@ pub const QUANTITIES: [Quantity; 82] = [
     q("cut.wood.stiffness_n_per_m", "stiffness of the wood", "N/m", 1.0, 1e9),
     q("cut.wood.damping_n_s_per_m", "damping of the wood", "N·s/m", 1e-3, 1e6),
     q("cut.wood.depth_m", "depth of the contact with the wood", "m", 1e-4, 2.0),
-    q("cut.wood.arc_deg", "arc of the contact with the wood", "°", 0.01, 360.0),
+    q("cut.wood.arc_deg", "arc of the contact with the wood", "°", 1.0, 360.0),
     q("cut.washboarding.stiffness_n_per_m", "lateral cutting stiffness", "N/m", 10.0, 1e8),
     q("cut.washboarding.overlap", "overlap with the tooth before", "", 0.0, 1.0),
-    q("cut.washboarding.arc_deg", "arc of the teeth in the cut", "°", 0.01, 360.0),
-    q("cut.washboarding.pitches_deg[]", "pitch of a tooth", "°", 0.1, 360.0),
+    q("cut.washboarding.arc_deg", "arc of the teeth in the cut", "°", 1.0, 360.0),
+    q("cut.washboarding.pitches_deg[]", "pitch of a tooth", "°", 0.3, 360.0),
     q("cut.speeds[].rpm", "speed of the cut", "rpm", 30.0, 6e4),
     q("cut.speeds[].tangential_n_per_tooth", "tangential force on a tooth", "N", -1e5, 1e5),
     q("cut.speeds[].radial_n_per_tooth", "radial force on a tooth", "N", -1e5, 1e5),
@@ -120,25 +117,6 @@ pub const QUANTITIES: [Quantity; 82] = [
     q("probe.angle_deg", "angle of the probe", "°", -360.0, 360.0),
     q("measured.rows[].rpm", "rotation speed", "rpm", 0.0, 1e5),
     q("measured.rows[].frequencies_hz[]", "frequency", "Hz", 0.0, 1e5),
-];
-
-/// What people write instead, and what one of it is in the unit of the quantity: in the order in
-/// which it is asked about.
-const MISTAKEN: [(&str, &str, f64); 14] = [
-    ("m", "mm", 1e-3),
-    ("m", "cm", 1e-2),
-    ("m", "inches", 0.0254),
-    ("kg", "g", 1e-3),
-    ("kg/m³", "g/cm³", 1e3),
-    ("kg/m³", "kg/mm³", 1e9),
-    ("kg/m³", "t/mm³", 1e12),
-    ("Pa", "GPa", 1e9),
-    ("Pa", "MPa", 1e6),
-    ("N/m", "N/mm", 1e3),
-    ("rpm", "thousands of rpm", 1e3),
-    ("rpm", "turns per second", 60.0),
-    ("W", "kW", 1e3),
-    ("m/s", "m/min", 1.0 / 60.0),
 ];
 
 impl Quantity {
@@ -160,119 +138,14 @@ impl Quantity {
     pub fn is_usual(&self, value: f64) -> bool {
         value == 0.0 || (self.usual.0..=self.usual.1).contains(&value)
     }
-
-    /// The unit that makes a saw's number of an unusual one, and that number.
-    fn mistaken(&self, value: f64) -> Option<(&'static str, f64)> {
-        let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == self.unit);
-        let mut meant = of_unit.map(|(_, unit, factor)| (*unit, value * factor));
-        meant.find(|(_, value)| self.is_usual(*value))
-    }
-
-    fn remark(&self, path: &str, value: f64) -> String {
-        let (unit, (from, to)) = (self.unit, self.usual);
-        let space = if unit.is_empty() { "" } else { " " };
-        let remedy = match self.mistaken(value) {
-            Some((other, meant)) => {
-                let meant = short(meant);
-                format!("are these {other}? That would be {meant}{space}{unit}")
-            }
-            None => "is it in the unit that ends the key's name?".into(),
-        };
-        let [value, from, to] = [value, from, to].map(short);
-        format!(
-            "{path} is {value}{space}{unit}, but those of saws lie between {from} and \
-             {to}{space}{unit}; {remedy}"
-        )
-    }
-}
-
-/// A number as people write it, without what rounding adds.
-fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.6e}").parse().unwrap_or(value);
-    match rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
-        true => format!("{rounded:e}"),
-        false => rounded.to_string(),
-    }
-}
-
-/// What to say of a number that no saw has, called `label`, of the quantity of a path.
-pub fn unusual_number(label: &str, path: &str, value: f64) -> Option<String> {
-    let quantity = Quantity::of(path).filter(|quantity| !quantity.is_usual(value))?;
-    Some(quantity.remark(label, value))
-}
-
-/// A number that no saw has, and what it would be in the unit that it looks like.
-struct Unusual {
-    path: String,
-    value: f64,
-    meant: f64,
-}
-
-/// What to say of the numbers of a scene that no saw has: a line each, and one for all that look
-/// like the same other unit.
-pub fn unusual(scene: &SceneFile) -> Vec<String> {
-    let json = serde_json::to_value(scene).expect("numbers of a scene are finite");
-    let mut numbers = Vec::new();
-    leaves(&json, String::new(), &mut numbers);
-    let mut of_unit: Vec<(&str, Vec<Unusual>)> = Vec::new();
-    let mut remarks = Vec::new();
-    for (path, value) in numbers {
-        let Some(quantity) = Quantity::of(&path).filter(|q| !q.is_usual(value)) else {
-            continue;
-        };
-        let Some((unit, meant)) = quantity.mistaken(value) else {
-            remarks.push(quantity.remark(&path, value));
-            continue;
-        };
-        let one = Unusual { path, value, meant };
-        match of_unit.iter_mut().find(|(known, _)| *known == unit) {
-            Some((_, all)) => all.push(one),
-            None => of_unit.push((unit, vec![one])),
-        }
-    }
-    let together = of_unit.into_iter().map(|(unit, all)| together(unit, &all));
-    together.chain(remarks).collect()
-}
-
-fn together(unit: &str, all: &[Unusual]) -> String {
-    if let [Unusual { path, value, .. }] = all {
-        return unusual_number(path, path, *value).unwrap_or_default();
-    }
-    let each = all.iter().map(|one| {
-        let (value, meant) = (short(one.value), short(one.meant));
-        format!("{} is {value} ({meant})", one.path)
-    });
-    let each: Vec<String> = each.collect();
-    format!(
-        "no saw has these numbers; are they {unit}? In brackets what that would be in the unit of \
-         the key: {}",
-        each.join(", ")
-    )
-}
-
-/// Every number below a value, with its path.
-fn leaves(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
-    match value {
-        Value::Number(number) => found.extend(number.as_f64().map(|value| (path, value))),
-        Value::Array(items) => {
-            for (index, item) in items.iter().enumerate() {
-                leaves(item, format!("{path}[{index}]"), found);
-            }
-        }
-        Value::Object(keys) => {
-            for (key, item) in keys {
-                let dot = if path.is_empty() { "" } else { "." };
-                leaves(item, format!("{path}{dot}{key}"), found);
-            }
-        }
-        _ => (),
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use serde_json::Value;
+
     use super::*;
-    use crate::scene::{Scene, json_schema};
+    use crate::scene::json_schema;
 
     /// Paths of every number that a schema allows.
     fn numbers(schema: &Value, node: &Value, path: &str, found: &mut Vec<String>) {
@@ -319,53 +192,5 @@ mod tests {
         assert_eq!((radius.name, radius.unit), ("radius of the guide", "m"));
         assert!(Quantity::of("measured.rows[0].frequencies_hz[3]").is_some());
         assert!(Quantity::of("guides[0]").is_none());
-    }
-
-    #[test]
-    fn numbers_in_other_units_are_recognized() {
-        let file = Scene::paper().file().clone();
-        assert_eq!(unusual(&file), [""; 0]);
-        let mut density = file.clone();
-        density.blade.material.density_kg_per_m3 = 7.8;
-        let remark = unusual(&density).join("\n");
-        assert!(
-            remark.contains("density_kg_per_m3 is 7.8 kg/m³"),
-            "{remark}"
-        );
-        assert!(
-            remark.contains("g/cm³? That would be 7800 kg/m³"),
-            "{remark}"
-        );
-        let mut stiffness = file.clone();
-        stiffness.guides[0].stiffness_n_per_m = 2e4;
-        let remark = unusual(&stiffness).join("\n");
-        assert!(remark.contains("N/mm? That would be 2e7 N/m"), "{remark}");
-        let remark = unusual_number("--operating-rpm", "operating_rpm", 1.25).unwrap();
-        assert!(
-            remark.contains("thousands of rpm? That would be 1250 rpm"),
-            "{remark}"
-        );
-        assert_eq!(
-            unusual_number("--operating-rpm", "operating_rpm", 1250.0),
-            None
-        );
-    }
-
-    #[test]
-    fn a_scene_wholly_in_millimetres_gets_one_remark() {
-        let mut file = Scene::paper().file().clone();
-        file.blade.outer_diameter_m *= 1e3;
-        file.blade.inner_diameter_m *= 1e3;
-        file.blade.thickness_m *= 1e3;
-        file.guides[0].radius_m *= 1e3;
-        let remarks = unusual(&file);
-        assert_eq!(remarks.len(), 1, "{remarks:?}");
-        for part in [
-            "are they mm?",
-            "outer_diameter_m is 710 (0.71)",
-            "thickness_m is 2.8 (0.0028)",
-        ] {
-            assert!(remarks[0].contains(part), "no {part:?} in {remarks:?}");
-        }
     }
 }

@@ -14,6 +14,10 @@ pub struct StudyReport {
     pub sawflutter: String,
     /// The saw without deviations.
     pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
     /// The study.
     pub study: StudyFile,
     /// Last speed looked at.

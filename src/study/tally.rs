@@ -115,6 +115,10 @@ impl<'a> Tally<'a> {
         Ok(StudyReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: study.scene().file().clone(),
+            unusual_numbers: match study.limits() {
+                Some(limits) => limits.unusual_numbers(study.scene()),
+                None => study.scene().file().unusual_numbers(),
+            },
             study: study.file().clone(),
             swept_to_rpm: rpm(study.to_rad_per_s()),
             largest_estimated_relative_error: self.largest_error,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, wrapped};
+use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
 use crate::transient::LINEAR_THICKNESSES;
 
@@ -18,6 +18,7 @@ impl CutReport {
 
 fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     for run in &report.runs {
         writeln!(
             text,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::wrapped;
+use super::{unusual_numbers, wrapped};
 use crate::report::{FitReport, ParameterEntry};
 
 impl FitReport {
@@ -17,6 +17,7 @@ impl FitReport {
 
 fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&report.scene.name))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(
         text,
         "{}",

@@ -4,6 +4,7 @@
 
 mod answer;
 mod bands;
+mod check;
 mod cut;
 mod excitation;
 mod fit;
@@ -38,6 +39,14 @@ fn more(text: &mut String, rows: usize) -> std::fmt::Result {
         Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in report.json"),
         _ => Ok(()),
     }
+}
+
+/// Numbers that no saw has: before the verdict, which may be that of another saw than is meant.
+fn unusual_numbers(text: &mut String, sentences: &[String]) -> std::fmt::Result {
+    for sentence in sentences {
+        writeln!(text, "{}", wrapped(&format!("Unusual number: {sentence}")))?;
+    }
+    Ok(())
 }
 
 /// A line, ended by an ellipsis where it is too long.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::wrapped;
+use super::{unusual_numbers, wrapped};
 use crate::report::{
     FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
@@ -19,6 +19,7 @@ impl PlaceReport {
 
 fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&report.scene.name))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     let goal = match report.goal {
         GoalEntry::FlutterSpeed => "flutter speed",
         GoalEntry::StableWindow => "stable window",

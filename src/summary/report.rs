@@ -8,7 +8,7 @@ use super::excitation::crossings;
 use super::in_cut::in_cut;
 use super::influences::{heat, sensitivity};
 use super::whirl::whirl;
-use super::{ROWS, WIDTH, more, numbered, shortened};
+use super::{ROWS, WIDTH, more, numbered, shortened, unusual_numbers};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 
@@ -24,6 +24,7 @@ impl Report {
 
 fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     answer(text, report)?;
     in_cut(text, report)?;
     modes(text, report)?;

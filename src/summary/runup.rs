@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, wrapped};
+use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{InstabilityKind, RunUpReport};
 use crate::transient::LINEAR_THICKNESSES;
 
@@ -18,6 +18,7 @@ impl RunUpReport {
 
 fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     if report.bands.is_empty() {
         writeln!(

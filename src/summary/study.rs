@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::study::{Group, Passing, SpeedEntry, StudyReport};
 
-use super::{WIDTH, shortened};
+use super::{WIDTH, shortened, unusual_numbers};
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 24;
@@ -43,6 +43,7 @@ fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     for entry in &report.study.parameters {
         writeln!(text, "  {}", shortened(&entry.to_string(), WIDTH - 2))?;
     }
+    unusual_numbers(text, &report.unusual_numbers)?;
     Ok(())
 }
 
@@ -102,9 +103,7 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
     }
     for criterion in &passing.criteria {
         let share = 100.0 * criterion.passed as f64 / saws.max(1) as f64;
-        // A check says beside the name where the instability begins.
-        let name = criterion.name.trim_end_matches(", from");
-        writeln!(text, "  {share:>6.2} % pass: {name}")?;
+        writeln!(text, "  {share:>6.2} % pass: {}", criterion.name)?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, wrapped};
+use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
 
 impl WashboardReport {
@@ -17,6 +17,7 @@ impl WashboardReport {
 
 fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     writeln!(text, "{}", wrapped(&boundary(report)))?;
     let facts = format!(

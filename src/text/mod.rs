@@ -6,6 +6,7 @@
 mod fault;
 mod file;
 mod json;
+mod number;
 mod problem;
 mod token;
 
@@ -14,6 +15,7 @@ pub(crate) use fault::KeyedError;
 pub(crate) use file::read_stream;
 pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
+pub(crate) use number::{shown, shown_to};
 
 /// Characters that steer a terminal, or turn the direction of what follows, as their escapes.
 /// Line breaks stay.

@@ -147,15 +147,11 @@ fn a_scene_without_the_forces_is_refused() {
 #[test]
 fn a_check_passes_fails_or_is_refused() {
     let cases: [(&[&str], i32, &str); 6] = [
-        (
-            &["--operating-rpm", "1200"],
-            0,
-            "pass  lowest critical speed",
-        ),
+        (&["--operating-rpm", "1200"], 0, "PASSED at 1200 rpm"),
         (
             &["--operating-rpm", "1400"],
             1,
-            "FAIL  lowest critical speed",
+            "FAIL 85 % rule: 1400 rpm is 91",
         ),
         (
             &["--operating-rpm", "1200", "--min-critical-rpm", "1600"],
@@ -165,7 +161,7 @@ fn a_check_passes_fails_or_is_refused() {
         (
             &["--operating-rpm", "1200", "--min-flutter-rpm", "2300"],
             1,
-            "FAIL  flutter speed",
+            "FAIL flutter speed of at least 2300 rpm: 22",
         ),
         (&["--operating-rpm", "-3"], 2, "--operating-rpm is -3"),
         (&["--margin", "2"], 2, "--margin is 2"),

@@ -66,7 +66,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
     ];
     assert_eq!(kept, expected);
     assert!(!printed.passed && printed.critical_speeds_rpm.len() == 6);
-    assert!(read(&folder, "check.svg").contains("FAIL: "));
+    assert!(read(&folder, "check.svg").contains("FAIL flutter speed of at least 2800 rpm"));
 }
 
 /// From the paper's Table 5, one number left out.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use sawflutter::report::Report;
-use sawflutter::scene::SceneFile;
+use sawflutter::scene::{Accuracy, SceneFile};
 use tempfile::TempDir;
 
 use super::program::{names_in, out, quick_scene, run, sawflutter, text, write_scene};
@@ -335,7 +335,7 @@ fn item_14_numbers_in_other_units_are_warned_of() {
         &folder,
     );
     assert!(
-        !text(&own.stdout).contains("of saws lie"),
+        !text(&own.stdout).contains("Unusual number"),
         "{}",
         text(&own.stdout)
     );
@@ -349,13 +349,59 @@ fn item_14_numbers_in_other_units_are_warned_of() {
     let written = std::fs::read(out(&folder).join("report.json")).unwrap();
     let report: Report = serde_json::from_slice(&written).unwrap();
     let expected = "are these g/cm³? That would be 7800 kg/m³";
-    let warning = report.warnings.iter().find(|w| w.contains(expected));
-    let warning = warning.unwrap_or_else(|| panic!("{:?}", report.warnings));
-    assert!(words.contains(warning.as_str()), "{words}");
-    let output = run(&["check", scene, "--operating-rpm", "1.250"], &folder);
-    let words = text(&output.stdout).replace("\n  ", " ");
-    assert!(words.contains(expected), "{words}");
-    assert!(words.contains("That would be 1250 rpm"), "{words}");
+    let [told] = &report.unusual_numbers[..] else {
+        panic!("{:?}", report.unusual_numbers);
+    };
+    assert!(told.contains(expected), "{told}");
+    // Before the verdict.
+    let place = |part: &str| {
+        words
+            .find(part)
+            .unwrap_or_else(|| panic!("{part} in {words}"))
+    };
+    assert!(place(told) < place("Stable from"), "{words}");
+}
+
+/// A check is not passed with a number that no saw has, wherever it comes from, unless it is
+/// accepted.
+#[test]
+fn a_check_with_a_number_of_another_unit_fails() {
+    let folder = TempDir::new().unwrap();
+    let mut file = crate::common::scene("collar-400mm").file().clone();
+    file.accuracy = Accuracy::Draft;
+    file.blade.material.density_kg_per_m3 = 7.85;
+    let scene = write_scene(&folder, &file);
+    let scene = scene.to_str().unwrap();
+    let check = |rpm: &str, more: &[&str]| {
+        let arguments = [&["check", scene, "--operating-rpm", rpm], more].concat();
+        let output = run(&arguments, &folder);
+        (
+            output.status.code(),
+            text(&output.stdout).replace("\n  ", " "),
+        )
+    };
+    let (code, words) = check("1250", &[]);
+    assert_eq!(code, Some(1), "{words}");
+    for part in [
+        "density_kg_per_m3 is 7.85 kg/m³",
+        "saws have 2000 to 20000",
+        "7850 kg/m³",
+        "--accept-unusual",
+    ] {
+        assert!(words.contains(part), "{part} in {words}");
+    }
+    let (code, words) = check("1250", &["--accept-unusual"]);
+    assert_eq!(code, Some(0), "{words}");
+    assert!(words.contains("density_kg_per_m3 is 7.85 kg/m³"), "{words}");
+    file.blade.material.density_kg_per_m3 = 7850.0;
+    write_scene(&folder, &file);
+    for (rpm, meant) in [("1.250", "1250 rpm"), ("50", "3000 rpm")] {
+        let (code, words) = check(rpm, &[]);
+        assert_eq!(code, Some(1), "{words}");
+        assert!(words.contains(&format!("That would be {meant}")), "{words}");
+    }
+    let (code, words) = check("1250", &[]);
+    assert_eq!(code, Some(0), "{words}");
 }
 
 /// Item 15: keys stand in the order in which they are declared, as in the program that the tests

@@ -13,6 +13,16 @@ use sawflutter::spectrum::ModeKind;
 
 use crate::draws::*;
 
+/// Random places and stiffnesses of pads are none that seem to be in another unit.
+#[test]
+fn no_number_of_a_drawn_saw_is_unusual() {
+    check(2000, any_saw(), |file| {
+        let told = file.unusual_numbers();
+        prop_assert!(told.is_empty(), "{:?}", told);
+        Ok(())
+    });
+}
+
 /// G is skew, K(Ω) symmetric: nothing in the model creates or destroys energy.
 #[test]
 fn gyroscopic_forces_are_skew_and_stiffness_is_symmetric() {

@@ -193,8 +193,13 @@ function tell() {
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
-  by("warnings").replaceChildren(...report.warnings.map((warning) => Object.assign(document.createElement("li"), { textContent: warning })));
+  list(by("unusual"), report.unusual_numbers);
+  list(by("warnings"), report.warnings);
   by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
+}
+
+function list(place, sentences) {
+  place.replaceChildren(...sentences.map((sentence) => Object.assign(document.createElement("li"), { textContent: sentence })));
 }
 
 function buttons() {

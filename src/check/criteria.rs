@@ -1,0 +1,208 @@
+//! Each limit held against what was found, in numbers and in words.
+
+use super::Criterion;
+use super::limits::Limits;
+use super::static_deflection::{StaticDeflection, point};
+use crate::plate::Plate;
+use crate::scene::{Scene, rpm};
+use crate::stability::{Evidence, Instability, InstabilityKind};
+use crate::text::{shown, shown_to};
+
+impl Limits {
+    /// Every limit held against the speeds and bands of a saw, in rad/s; bands that grow more
+    /// slowly than the threshold are none.
+    pub fn criteria(
+        &self,
+        lowest_critical: Option<f64>,
+        flutter_speed: Option<f64>,
+        bands: &[Instability],
+        threshold_per_s: f64,
+    ) -> Vec<Criterion> {
+        let mut criteria = vec![
+            self.of_margin(lowest_critical),
+            self.of_operation(bands, threshold_per_s),
+        ];
+        criteria.extend(self.min_critical_rad_per_s.map(|asked| {
+            let nowhere = "no critical speed was found".to_owned();
+            at_least(
+                "min_critical",
+                "first critical speed",
+                asked,
+                lowest_critical,
+                nowhere,
+            )
+        }));
+        criteria.extend(self.min_flutter_rad_per_s.map(|asked| {
+            let end = rpm(self.reach_rad_per_s());
+            let nowhere = format!("none up to {end:.0} rpm, where the search ends");
+            at_least(
+                "min_flutter",
+                "flutter speed",
+                asked,
+                flutter_speed,
+                nowhere,
+            )
+        }));
+        criteria
+    }
+
+    /// The operating speed as a share of the lowest critical one.
+    fn of_margin(&self, lowest_critical: Option<f64>) -> Criterion {
+        let (operating, margin) = (self.operating_rad_per_s, self.margin);
+        let asked = operating / margin;
+        let finding = match lowest_critical {
+            None => format!(
+                "no critical speed to hold {} rpm against was found",
+                typed_rpm(operating)
+            ),
+            Some(critical) => {
+                let share = apart(1e2 * operating / critical, 1e2 * margin).0;
+                format!(
+                    "{} rpm is {share} % of the first critical speed ({:.0} rpm)",
+                    typed_rpm(operating),
+                    rpm(critical)
+                )
+            }
+        };
+        Criterion {
+            key: "margin",
+            name: format!("{} % rule", shown(1e2 * margin)),
+            finding,
+            found: lowest_critical,
+            asked,
+            passed: lowest_critical.is_none_or(|found| found >= asked),
+        }
+    }
+
+    /// Whether the saw is stable where it runs.
+    fn of_operation(&self, bands: &[Instability], threshold_per_s: f64) -> Criterion {
+        let operating = self.operating_rad_per_s;
+        let evidence = Evidence {
+            bands,
+            // The limit above is the one of critical speeds.
+            critical_rad_per_s: &[],
+            threshold_per_s,
+            range_rad_per_s: (0.0, self.reach_rad_per_s()),
+        };
+        let verdict = evidence.verdict(operating);
+        let kind = verdict.band.map(|index| match bands[index].kind {
+            InstabilityKind::Divergence => "divergence",
+            InstabilityKind::Flutter => "flutter",
+        });
+        let operating_rpm = typed_rpm(operating);
+        Criterion {
+            key: "operating",
+            name: "stability at the operating speed".to_owned(),
+            finding: match (kind, verdict.stretch) {
+                (Some(kind), Some((from, to))) => format!(
+                    "{operating_rpm} rpm lies within {kind} from {:.0} to {:.0} rpm",
+                    rpm(from),
+                    rpm(to)
+                ),
+                _ => format!("no instability at {operating_rpm} rpm"),
+            },
+            found: verdict.stretch.map(|(from, _)| from),
+            asked: operating,
+            passed: verdict.stretch.is_none(),
+        }
+    }
+
+    /// The speed at which the rim runs as fast as it may.
+    pub(super) fn of_rim(&self, rim_radius_m: f64) -> Criterion {
+        let found = self.max_rim_m_per_s / rim_radius_m;
+        let operating = self.operating_rad_per_s;
+        let (now, most) = apart(operating * rim_radius_m, self.max_rim_m_per_s);
+        Criterion {
+            key: "rim_speed",
+            name: format!("rim speed of at most {most} m/s"),
+            finding: format!("{now} m/s at {} rpm", typed_rpm(operating)),
+            found: Some(found),
+            asked: operating,
+            passed: found >= operating,
+        }
+    }
+}
+
+/// A speed that was typed, without what the conversion to rad/s and back adds.
+fn typed_rpm(rad_per_s: f64) -> String {
+    shown_to(6, rpm(rad_per_s))
+}
+
+/// A speed that is not reached within the sweep is beyond all that is asked.
+fn at_least(
+    key: &'static str,
+    name: &str,
+    asked: f64,
+    found: Option<f64>,
+    nowhere: String,
+) -> Criterion {
+    let (found_rpm, asked_rpm) = apart(rpm(found.unwrap_or(asked)), rpm(asked));
+    Criterion {
+        key,
+        name: format!("{name} of at least {asked_rpm} rpm"),
+        finding: found.map_or(nowhere, |_| format!("{found_rpm} rpm")),
+        found,
+        asked,
+        passed: found.is_none_or(|found| found >= asked),
+    }
+}
+
+/// Two numbers without decimals, or with as many as tell them apart.
+fn apart(first: f64, second: f64) -> (String, String) {
+    let with = |decimals: usize| {
+        (
+            format!("{first:.decimals$}"),
+            format!("{second:.decimals$}"),
+        )
+    };
+    let told = (0..MOST_DECIMALS)
+        .map(with)
+        .find(|(first, second)| first != second);
+    told.filter(|_| first != second).unwrap_or_else(|| with(0))
+}
+
+/// Differences beyond the third decimal are those of rounding.
+const MOST_DECIMALS: usize = 4;
+
+/// A limit that no speed keeps: a side force moves the blade away.
+pub(super) fn without_stiffness(operating: f64) -> Criterion {
+    Criterion {
+        key: "held",
+        name: "static stiffness".to_owned(),
+        finding: "nothing holds the blade's rigid motions".to_owned(),
+        found: None,
+        asked: operating,
+        passed: false,
+    }
+}
+
+/// Of every guide with a gap the speed at which the lateral forces of the cut press the blade
+/// through it. A blade past its lowest critical speed has no static deflection to hold against it.
+pub(super) fn of_gaps(
+    scene: &Scene,
+    plate: &Plate,
+    bending: Option<&StaticDeflection>,
+    operating: f64,
+) -> Vec<Criterion> {
+    let guides = scene.file().guides.iter().enumerate();
+    let with_gap = guides.filter_map(|(index, guide)| Some((index, guide, guide.gap_m?)));
+    with_gap
+        .filter_map(|(index, guide, gap_m)| {
+            let bending = bending?;
+            let place = point(plate, guide.radius_m, guide.angle_deg.to_radians());
+            bending.in_cut_m(&place, 0.0)?;
+            let found = bending.fills_gap_at(&place, gap_m);
+            Some(Criterion {
+                key: "gap",
+                name: format!("gap of guide {} ({:.0} µm)", index + 1, 1e6 * gap_m),
+                finding: match found {
+                    Some(speed) => format!("filled in the cut from {:.0} rpm on", rpm(speed)),
+                    None => "not filled in the cut below the first critical speed".to_owned(),
+                },
+                found,
+                asked: operating,
+                passed: found.is_none_or(|found| found > operating),
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,301 @@
+//! Numbers of a scene that no saw has, and the unit that they seem to be in.
+//!
+//! In goes a scene as typed; out come sentences that name the key, its value, what saws have, and
+//! the remedy. Such a number is possible: it is computed, but told before any verdict.
+
+use std::f64::consts::{PI, TAU};
+
+use serde_json::Value;
+
+use super::SceneFile;
+use super::quantity::Quantity;
+use crate::text::{shown, shown_to};
+
+/// What people write instead, and what one of it is in the unit of the quantity.
+const MISTAKEN: [(&str, &str, f64); 15] = [
+    ("m", "mm", 1e-3),
+    ("m", "cm", 1e-2),
+    ("m", "inches", 0.0254),
+    ("kg", "g", 1e-3),
+    ("kg/m³", "g/cm³", 1e3),
+    ("kg/m³", "kg/mm³", 1e9),
+    ("kg/m³", "t/mm³", 1e12),
+    ("Pa", "GPa", 1e9),
+    ("Pa", "MPa", 1e6),
+    ("N/m", "N/mm", 1e3),
+    ("rpm", "thousands of rpm", 1e3),
+    ("rpm", "turns per second (Hz)", 60.0),
+    ("W", "kW", 1e3),
+    ("m/s", "m/min", 1.0 / 60.0),
+    ("°", RADIANS, 180.0 / PI),
+];
+const RADIANS: &str = "radians";
+
+/// Speeds of the rim of saws that run: from steel cut dry by carbide to far past what blades for
+/// wood are allowed. Slower cold saws exist; what they do is no matter of critical speeds.
+const RIM_M_PER_S: (f64, f64) = (2.0, 300.0);
+/// The speed of the rim of most saws for wood and stone.
+const TYPICAL_RIM_M_PER_S: f64 = 60.0;
+/// Speeds at which the saw runs.
+const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
+/// Speeds up to which it is looked at.
+const ENDS: [&str; 3] = ["sweep.to_rpm", "runup.to_rpm", "measured.rows[].rpm"];
+
+/// Angles that may have any value, so that no range tells radians.
+const ANGLES: [&str; 5] = [
+    "guides[].angle_deg",
+    "cut.angle_deg",
+    "probe.angle_deg",
+    "runup.angle_deg",
+    "spline.weight_angle_deg",
+];
+/// Angles are set in steps like this.
+const ANGLE_STEP_DEG: f64 = 5.0;
+/// Fewer decimals of a number in radians tell nothing.
+const LEAST_DECIMALS: usize = 2;
+/// Whoever types degrees types multiples of this.
+const TYPED_DEG: f64 = 0.25;
+/// Guides at as many angles are not all within a few degrees of the same place.
+const MANY_ANGLES: usize = 3;
+
+/// Where the numbers of saws lie.
+struct Usual {
+    from: f64,
+    to: f64,
+    typical: f64,
+    /// The same in words.
+    words: String,
+}
+
+/// A number that no saw has.
+struct Unusual {
+    path: String,
+    value: f64,
+    unit: &'static str,
+    /// Why it is unusual.
+    why: String,
+    /// Another unit that it may be in, and what that would be in its own.
+    meant: Option<(&'static str, f64)>,
+}
+
+impl SceneFile {
+    /// What to say of the numbers that no saw has: a sentence each, and one for all that look like
+    /// the same other unit.
+    pub fn unusual_numbers(&self) -> Vec<String> {
+        let mut alike: Vec<Vec<Unusual>> = Vec::new();
+        for one in out_of_range(self).into_iter().chain(in_radians(self)) {
+            let unit = one.unit_meant();
+            let known = |group: &&mut Vec<Unusual>| unit.is_some() && group[0].unit_meant() == unit;
+            match alike.iter_mut().find(known) {
+                Some(group) => group.push(one),
+                None => alike.push(vec![one]),
+            }
+        }
+        alike.iter().map(|group| together(group)).collect()
+    }
+}
+
+/// What to say of a speed that is no number of the scene, called `label`, of the quantity of a path.
+pub fn unusual_number(scene: &SceneFile, label: &str, path: &str, value: f64) -> Option<String> {
+    let usual = Usual::of(scene, Quantity::of(path)?);
+    Some(
+        usual
+            .judged(label, value, Quantity::of(path)?.unit)?
+            .sentence(),
+    )
+}
+
+fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
+    let rows = scene.measured.iter().flat_map(|measured| &measured.rows);
+    let largest_rpm = rows.map(|row| row.rpm).fold(0.0, f64::max);
+    let judged = |(path, value): (String, f64)| {
+        let quantity = Quantity::of(&path)?;
+        // Slower measurements than the last one are as usual as rest is.
+        let is_slower = quantity.path == "measured.rows[].rpm" && value < largest_rpm;
+        let usual = Usual::of(scene, quantity);
+        (!is_slower).then(|| usual.judged(&path, value, quantity.unit))?
+    };
+    numbers(scene).into_iter().filter_map(judged).collect()
+}
+
+impl Usual {
+    /// What a quantity is in saws like that of a scene.
+    fn of(scene: &SceneFile, quantity: &Quantity) -> Self {
+        let (from, to) = quantity.usual;
+        let (is_run, is_end) = (RUNS.contains(&quantity.path), ENDS.contains(&quantity.path));
+        let diameter_m = scene.blade.outer_diameter_m;
+        let is_known =
+            Quantity::of("blade.outer_diameter_m").is_some_and(|q| q.is_usual(diameter_m));
+        if !is_known || !(is_run || is_end) {
+            return Usual {
+                from,
+                to,
+                typical: (from * to).abs().sqrt(),
+                words: format!("saws have {} to {}", shown(from), shown(to)),
+            };
+        }
+        let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);
+        let (least, most) = RIM_M_PER_S;
+        let from = rpm(least);
+        let to = if is_run { to.min(rpm(most)) } else { to };
+        let words = match is_run {
+            true => format!("saws of this diameter run at {from:.0} to {to:.0} rpm"),
+            false => format!("saws of this diameter run at {from:.0} rpm or more"),
+        };
+        Usual {
+            from,
+            to,
+            typical: rpm(TYPICAL_RIM_M_PER_S),
+            words,
+        }
+    }
+
+    fn has(&self, value: f64) -> bool {
+        value == 0.0 || (self.from..=self.to).contains(&value)
+    }
+
+    fn judged(&self, path: &str, value: f64, unit: &'static str) -> Option<Unusual> {
+        (!self.has(value)).then(|| Unusual {
+            path: path.to_owned(),
+            value,
+            unit,
+            why: self.words.clone(),
+            meant: self.meant(value, unit),
+        })
+    }
+
+    /// The other unit that makes a usual number of an unusual one, and that number: the one that is
+    /// nearest to what is typical.
+    fn meant(&self, value: f64, unit: &str) -> Option<(&'static str, f64)> {
+        let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == unit);
+        let meant = of_unit.map(|(_, other, factor)| (*other, value * factor));
+        let usual = meant.filter(|(_, value)| self.has(*value));
+        let distance = |value: f64| (value / self.typical).ln().abs();
+        usual.min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))
+    }
+}
+
+impl Unusual {
+    fn unit_meant(&self) -> Option<&'static str> {
+        self.meant.map(|(unit, _)| unit)
+    }
+
+    fn sentence(&self) -> String {
+        let Unusual { path, why, .. } = self;
+        let remedy = match self.meant {
+            Some((other, meant)) => {
+                format!("are these {other}? That would be {}", self.with_unit(meant))
+            }
+            None => "is it in the unit that ends the key's name?".into(),
+        };
+        format!(
+            "{path} is {}, but {why}; {remedy}",
+            self.with_unit(self.value)
+        )
+    }
+
+    fn with_unit(&self, value: f64) -> String {
+        let space = if matches!(self.unit, "" | "°") {
+            ""
+        } else {
+            " "
+        };
+        // Conversions bring digits that mean nothing.
+        format!("{}{space}{}", shown_to(7, value), self.unit)
+    }
+}
+
+/// One sentence of numbers that look like the same other unit.
+fn together(group: &[Unusual]) -> String {
+    if let [one] = group {
+        return one.sentence();
+    }
+    let each = group.iter().map(|one| {
+        let meant = one.meant.map_or(one.value, |(_, meant)| meant);
+        let (value, meant) = (shown(one.value), one.with_unit(meant));
+        format!(
+            "{} is {value} (that would be {meant}, but {})",
+            one.path, one.why
+        )
+    });
+    let each: Vec<String> = each.collect();
+    let unit = group[0].unit_meant().unwrap_or_default();
+    format!("these numbers look like {unit}: {}", each.join(", "))
+}
+
+/// Angles that are round numbers of degrees once they are taken for radians.
+fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
+    let typed = numbers(scene);
+    let of_path = |general: &str| -> Vec<(String, f64)> {
+        let own = typed.iter().filter(|(path, value)| {
+            *value != 0.0 && Quantity::of(path).is_some_and(|q| q.path == general)
+        });
+        own.cloned().collect()
+    };
+    let groups = ANGLES.iter().map(|general| of_path(general));
+    let suspect = groups.filter(|group| seem_radians(group));
+    let unusual = |(path, value): (String, f64)| Unusual {
+        path,
+        value,
+        unit: "°",
+        why: "few would set such a fraction of a degree".to_owned(),
+        meant: Some((RADIANS, (100.0 * value.to_degrees()).round() / 100.0)),
+    };
+    suspect.flatten().map(unusual).collect()
+}
+
+/// Whether angles of one kind are radians: within one turn, none of them a number of degrees that
+/// people type, and one a round number of degrees when it is converted, or many different ones.
+fn seem_radians(angles: &[(String, f64)]) -> bool {
+    let is_within = |value: f64| value.abs() <= TAU + 0.01;
+    let is_typed = |value: f64| (value / TYPED_DEG).fract() == 0.0;
+    let mut distinct: Vec<f64> = angles.iter().map(|(_, value)| *value).collect();
+    distinct.sort_by(f64::total_cmp);
+    distinct.dedup();
+    let is_many = distinct.len() >= MANY_ANGLES;
+    distinct
+        .iter()
+        .all(|value| is_within(*value) && !is_typed(*value))
+        && (is_many || distinct.iter().any(|value| is_round_in_radians(*value)))
+}
+
+/// Whether a number is a round one of degrees in radians, to the decimals that it has.
+fn is_round_in_radians(value: f64) -> bool {
+    let text = value.to_string();
+    let decimals = text
+        .split_once('.')
+        .map_or(0, |(_, decimals)| decimals.len());
+    let round_deg = ANGLE_STEP_DEG * (value.to_degrees() / ANGLE_STEP_DEG).round();
+    let as_radians = format!("{:.decimals$}", round_deg.to_radians());
+    decimals >= LEAST_DECIMALS && as_radians == text
+}
+
+/// Every number of a scene, with its path.
+fn numbers(scene: &SceneFile) -> Vec<(String, f64)> {
+    let json = serde_json::to_value(scene).expect("numbers of a scene are finite");
+    let mut found = Vec::new();
+    leaves(&json, String::new(), &mut found);
+    found
+}
+
+/// Every number below a value, with its path.
+fn leaves(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
+    match value {
+        Value::Number(number) => found.extend(number.as_f64().map(|value| (path, value))),
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                leaves(item, format!("{path}[{index}]"), found);
+            }
+        }
+        Value::Object(keys) => {
+            for (key, item) in keys {
+                let dot = if path.is_empty() { "" } else { "." };
+                leaves(item, format!("{path}{dot}{key}"), found);
+            }
+        }
+        _ => (),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,55 @@
+//! Numbers as people write them, in every message.
+
+/// Digits of a number in a message: all that anyone types, and none of those that rounding adds
+/// (0.1 + 0.2 is 0.3).
+const DIGITS: usize = 12;
+/// Sizes that are written without an exponent.
+const PLAIN: std::ops::Range<f64> = 1e-4..1e6;
+
+/// A number in a message: 2750, 0.0028, 2.1e11.
+pub fn shown(value: f64) -> String {
+    shown_to(DIGITS, value)
+}
+
+/// The same to so many digits, one at least.
+pub fn shown_to(digits: usize, value: f64) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
+    let rounded: f64 = rounded.parse().unwrap_or(value);
+    let plain = rounded.to_string();
+    if rounded == 0.0 || !rounded.is_finite() || PLAIN.contains(&rounded.abs()) {
+        return plain;
+    }
+    let with_exponent = format!("{rounded:e}");
+    match plain.len() <= with_exponent.len() {
+        true => plain,
+        false => with_exponent,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn numbers_are_short_and_nothing_typed_is_lost() {
+        for (value, expected) in [
+            (2749.9999999999995, "2750"),
+            (0.1 + 0.05, "0.15"),
+            (0.1 + 0.2, "0.3"),
+            (1e300, "1e300"),
+            (-1e300, "-1e300"),
+            (2.1e11, "2.1e11"),
+            (1e-12, "1e-12"),
+            (1e6, "1e6"),
+            (1234567.0, "1234567"),
+            (0.30000001, "0.30000001"),
+            (0.0028, "0.0028"),
+            (40000.0, "40000"),
+            (0.0, "0"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(shown(value), expected);
+        }
+    }
+}
