@@ -18,7 +18,16 @@ from importlib.metadata import version as _version
 
 from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
 from ._scene_types import SceneDict, StudyDict
-from .errors import AnalysisError, ArgumentError, InputError, SceneError, StudyError
+from .errors import (
+    AnalysisError,
+    ArgumentError,
+    InputError,
+    ModelWarning,
+    PathError,
+    SceneError,
+    StudyError,
+)
+from .matrices import Matrices
 from .results import (
     CampbellResults,
     CheckResults,
@@ -32,7 +41,8 @@ from .results import (
     WashboardResults,
     load,
 )
-from .scene import Matrices, Scene
+from .scene import Scene
+from .stiffness import StiffnessMap
 from .study import Study
 
 __version__ = _version("sawflutter")
@@ -50,6 +60,8 @@ __all__ = [
     "Instability",
     "Matrices",
     "Mode",
+    "ModelWarning",
+    "PathError",
     "PlaceResults",
     "RestMode",
     "Result",
@@ -57,6 +69,7 @@ __all__ = [
     "Scene",
     "SceneDict",
     "SceneError",
+    "StiffnessMap",
     "Study",
     "StudyDict",
     "StudyError",

@@ -31,6 +31,20 @@ class Entry:
         """Makes an entry of an object of the JSON; keys that it does not know are left out."""
         return cls(**{name: read(data[key]) for name, key, read in _readers(cls) if key in data})
 
+    @classmethod
+    def required_keys(cls) -> frozenset[str]:
+        """The keys of the JSON that are always there."""
+        fields = dataclasses.fields(cls)  # type: ignore[arg-type]
+        always = (field for field in fields if field.default is dataclasses.MISSING)
+        return frozenset(field.metadata.get("key", field.name) for field in always)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # NumPy forgets in a pickle or a copy that an array cannot be written to.
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        vars(self).update(state)
+
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
@@ -43,7 +57,7 @@ class Entry:
 
     def __repr__(self) -> str:
         fields = dataclasses.fields(self)  # type: ignore[arg-type]
-        shown = (f"{field.name}={_short(getattr(self, field.name))}" for field in fields)
+        shown = (f"{f.name}={_short(getattr(self, f.name))}" for f in fields if f.repr)
         return f"{type(self).__name__}({', '.join(shown)})"
 
 

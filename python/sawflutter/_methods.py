@@ -2,50 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
 
+if TYPE_CHECKING:
+    from ._report_types import Branch, Instability, Shape, Wave
 
-class _Profile(Protocol):
-    """Deflection of n nodal diameters at a few radii."""
-
-    @property
-    def nodal_diameters(self) -> int: ...
-    @property
-    def radius_m(self) -> FloatArray: ...
-    @property
-    def cosine(self) -> FloatArray: ...
-    @property
-    def sine(self) -> FloatArray: ...
-
-
-class _Complex(Protocol):
-    @property
-    def re(self) -> FloatArray: ...
-    @property
-    def im(self) -> FloatArray: ...
-
-
-class _Harmonic(Protocol):
-    """The same of a mode at a speed."""
-
-    @property
-    def nodal_diameters(self) -> int: ...
-    @property
-    def cosine(self) -> _Complex: ...
-    @property
-    def sine(self) -> _Complex: ...
+# Smaller growth rates are rounding of the eigenvalues, as in the program's figures.
+NEGLIGIBLE_PER_S = 1e-3
 
 
 class RestModeMethods(Entry):
     """Of a mode at rest."""
 
     if TYPE_CHECKING:
-        profiles: tuple[_Profile, ...]
+        profiles: tuple[Shape, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> FloatArray:
         """Deflection at points of the blade, scaled to a largest value of one.
@@ -79,7 +55,7 @@ class ModeMethods(Entry):
         frequency_hz: float
         growth_per_s: float
         radius_m: FloatArray
-        harmonics: tuple[_Harmonic, ...]
+        harmonics: tuple[Wave, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> ComplexArray:
         """Complex deflection in space; its real part times e^(iωt) is what moves.
@@ -136,16 +112,61 @@ class BranchMethods(Entry):
         frequency_hz: FloatArray
         growth_per_s: FloatArray
 
-    def at(self, rpm: npt.ArrayLike) -> tuple[Any, Any]:
-        """Frequency in Hz and growth rate in 1/s at speeds, linear between those of the report.
+    # Speeds at which a band of this branch begins or ends, and on which side of them it lies.
+    _edges: tuple[tuple[float, int], ...] = ()
 
-        NaN before the first and past the last speed of the branch.
+    def at(self, rpm: npt.ArrayLike) -> tuple[Any, Any]:
+        """Frequency in Hz and growth rate in 1/s at speeds, linear between those of the report; the
+        growth rate is zero at the edges of the bands in which the branch grows.
+
+        Parameters
+        ----------
+        rpm : array_like
+            Speeds.
+
+        Returns
+        -------
+        (ndarray, ndarray)
+            Of the shape of the speeds; NaN before the first and past the last speed of the branch.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> band = r.bands[0]
+        >>> growing = r.branches[band.branches[0] - 1]
+        >>> [bool(growing.at(rpm)[1] > 0) for rpm in (band.from_rpm - 1, band.peak_rpm)]
+        [False, True]
         """
         speeds = np.asarray(rpm, float)
         return (
             _between(speeds, self.rpm, self.frequency_hz),
-            _between(speeds, self.rpm, self.growth_per_s),
+            _between(speeds, *self._growth()),
         )
+
+    def _growth(self) -> tuple[FloatArray, FloatArray]:
+        """Growth rates over speed, with the edges of the bands."""
+        rows = dict(zip(self.rpm.tolist(), self.growth_per_s.tolist()))
+        for edge, side in self._edges:
+            right = int(np.searchsorted(self.rpm, edge))
+            if not 0 < right < len(self.rpm) or edge in rows:
+                continue
+            before, past = self.growth_per_s[right - 1 : right + 1]
+            inside, outside = (past, before) if side > 0 else (before, past)
+            # A damped branch that does not grow in the band decays at its edge, too.
+            if inside > 0.0 or abs(outside) < NEGLIGIBLE_PER_S:
+                rows[edge] = 0.0
+        speeds = np.array(sorted(rows))
+        return speeds, np.array([rows[speed] for speed in speeds.tolist()])
+
+
+def know_bands(branches: Sequence[Branch], bands: Iterable[Instability]) -> None:
+    """Tells branches the edges of the bands in which they become unstable."""
+    for band in bands:
+        for number in band.branches:
+            branch = branches[number - 1]
+            edges = ((band.from_rpm, 1), (band.to_rpm, -1))
+            object.__setattr__(branch, "_edges", (*branch._edges, *edges))
 
 
 def _between(at: Any, places: FloatArray, values: FloatArray) -> FloatArray:

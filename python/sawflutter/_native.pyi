@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TypeAlias, final
+from typing import SupportsFloat, SupportsIndex, TypeAlias, final
 
 __all__ = [
     "Study",
@@ -45,30 +45,32 @@ def program(arguments: Sequence[str]) -> int: ...
 def panic() -> None: ...
 def processor() -> str: ...
 def analyze(scene: str, *, sensitivity: bool = False, progress: _Progress = None) -> str: ...
-def modes(scene: str, at_rpm: float, *, progress: _Progress = None) -> str: ...
+def modes(scene: str, at_rpm: SupportsFloat, *, progress: _Progress = None) -> str: ...
 def check(
     scene: str,
     *,
-    operating_rpm: float | None = None,
-    margin: float = 0.85,
-    min_flutter_rpm: float | None = None,
-    min_critical_rpm: float | None = None,
-    max_rim_m_per_s: float = 100.0,
+    operating_rpm: SupportsFloat | None = None,
+    margin: SupportsFloat = 0.85,
+    min_flutter_rpm: SupportsFloat | None = None,
+    min_critical_rpm: SupportsFloat | None = None,
+    max_rim_m_per_s: SupportsFloat = 100.0,
     accept_unusual: bool = False,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...
 def runup(scene: str, *, progress: _Progress = None) -> str: ...
-def washboard(scene: str, rpm: float | None = None, *, progress: _Progress = None) -> str: ...
+def washboard(
+    scene: str, rpm: SupportsFloat | None = None, *, progress: _Progress = None
+) -> str: ...
 def fit(
     scene: str,
     measured: tuple[str, str] | None,
     free: Sequence[_Bounds],
     *,
-    to_rpm: float | None = None,
-    confidence: float = 0.95,
-    starts: int = 12,
-    seed: int = 0,
+    to_rpm: SupportsFloat | None = None,
+    confidence: SupportsFloat = 0.95,
+    starts: SupportsIndex = 12,
+    seed: SupportsIndex = 0,
     progress: _Progress = None,
 ) -> str: ...
 def place(
@@ -76,15 +78,15 @@ def place(
     free: Sequence[_Bounds],
     *,
     goal: str = "flutter",
-    min_critical_rpm: float | None = None,
-    samples: int = 64,
-    refine: int = 60,
-    map: int = 17,
+    min_critical_rpm: SupportsFloat | None = None,
+    samples: SupportsIndex = 64,
+    refine: SupportsIndex = 60,
+    map: SupportsIndex = 17,
     progress: _Progress = None,
 ) -> str: ...
 def tradeoff(scene: str, *, progress: _Progress = None) -> str: ...
 def matrices(
-    scene: str, *, basis: tuple[int, int] | None = None
+    scene: str, *, basis: tuple[SupportsIndex, SupportsIndex] | None = None
 ) -> tuple[dict[str, bytes], int, int]: ...
 def picture(name: str, report: str) -> bytes | None: ...
 def summary(report: str) -> str: ...
@@ -97,9 +99,7 @@ class Study:
     @property
     def count(self) -> int: ...
     def values(self, index: int) -> list[float]: ...
-    def rows(
-        self, ranges: Sequence[tuple[int, int]], *, progress: _Progress = None
-    ) -> bytes: ...
+    def rows(self, ranges: Sequence[tuple[int, int]], *, progress: _Progress = None) -> bytes: ...
     def failed(self, index: int, reason: str) -> bytes: ...
     def run(self, folder: str | os.PathLike[str], *, progress: _Progress = None) -> None: ...
     def log(self, folder: str | os.PathLike[str]) -> StudyLog: ...

@@ -7,6 +7,8 @@ import io
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from ._extras import extra
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -17,7 +19,8 @@ _KINDS: tuple[Callable[[str], Any], ...] = (int, float, lambda cell: _TRUTHS[cel
 
 def frame(entries: Iterable[Any]) -> pd.DataFrame:
     """The plain numbers and words of entries of a report, one row each."""
-    import pandas as pd
+    with extra("pandas"):
+        import pandas as pd
 
     def plain(value: Any) -> bool:
         return value is None or isinstance(value, (str, bool, int, float))
@@ -27,9 +30,10 @@ def frame(entries: Iterable[Any]) -> pd.DataFrame:
 
 
 def read(text: str) -> pd.DataFrame:
-    """A table that the library has written: every number to the last bit, which the readers of
-    pandas do not promise in all of its versions."""
-    import pandas as pd
+    """A table that the library has written: every number to the last bit, which the reader of
+    pandas promises in some of its versions with an argument that others refuse."""
+    with extra("pandas"):
+        import pandas as pd
 
     names, *rows = csv.reader(io.StringIO(text))
     columns = zip(*rows) if rows else ([] for _ in names)

@@ -10,7 +10,15 @@ blade.thickness_m; -1; between 1e-12 and 1e15
 
 from __future__ import annotations
 
-__all__ = ["AnalysisError", "ArgumentError", "InputError", "SceneError", "StudyError"]
+__all__ = [
+    "AnalysisError",
+    "ArgumentError",
+    "InputError",
+    "ModelWarning",
+    "PathError",
+    "SceneError",
+    "StudyError",
+]
 
 
 class InputError(ValueError):
@@ -55,6 +63,13 @@ class SceneError(InputError):
     """A scene that is none, or a number of it that no saw has."""
 
 
+class PathError(SceneError, KeyError):
+    """A path that the scene does not have."""
+
+    # That of KeyError shows its message in quotes.
+    __str__ = Exception.__str__
+
+
 class StudyError(InputError):
     """A study that is none, or a folder that belongs to another one."""
 
@@ -65,3 +80,10 @@ class ArgumentError(InputError):
 
 class AnalysisError(RuntimeError):
     """A computation that failed: the message says on what and what to do."""
+
+
+class ModelWarning(UserWarning):
+    """A number of the scene that no saw has, or a result that the model may not hold for: the
+    ``warnings`` of a result. ``warnings.simplefilter("error", sawflutter.ModelWarning)`` makes them
+    exceptions.
+    """

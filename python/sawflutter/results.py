@@ -4,144 +4,45 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
 
 from . import _native
-from ._entry import Entry, FloatArray
+from ._entry import FloatArray
+from ._extras import extra
+from ._methods import know_bands
 from ._report_types import (
     Branch,
     CampbellReport,
     CheckReport,
     Criterion,
     CutReport,
-    FitReport,
     Instability,
     Mode,
-    PlaceReport,
     RunUpReport,
-    Setting,
-    StudyReport,
     WashboardReport,
 )
+from ._result import Result
 from ._table import frame, read
 from ._view import html
+from .designs import FitResults, PlaceResults, StudyResults, TradeoffResults
+from .errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
 
     from .plot.chart import Chart
-    from .scene import Scene
 
-R = TypeVar("R", bound="Result")
-
-
-class Result:
-    """Base of all results. A result is made of the JSON that the program writes and keeps it word
-    for word: :meth:`save` writes the same bytes as the program does.
-    """
-
-    figure_names: ClassVar[tuple[str, ...]] = ()
-    """Names of the program's own figures of this result, see :meth:`figure`."""
-
-    _text: str
-
-    @classmethod
-    def from_json(cls: type[R], text: str) -> R:
-        """The result of a JSON text."""
-        assert issubclass(cls, Entry)
-        result = cls.from_dict(json.loads(text))
-        object.__setattr__(result, "_text", text)
-        return result
-
-    def to_json(self) -> str:
-        """The report as the program writes it."""
-        return self._text
-
-    @property
-    def raw(self) -> dict[str, Any]:
-        """The report as a dict, with every key that it has."""
-        data: dict[str, Any] = json.loads(self._text)
-        return data
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it."""
-        Path(path).write_bytes(self._text.encode())
-
-    @property
-    def saw(self) -> Scene:
-        """The scene that was looked at; of a fit or a placement, the one that was found."""
-        from .scene import Scene
-
-        return Scene.from_json(json.dumps(self.raw["scene"]))
-
-    def figure(self, name: str) -> bytes | None:
-        """A figure of the program, the same bytes as it writes; None where the saw has none.
-
-        Parameters
-        ----------
-        name : str
-            One of :attr:`figure_names`, PNG or SVG.
-        """
-        return _native.picture(name, self._text)
-
-    def chart(self) -> Chart:
-        """What :meth:`plot` and :meth:`plot_matplotlib` draw: lines, points and bands as numbers."""
-        raise NotImplementedError
-
-    def plot(self) -> Figure:
-        """A plotly figure."""
-        from .plot.with_plotly import draw
-
-        return draw(self.chart())
-
-    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """A matplotlib figure; its upper or only axes.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Axes to draw the upper panel into; without them, a figure with all panels is begun.
-        """
-        from .plot.with_matplotlib import draw
-
-        return draw(self.chart(), ax)
-
-    def __eq__(self, other: object) -> bool:
-        if type(self) is not type(other):
-            return NotImplemented
-        return self._text == other._text
-
-    def __hash__(self) -> int:
-        return hash(self._text)
-
-    def __reduce__(self) -> tuple[Any, tuple[str]]:
-        return type(self).from_json, (self._text,)
-
-    def __repr__(self) -> str:
-        unusual = self.raw.get("unusual_numbers")
-        warned = f"unusual numbers: {'; '.join(unusual)}; " if unusual else ""
-        return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
-
-    def _facts(self) -> str:
-        """The answer in a line."""
-        return ""
-
-    def _repr_html_(self) -> str:
-        """What a notebook shows: the answer, and the program's figure."""
-        name = next((name for name in self.figure_names if name.endswith(".svg")), None)
-        picture = self.figure(name) if name is not None else None
-        return html(repr(self), None if picture is None else picture.decode())
+Table: TypeAlias = Literal["branches", "modes_at_rest", "critical_speeds", "bands"]
 
 
 class CampbellResults(Result, CampbellReport):
     """Campbell diagram, critical speeds and bands of instability of a saw."""
 
+    command = "analyze"
     figure_names = (
         "campbell.svg",
         "campbell.png",
@@ -156,7 +57,9 @@ class CampbellResults(Result, CampbellReport):
     @property
     def critical_rpm(self) -> FloatArray:
         """Critical speeds up to the end of the sweep, ascending."""
-        return np.array([critical.rpm for critical in self.critical_speeds])
+        speeds = np.array([critical.rpm for critical in self.critical_speeds])
+        speeds.setflags(write=False)
+        return speeds
 
     @property
     def flutter_rpm(self) -> float | None:
@@ -179,16 +82,53 @@ class CampbellResults(Result, CampbellReport):
         return self.saw.modes(rpm)
 
     def summary(self) -> str:
-        """What the program prints."""
+        """The report in words, as the program prints it."""
         return _native.summary(self._text)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes ``campbell.csv``, the same bytes as the program: one row a branch and speed."""
         Path(path).write_bytes(_native.campbell_csv(self._text).encode())
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a branch and speed, the columns of ``campbell.csv``; needs pandas."""
-        return read(_native.campbell_csv(self._text))
+    def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
+        """A table, a row each; needs pandas.
+
+        Parameters
+        ----------
+        of : {"branches", "modes_at_rest", "critical_speeds", "bands"}
+            Branches and speeds, with the columns of ``campbell.csv``; or modes at rest, critical
+            speeds, or bands of instability, with their branches, how those run at the largest growth
+            (``directions``), and their nodal diameters there.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.to_dataframe("bands").loc[0, ["kind", "nodal_diameters"]].tolist()
+        ['divergence', '2']
+        """
+        if of == "branches":
+            return read(_native.campbell_csv(self._text))
+        if of == "bands":
+            table = frame(self.bands)
+            for name, column in self._of_bands().items():
+                table[name] = column
+            return table
+        if of not in ("modes_at_rest", "critical_speeds"):
+            raise ValueError(f"there is no table of {of!r}, but {', '.join(get_args(Table))}")
+        return frame(getattr(self, of))
+
+    def _of_bands(self) -> dict[str, list[str]]:
+        """What the branches of each band are where it grows most."""
+        columns: dict[str, list[str]] = {"modes": [], "directions": [], "nodal_diameters": []}
+        for band in self.bands:
+            branches = [self.branches[number - 1] for number in band.branches]
+            places = [int(np.argmin(abs(of.rpm - band.peak_rpm))) for of in branches]
+            found = list(zip(branches, places))
+            columns["modes"].append(" + ".join(band.modes))
+            columns["directions"].append(" + ".join(of.direction[at] for of, at in found))
+            diameters = (str(of.dominant_harmonics[at, 0]) for of, at in found)
+            columns["nodal_diameters"].append(" + ".join(diameters))
+        return columns
 
     def chart(self) -> Chart:
         """Frequencies over speed, growth rates below."""
@@ -204,9 +144,16 @@ class CampbellResults(Result, CampbellReport):
 
     def plot_root_loci(self) -> Figure:
         """The two modes that meet at the flutter speed, in the complex plane: a plotly figure."""
-        from .plot.with_plotly import draw
+        from .plot import with_plotly
 
-        return draw(self.root_loci_chart())
+        return with_plotly.draw(self.root_loci_chart())
+
+    def _read(self) -> None:
+        know_bands(self.branches, self.bands)
+
+    def _repr_html_(self) -> str:
+        picture = self.figure("campbell.svg")
+        return html(self.summary(), None if picture is None else picture.decode())
 
     def _facts(self) -> str:
         first, last = self.campbell.from_rpm, self.campbell.to_rpm
@@ -215,16 +162,14 @@ class CampbellResults(Result, CampbellReport):
             f"lowest critical speed {lowest[0]:.0f} rpm" if len(lowest) else "no critical speed"
         )
         flutter = (
-            "no flutter" if self.flutter_rpm is None else f"flutter from {self.flutter_rpm:.0f} rpm"
+            f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
+            if self.flutter_rpm is None
+            else f"flutter from {self.flutter_rpm:.0f} rpm"
         )
         return (
             f"{critical}, {flutter}, {len(self.bands)} bands of instability "
             f"from {first:.0f} to {last:.0f} rpm"
         )
-
-    def _repr_html_(self) -> str:
-        picture = self.figure("campbell.svg")
-        return html(self.summary(), None if picture is None else picture.decode())
 
 
 class CheckResults(Result, CheckReport):
@@ -232,6 +177,7 @@ class CheckResults(Result, CheckReport):
     where a limit is not kept, and pytest shows which.
     """
 
+    command = "check"
     figure_names = ("check.svg", "check.png")
 
     def __bool__(self) -> bool:
@@ -268,6 +214,7 @@ def _missed(criterion: Criterion) -> str:
 class CutResults(Result, CutReport):
     """A saw in the wood, at one or several speeds."""
 
+    command = "cut"
     figure_names = (
         "cut.svg",
         "cut.png",
@@ -295,9 +242,9 @@ class CutResults(Result, CutReport):
 
     def plot_map(self, run: int = 0) -> Figure:
         """Growth over guide angle and load: a plotly figure."""
-        from .plot.with_plotly import draw
+        from .plot import with_plotly
 
-        return draw(self.map_chart(run))
+        return with_plotly.draw(self.map_chart(run))
 
     def _facts(self) -> str:
         return ", ".join(f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs)
@@ -306,11 +253,13 @@ class CutResults(Result, CutReport):
 class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
+    command = "runup"
     figure_names = ("runup.svg", "runup.png", "response-map.svg", "response-map.png")
 
     def to_dataframe(self) -> pd.DataFrame:
         """Speed and deflection, one row a sample; needs pandas."""
-        import pandas as pd
+        with extra("pandas"):
+            import pandas as pd
 
         return pd.DataFrame({"rpm": self.rpm, "deflection_m": self.deflection_m})
 
@@ -328,20 +277,25 @@ class RunUpResults(Result, RunUpReport):
 
     def plot_response(self) -> Figure:
         """Deflection per newton over speed and frequency: a plotly figure."""
-        from .plot.with_plotly import draw
+        from .plot import with_plotly
 
-        return draw(self.response_chart())
+        return with_plotly.draw(self.response_chart())
 
     def _facts(self) -> str:
+        last = self.rpm[-1]
+        crossed = sum(entry.band.from_rpm < last for entry in self.bands)
         doubling = self.first_doubling_rpm
         at = "none" if doubling is None else f"the first at {doubling:.0f} rpm"
-        crossed = f"{self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm, {len(self.bands)} bands crossed"
-        return f"{crossed}; that more than double a motion: {at}"
+        facts = f"{self.rpm[0]:.0f} to {last:.0f} rpm, {crossed} bands crossed"
+        if self.linear_until_rpm is not None:
+            facts += f", where the linear model ends; asked up to {self.to_rpm:.0f} rpm"
+        return f"{facts}; bands that more than double a motion: {at}"
 
 
 class WashboardResults(Result, WashboardReport):
     """Whether the teeth set the blade swinging, each on the surface left by the one before."""
 
+    command = "washboard"
     figure_names = ("washboard.svg", "washboard.png")
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -360,186 +314,15 @@ class WashboardResults(Result, WashboardReport):
         return f"{self.verdict} at {self.rpm:.0f} rpm, critical cutting stiffness {beyond} N/m"
 
 
-class FitResults(Result, FitReport):
-    """A saw fitted to measured frequencies: :attr:`saw` is the calibrated one."""
-
-    figure_names = ("fit.svg", "fit.png")
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a fitted number; needs pandas."""
-        return frame(self.parameters)
-
-    def chart(self) -> Chart:
-        """Measured and computed frequencies over speed."""
-        from .plot.design import fit
-
-        return fit(self, self._facts())
-
-    def _facts(self) -> str:
-        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        return f"{found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
-
-
-class PlaceResults(Result, PlaceReport):
-    """The best place found for the guides: :attr:`saw` is that saw."""
-
-    figure_names = ("place.svg", "place.png")
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a number that was moved; needs pandas."""
-        return frame(self.parameters)
-
-    def chart(self) -> Chart:
-        """The goal over one or two numbers."""
-        from .plot.design import place
-
-        return place(self, self._facts())
-
-    def _facts(self) -> str:
-        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
-        robust = "fragile" if self.fragile else "robust"
-        worst = 1e2 * self.worst_neighbour_share
-        return (
-            f"{found}; {self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}, "
-            f"{robust}: {worst:.0f} % at the worst of its tolerances"
-        )
-
-
-class StudyResults(Result, StudyReport):
-    """Many saws, summed up; :meth:`sawflutter.Study.run` makes it."""
-
-    figure_names = ("study.svg", "study.png")
-
-    _folder: Path | None = None
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a saw, from ``study.csv`` beside the report; needs pandas."""
-        if self._folder is None:
-            raise FileNotFoundError(
-                "the table of the saws is study.csv beside the report: load it there"
-            )
-        return read((self._folder / "study.csv").read_text(encoding="utf-8"))
-
-    def sensitivity(self, *, confidence: float = 0.95, seed: int = 0) -> pd.DataFrame:
-        """Sobol' indices of the first order: the share of the variance of a speed that a number
-        causes by itself, whatever the others are. What is missing to 1 in their sum is due to
-        several together. Needs SALib, which estimates them by RBD-FAST from the saws that there
-        are (Tarantola, Gatelli and Mara, Reliability Engineering and System Safety 91 (2006), 717).
-
-        Parameters
-        ----------
-        confidence : float
-            Of the half-width beside each index, from resampled saws.
-        seed : int
-            Of this resampling.
-
-        Returns
-        -------
-        pandas.DataFrame
-            One row a number; columns ``lowest_critical``, ``flutter``, and the half-widths
-            ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
-            is the same in all saws. A saw without a speed counts with the last speed looked at, and
-            one that was not analysed does not count.
-        """
-        import numpy as np
-        import pandas as pd
-        from SALib.analyze import rbd_fast
-
-        table = self.to_dataframe()
-        table = table[table["status"] == "analysed"]
-        names = [parameter["path"] for parameter in self.study["parameters"]]
-        numbers = table[names].to_numpy(dtype=float)
-        # Ranks: an index depends on the order of the saws by each number, not on its distribution.
-        bounds = [[low, high] for low, high in zip(numbers.min(axis=0), numbers.max(axis=0))]
-        problem = {"num_vars": len(names), "names": names, "bounds": bounds}
-        columns: dict[str, Any] = {}
-        for key, column in (("lowest_critical", "lowest_critical_rpm"), ("flutter", "flutter_rpm")):
-            speeds = table[column].astype(float).fillna(self.swept_to_rpm).to_numpy()
-            columns[key] = columns[f"{key}_confidence"] = np.full(len(names), np.nan)
-            if len(speeds) > 1 and np.ptp(speeds) > 0.0:
-                found = rbd_fast.analyze(problem, numbers, speeds, conf_level=confidence, seed=seed)
-                columns[key] = np.array(found["S1"])
-                columns[f"{key}_confidence"] = np.array(found["S1_conf"])
-        return pd.DataFrame(columns, index=pd.Index(names, name="number"))
-
-    def chart(self) -> Chart:
-        """Shares of the saws below a speed, and those that can be run at one."""
-        from .plot.design import study
-
-        return study(self, self._facts())
-
-    def _facts(self) -> str:
-        passing = self.all.passing
-        kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
-        return f"{self.all.saws} saws{kept}"
-
-
-class TradeoffResults:
-    """Computing time against true error, for bases of several sizes."""
-
-    def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
-        self.settings: tuple[Setting, ...] = tuple(settings)
-        self.name = name
-        self._text = text
-
-    @classmethod
-    def from_json(cls, text: str, name: str = "") -> TradeoffResults:
-        """The result of a JSON text."""
-        return cls((Setting.from_dict(setting) for setting in json.loads(text)), text, name)
-
-    def recommended(self, error: float) -> Setting | None:
-        """The fastest chart within a relative error."""
-        charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
-        return min(charts, key=lambda setting: setting.seconds, default=None)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``tradeoff.json``."""
-        Path(path).write_bytes(self._text.encode())
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a setting; needs pandas."""
-        return frame(self.settings)
-
-    def chart(self) -> Chart:
-        """Error over time."""
-        from .plot.design import tradeoff
-
-        return tradeoff(self.settings, self.name)
-
-    def plot(self) -> Figure:
-        """A plotly figure."""
-        from .plot.with_plotly import draw
-
-        return draw(self.chart())
-
-    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """A matplotlib figure; its axes."""
-        from .plot.with_matplotlib import draw
-
-        return draw(self.chart(), ax)
-
-    def __eq__(self, other: object) -> bool:
-        return self._text == other._text if isinstance(other, TradeoffResults) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._text)
-
-    def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return TradeoffResults.from_json, (self._text, self.name)
-
-    def __repr__(self) -> str:
-        return f"<TradeoffResults {self.name!r}: {len(self.settings)} settings>"
-
-
-# Which report has which key that no other has.
-_KINDS: tuple[tuple[str, type[Result]], ...] = (
-    ("modes_at_rest", CampbellResults),
-    ("criteria", CheckResults),
-    ("tooth_angles_deg", CutResults),
-    ("rate_rpm_per_s", RunUpResults),
-    ("lobes", WashboardResults),
-    ("without_effect", FitResults),
-    ("swept_to_rpm", StudyResults),
+_KINDS: tuple[type[Result], ...] = (
+    CampbellResults,
+    CheckResults,
+    CutResults,
+    FitResults,
+    PlaceResults,
+    RunUpResults,
+    StudyResults,
+    WashboardResults,
 )
 
 
@@ -560,15 +343,11 @@ def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     data = json.loads(text)
     if isinstance(data, list):
         return TradeoffResults.from_json(text)
-    if "kept" in data:
-        return PlaceResults.from_json(text)
-    for key, kind in _KINDS:
-        if key in data:
-            result = kind.from_json(text)
-            if isinstance(result, StudyResults):
-                object.__setattr__(result, "_folder", Path(path).parent)
-            return result
-    raise ValueError(f"{path} is no report of sawflutter; a scene is read by Scene.load")
+    # Of the kinds whose keys are all there, the one with the most: some have the keys of others.
+    kinds = [kind for kind in _KINDS if kind.required_keys() <= data.keys()]
+    if not kinds:
+        raise InputError(f"{path} is no report of sawflutter; a scene is read by Scene.load")
+    return max(kinds, key=lambda kind: len(kind.required_keys())).load(path)
 
 
 __all__ = [

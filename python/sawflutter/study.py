@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -11,12 +12,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from . import _native, _tasks
+from . import _native, _tasks, _values
 from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
 from .results import StudyResults
-from .scene import Scene, _json
+from .scene import Scene
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -52,7 +53,7 @@ class Study:
         if isinstance(study, (str, os.PathLike)):
             text = _native.read_text(study, False)
         else:
-            text = _json(study)
+            text = _values.to_json(study)
         self._setup(scene, text)
 
     def _setup(self, scene: Scene, text: str) -> None:
@@ -94,7 +95,12 @@ class Study:
             client of Dask goes on when workers are lost; a saw that ends every worker it is given
             to is a row "failed", and the others are done.
         progress : bool or callable, optional
-            True shows a bar, a callable is called with what is done and of how many.
+            True shows a bar, a callable is called with what is done and of how many. With a client
+            of Dask the address of its dashboard is printed, too.
+
+        Returns
+        -------
+        StudyResults
 
         Raises
         ------
@@ -104,15 +110,15 @@ class Study:
         """
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
+        if progress and (dashboard := getattr(executor, "dashboard_link", None)):
+            print(f"dashboard {dashboard}", file=sys.stderr)
         with reporting(progress, "saws") as told:
             if executor is None:
                 self._native.run(place, progress=told)
             else:
                 self._fill(executor, place, told)
         self._sum_up(place)
-        result = StudyResults.from_json((place / "study.json").read_text(encoding="utf-8"))
-        object.__setattr__(result, "_folder", place)
-        return result
+        return StudyResults.load(place / "study.json")
 
     def _fill(self, executor: Executor | Client, folder: Path, told: Any = None) -> None:
         """Adds the saws that its log does not have to a folder, without summing them up."""

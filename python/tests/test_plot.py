@@ -217,3 +217,30 @@ def test_labels_at_the_ends_of_lines_do_not_meet(report: sf.CampbellResults) -> 
 def test_ticks_of_a_root_scale_are_round() -> None:
     assert root_ticks(0.0, 3.5) == [0.0, 0.1, 0.3, 1.0, 3.0]
     assert root_ticks(-1.0, 1.0)[0] == -1.0
+
+
+def test_the_saw_is_drawn_with_its_guides_and_signs(draft: sf.Scene) -> None:
+    saw = draft.add_guide(angle_deg=90.0)
+    (panel,) = saw.chart().panels
+    named = {item.name: item for item in panel.items if isinstance(item, Line | Points)}
+    assert {"rim", "bore", "cut", "probe", "guides[0]", "guides[1]", "rotation"} <= set(named)
+    rim = named["rim"]
+    assert np.hypot(rim.x, rim.y) == pytest.approx(draft["blade.outer_diameter_m"] / 2)
+    # 90° with the rotation from the x axis is up.
+    pad = named["guides[1]"]
+    middle = (np.mean(pad.x[:4]), np.mean(pad.y[:4]))
+    assert middle == pytest.approx((0.0, draft["guides[0].radius_m"]), abs=1e-12)
+    assert saw.plot_saw().layout.yaxis.scaleanchor == "x"
+    assert saw.plot_saw_matplotlib().get_aspect() == 1.0
+
+
+def test_bands_are_drawn_in_full_and_limits_by_name(
+    draft: sf.Scene, report: sf.CampbellResults
+) -> None:
+    shapes = report.plot().layout.shapes
+    assert len(shapes) >= len(report.bands) and {shape.opacity for shape in shapes} == {1.0}
+    check = draft.check(operating_rpm=1250, min_critical_rpm=1600)
+    names = [criterion.name for criterion in reversed(check.criteria)]
+    assert list(check.plot().layout.yaxis.ticktext) == names
+    labels = check.plot_matplotlib().get_yticklabels()
+    assert [label.get_text() for label in labels] == names

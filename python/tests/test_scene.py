@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import sawflutter as sf
+from sawflutter import _scene_types
+from sawflutter._values import unit
+
+_TYPES = Path(_scene_types.__file__).read_text()
 
 
 def test_every_scene_of_the_checkout_is_read_and_written(scenes: Path, tmp_path: Path) -> None:
@@ -111,3 +117,112 @@ def test_nothing_but_json_goes_into_a_scene() -> None:
         sf.Scene.paper().replace({"name": object()})
     with pytest.raises(sf.SceneError):
         sf.Scene.paper().replace({"blade.thickness_m": float("nan")})
+
+
+def test_a_scene_is_a_mapping_in_full() -> None:
+    saw = sf.Scene.paper()
+    assert dict(saw) == saw.to_dict() and list(saw) == list(saw.to_dict())
+    assert "guides[0].radius_m" in saw and "damping" not in saw and len(saw) > 5
+    assert saw.get("damping.air_n_s_per_m3", 0.0) == 0.0
+    assert sf.Scene(saw) == saw
+    assert saw.blade["thickness_m"] == saw["blade.thickness_m"] == 0.0028
+    assert saw.guides[0]["radius_m"] == 0.2 and saw.mount is not None and saw.cut is not None
+    # What looks like a change of the scene is refused, with the remedy.
+    for change in (
+        lambda: saw.__setitem__("name", "other"),
+        lambda: saw.blade.update(thickness_m=0.003),
+        lambda: saw["guides"][0].__setitem__("radius_m", 0.3),
+    ):
+        with pytest.raises(TypeError, match="replace"):
+            change()
+    own = copy.deepcopy(saw.blade)
+    own["thickness_m"] = 0.003
+    assert saw.blade["thickness_m"] == 0.0028
+
+
+def test_what_is_no_scene_says_what_is() -> None:
+    with pytest.raises(TypeError, match="Scene.load"):
+        sf.Scene("saw.json")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="dict"):
+        sf.Scene([1, 2])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("guides[7].radius_m", "guides has 1 entries.*add_guide"),
+        ("guides.radius_m", "guides has 1 entries"),
+        ("blade.thickness_m.x", "single value"),
+        ("name[0]", "single value"),
+        ("guides[0", "is no path"),
+        ("guides[0]radius_m", "is no path"),
+    ],
+)
+def test_a_wrong_path_says_what_there_is(path: str, said: str) -> None:
+    with pytest.raises(sf.PathError, match=said) as caught:
+        sf.Scene.paper().replace({path: 1.0})
+    assert caught.value.key == path and caught.value.remedy
+    assert isinstance(caught.value, KeyError) and isinstance(caught.value, sf.SceneError)
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (str(again), again.key) == (str(caught.value), path)
+
+
+def test_a_guide_is_added_with_what_the_last_one_has() -> None:
+    saw = sf.Scene.paper()
+    two = saw.add_guide(angle_deg=120.0, radius_m=np.float32(0.25))
+    assert two.guides[1] == {**saw.guides[0], "angle_deg": 120.0, "radius_m": 0.25}
+    assert two.guides[0] == saw.guides[0]
+    with pytest.raises(sf.SceneError, match="stiffness_n_per_m|radial_length_m"):
+        saw.replace({"guides": []}).add_guide(radius_m=0.2, angle_deg=0.0)
+
+
+class Quantity:
+    """What is needed of a quantity of pint: its size in a unit."""
+
+    def __init__(self, **sizes: float) -> None:
+        self.sizes = sizes
+
+    def m_as(self, unit: str) -> float:
+        return self.sizes[unit]
+
+
+def test_quantities_have_the_unit_of_their_key() -> None:
+    saw = sf.Scene.paper()
+    thin = saw.replace(
+        {"blade.thickness_m": Quantity(m=2.6e-3), "guides": [{**saw.guides[0], "angle_deg": 90}]}
+    )
+    assert thin["blade.thickness_m"] == 2.6e-3 and thin["guides[0].angle_deg"] == 90
+    stiff = saw.replace({"guides[0].stiffness_n_per_m": Quantity(**{"N/m": 1e7})})
+    assert stiff["guides[0].stiffness_n_per_m"] == 1e7
+    with pytest.raises(TypeError, match="poisson_ratio has no unit"):
+        saw.replace({"blade.material.poisson_ratio": Quantity(m=0.3)})
+
+
+def test_pint_understands_every_unit() -> None:
+    pint = pytest.importorskip("pint")
+    units = pint.UnitRegistry()
+    saw = sf.Scene.paper()
+    other = saw.replace(
+        {
+            "blade.thickness_m": units.Quantity(2.6, "mm"),
+            "blade.material.youngs_modulus_pa": units.Quantity(205.0, "GPa"),
+            "blade.material.density_kg_per_m3": units.Quantity(7.85, "g/cm**3"),
+            "guides[0].stiffness_n_per_m": units.Quantity(20.0, "kN/mm"),
+            "damping.air_n_s_per_m3": units.Quantity(3.0, "N*s/m**3"),
+        }
+    )
+    assert other["blade.thickness_m"] == pytest.approx(2.6e-3)
+    assert other["blade.material.youngs_modulus_pa"] == pytest.approx(2.05e11)
+    assert other["blade.material.density_kg_per_m3"] == pytest.approx(7850.0)
+    assert other["guides[0].stiffness_n_per_m"] == pytest.approx(2e7)
+    # A length is no pressure.
+    with pytest.raises(pint.DimensionalityError):
+        saw.replace({"blade.material.youngs_modulus_pa": units.Quantity(1.0, "m")})
+
+
+def test_the_end_of_every_key_is_a_unit_or_none() -> None:
+    units = {unit(key)[1] for key in re.findall(r"^    (\w+): float", _TYPES, re.MULTILINE)}
+    assert units <= {
+        "", "m", "N/m", "N*s/m", "N*s/m**3", "deg", "Pa", "kg/m**3", "kg", "rpm", "s", "N", "W",
+        "m/s", "K", "1/K", "1/s", "rpm/s", "N/m**(3/2)", "N*s**(3/2)/m**(3/2)", "N/m**2",
+    }, units  # fmt: skip

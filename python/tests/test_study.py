@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import sawflutter as sf
+from sawflutter.plot import Heat
 
 VARIED: dict[str, Any] = {
     "name": "Thickness and modulus",
@@ -173,3 +174,40 @@ def test_a_study_is_pickled(study: sf.Study) -> None:
     assert "24 saws" in repr(copy)
     with pytest.raises(sf.ArgumentError):
         study.values([24])
+
+
+def test_a_study_keeps_its_table(study: sf.Study, tmp_path: Path) -> None:
+    result = study.run(tmp_path / "runs")
+    table = result.to_dataframe()
+    saved = tmp_path / "elsewhere" / "kept.json"
+    saved.parent.mkdir()
+    result.save(saved)
+    pickled = pickle.dumps(result)
+    (tmp_path / "runs" / "study.csv").unlink()
+    for again in (sf.load(saved), sf.StudyResults.load(saved), pickle.loads(pickled)):
+        assert isinstance(again, sf.StudyResults) and again == result
+        assert again.to_dataframe().equals(table)
+    with pytest.raises(FileNotFoundError, match="study.csv"):
+        result.to_dataframe()
+
+
+def test_a_grid_is_a_map_of_its_speeds(draft: sf.Scene, tmp_path: Path) -> None:
+    values = {"blade.thickness_m": [2.7e-3, 2.9e-3], "blade.inner_diameter_m": [0.19, 0.2, 0.21]}
+    grid = {
+        "name": "Grid",
+        "parameters": [
+            {"path": path, "distribution": {"kind": "grid", "values": of}}
+            for path, of in values.items()
+        ],
+    }
+    result = sf.Study(draft.replace({"guides": []}), grid).run(tmp_path)
+    (heat,) = result.map_chart("lowest_critical_rpm").panels[0].items
+    assert isinstance(heat, Heat)
+    assert (heat.x.tolist(), heat.y.tolist()) == tuple(values.values())
+    # Critical speeds of a free blade go with its thickness.
+    assert heat.z[:, 1] / heat.z[:, 0] == pytest.approx(2.9 / 2.7, rel=1e-3)
+    assert result.plot_map("lowest_critical_rpm").data
+    with pytest.raises(ValueError, match="two numbers"):
+        sf.Study(draft.replace({"guides": []}), {**VARIED, "saws": 2}).run(
+            tmp_path / "no"
+        ).map_chart()

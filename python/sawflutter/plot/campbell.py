@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from .._entry import BoolArray, FloatArray, IntArray
+from .._methods import NEGLIGIBLE_PER_S
 from .._report_types import Branch, CampbellReport, Direction, Instability
 from .chart import CURVE, STRONG_CURVE, Chart, Item, Line, Panel, Points, Shade, Upright, colours
 
-# Smaller growth rates are rounding of the eigenvalues, as in the program's figures.
-NEGLIGIBLE_PER_S = 1e-3
 LOWEST_BRANCHES = 6
 HEADROOM = 1.1
 # Narrower bands, as a share of the axis, get a stronger colour.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -15,6 +16,8 @@ from .._entry import FloatArray
 # Width of curves and of the stretches that matter most, in the units of the program's figures.
 CURVE = 1.6
 STRONG_CURVE = 3.4
+# Letters in a line below the title.
+FACTS = 110
 # From low to high: lightness rises evenly, so that grey prints read too.
 LOW_TO_HIGH = ("#341842", "#3a528b", "#21918c", "#7ad151", "#f0ec78")
 
@@ -120,9 +123,13 @@ class Panel:
     y_root: bool = False
     """Whether the y axis shows signed square roots, so that small values next to large ones are
     seen."""
+    y_names: Sequence[str] = ()
+    """Words at the places 1, 2, 3 … of the y axis, in place of numbers."""
     share: float = 1.0
     """Height beside that of the other panels."""
     title: str = ""
+    equal: bool = False
+    """Whether a metre is as long on both axes."""
 
 
 @dataclass(frozen=True)
@@ -132,6 +139,10 @@ class Chart:
     title: str
     facts: str
     panels: Sequence[Panel] = field(default_factory=tuple)
+
+    def lines(self) -> list[str]:
+        """The facts in lines that a figure has room for."""
+        return textwrap.wrap(self.facts, FACTS)
 
 
 def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:

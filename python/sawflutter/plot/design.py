@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._entry import FloatArray
 from .._report_types import CheckReport, FitReport, PlaceReport, Setting, Speed, StudyReport
-from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .._values import unit
+from .chart import (
+    STRONG_CURVE,
+    Bars,
+    Chart,
+    Heat,
+    Item,
+    Line,
+    Panel,
+    Points,
+    Shade,
+    Upright,
+    colours,
+)
 
-UNITS = {
-    "_n_s_per_m": "N·s/m",
-    "_n_per_m": "N/m",
-    "_kg_per_m3": "kg/m³",
-    "_deg": "°",
-    "_pa": "Pa",
-    "_rpm": "rpm",
-    "_s": "s",
-    "_m": "m",
-}
+if TYPE_CHECKING:
+    from ..stiffness import StiffnessMap
 
 
 def named(path: str) -> str:
@@ -28,10 +34,10 @@ def named(path: str) -> str:
     >>> named("guides[0].radius_m")
     'guides[0].radius [m]'
     """
-    for ending, unit in UNITS.items():
-        if path.endswith(ending):
-            return f"{path.removesuffix(ending).replace('_', ' ')} [{unit}]"
-    return path.replace("_", " ")
+    before, dot, key = path.rpartition(".")
+    name, found = unit(key)
+    shown = f" [{found.replace('**3', '³').replace('*', '·').replace('deg', '°')}]" if found else ""
+    return f"{before}{dot}{name}".replace("_", " ") + shown
 
 
 def check(r: CheckReport, facts: str) -> Chart:
@@ -57,7 +63,9 @@ def check(r: CheckReport, facts: str) -> Chart:
             ends = np.array([criterion.asked_rpm, criterion.found_rpm])
             items.append(Line(ends, np.full(2, float(place)), colour, criterion.name))
             items.append(Points(found, level, colour, criterion.name, hover=said))
-    panel = Panel("rotation speed [rpm]", "limits", items, y_range=(0.0, len(r.criteria) + 1.0))
+    names = [criterion.name for criterion in reversed(r.criteria)]
+    limits = (0.0, len(names) + 1.0)
+    panel = Panel("rotation speed [rpm]", "", items, y_range=limits, y_names=names)
     return Chart(r.scene["name"], facts, (panel,))
 
 
@@ -191,3 +199,28 @@ def _histogram(speed: Speed, colour: str) -> list[Any]:
         if q.rpm is not None and q.share in (0.05, 0.5, 0.95)
     ]
     return [Bars(edges, bars.counts.astype(float), colour, f"{speed.saws} saws"), *quantiles]
+
+
+def grid(r: StudyReport, rows: FloatArray, names: tuple[str, str], speed: str) -> Chart:
+    """A speed over the two numbers of a grid; rows of both and of the speed."""
+    x, y = np.unique(rows[:, 0]), np.unique(rows[:, 1])
+    z = np.full((len(y), len(x)), np.nan)
+    for row, column in ((row, column) for row in range(len(y)) for column in range(len(x))):
+        of = rows[(rows[:, 0] == x[column]) & (rows[:, 1] == y[row]), 2]
+        # Of several saws in a point of the grid, the one in the middle.
+        z[row, column] = np.median(of) if len(of) else np.nan
+    label = speed.removesuffix("_rpm").replace("_", " ") + " speed [rpm]"
+    panel = Panel(named(names[0]), named(names[1]), [Heat(x, y, z, label)])
+    return Chart(r.study["name"], label, (panel,))
+
+
+def stiffness(of: StiffnessMap) -> Chart:
+    """Critical speeds and flutter speed over the stiffness of the guides."""
+    x = of.stiffness_n_per_m
+    items: list[Item] = [
+        Line(x, column, colours()["forward"], f"critical speed {place}")
+        for place, column in enumerate(of.critical_rpm.T, start=1)
+    ]
+    items.append(Line(x, of.flutter_rpm, colours()["flutter"], "flutter speed", STRONG_CURVE))
+    panel = Panel("stiffness of each guide [N/m]", "rotation speed [rpm]", items, x_log=True)
+    return Chart(of.name, "critical speeds (thin) and flutter speed (thick)", (panel,))

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from .._entry import FloatArray
+from .._extras import extra
 from .._report_types import Mode
-from .._scene_types import SceneDict
 from .chart import colours
+from .saw import pads
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from plotly.graph_objects import Figure
+
+    from ..scene import Scene
 
     Animation: TypeAlias = Figure | FuncAnimation
 else:
@@ -27,16 +30,8 @@ HEIGHT = 0.25
 INTERVAL_MS = 50
 
 
-class Saw(Protocol):
-    """What is drawn of a :class:`sawflutter.Scene`: its guides."""
-
-    def to_dict(self) -> SceneDict:
-        """The scene as a dict."""
-        ...
-
-
 def animate(
-    saw: Saw, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
+    saw: Scene, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
 ) -> Animation:
     """One period of a mode; growth is left out. See :meth:`sawflutter.Scene.animate`."""
     if backend not in ("plotly", "matplotlib"):
@@ -75,9 +70,10 @@ def _scale() -> list[str]:
 
 
 def _plotly(
-    saw: Saw, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> Figure:
-    import plotly.graph_objects as go
+    with extra("plot"):
+        import plotly.graph_objects as go
 
     x, y = radius * np.cos(theta), radius * np.sin(theta)
     height = HEIGHT * float(radius[-1, 0])
@@ -90,12 +86,12 @@ def _plotly(
         )  # fmt: skip
 
     steps = [go.Frame(data=[surface(w)], name=str(k), traces=[0]) for k, w in enumerate(pictures)]
-    pads = [
+    outlines = [
         go.Scatter3d(
             x=px, y=py, z=np.zeros(len(px)), mode="lines", name="guide",
             line={"color": colours()["ink"], "width": 4}, hoverinfo="name",
         )
-        for px, py in _pads(saw)
+        for px, py in pads(saw.guides)
     ]  # fmt: skip
     play: dict[str, Any] = {
         "frame": {"duration": INTERVAL_MS},
@@ -109,7 +105,7 @@ def _plotly(
     ]
     axis = {"visible": False}
     return go.Figure(
-        data=[surface(pictures[0]), *pads],
+        data=[surface(pictures[0]), *outlines],
         frames=steps,
         layout={
             "title": {"text": title, "x": 0.02},
@@ -123,17 +119,18 @@ def _plotly(
 
 
 def _matplotlib(
-    saw: Saw, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
+    saw: Scene, radius: FloatArray, theta: FloatArray, pictures: FloatArray, title: str
 ) -> FuncAnimation:
-    import matplotlib.pyplot as plt
-    from matplotlib.animation import FuncAnimation
-    from matplotlib.colors import LinearSegmentedColormap
+    with extra("plot"):
+        import matplotlib.pyplot as plt
+        from matplotlib.animation import FuncAnimation
+        from matplotlib.colors import LinearSegmentedColormap
 
     figure, ax = plt.subplots(figsize=(6.0, 6.4), layout="constrained")
     scale = LinearSegmentedColormap.from_list("deflection", _scale())
     x, y = radius * np.cos(theta), radius * np.sin(theta)
     mesh = ax.pcolormesh(x, y, pictures[0], cmap=scale, vmin=-1.0, vmax=1.0, shading="gouraud")
-    for px, py in _pads(saw):
+    for px, py in pads(saw.guides):
         ax.plot(px, py, color=colours()["ink"], linewidth=1.5)
     ax.set_aspect("equal")
     ax.set_axis_off()
@@ -144,17 +141,3 @@ def _matplotlib(
         return (mesh,)
 
     return FuncAnimation(figure, show, frames=len(pictures), interval=INTERVAL_MS, blit=False)
-
-
-def _pads(saw: Saw) -> list[tuple[FloatArray, FloatArray]]:
-    """Outlines of the guides."""
-    outlines = []
-    for guide in saw.to_dict().get("guides", []):
-        along, across = guide["radial_length_m"] / 2.0, guide["tangential_length_m"] / 2.0
-        angle = np.radians(guide["angle_deg"])
-        u = guide["radius_m"] + along * np.array([-1.0, 1.0, 1.0, -1.0, -1.0])
-        v = across * np.array([-1.0, -1.0, 1.0, 1.0, -1.0])
-        outlines.append(
-            (u * np.cos(angle) - v * np.sin(angle), u * np.sin(angle) + v * np.cos(angle))
-        )
-    return outlines

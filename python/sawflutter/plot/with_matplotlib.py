@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._extras import extra
 from .chart import (
     Bars,
     Chart,
@@ -35,7 +36,8 @@ def draw(chart: Chart, ax: Axes | None = None) -> Axes:
         for panel in chart.panels[:1]:
             _panel(ax, panel, last=True)
         return ax
-    import matplotlib.pyplot as plt
+    with extra("plot"):
+        import matplotlib.pyplot as plt
 
     panels = chart.panels or (Panel("", "", ()),)
     together = len({panel.x_name for panel in panels}) == 1
@@ -53,9 +55,11 @@ def draw(chart: Chart, ax: Axes | None = None) -> Axes:
     ink, quiet = colours()["ink"], colours()["quiet"]
     figure.suptitle(chart.title, x=0.02, ha="left", fontsize=15, fontweight="bold", color=ink)
     # Above the title of the panel, where it has one.
-    pad = 24.0 if panels[0].title else 8.0
-    facts = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points"}
-    axes[0, 0].annotate(chart.facts, xytext=(0, pad), fontsize=10, color=quiet, **facts)
+    facts = "\n".join(chart.lines())
+    above = f"{facts}\n" if panels[0].title else facts
+    axes[0, 0].annotate(
+        above, (0.0, 1.0), (0, 8), "axes fraction", "offset points", fontsize=10, color=quiet
+    )
     first: Axes = axes[0, 0]
     return first
 
@@ -76,6 +80,10 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
         ax.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     if panel.y_range is not None:
         ax.set_ylim(*panel.y_range)
+    if panel.equal:
+        ax.set_aspect("equal")
+    if panel.y_names:
+        ax.set_yticks(range(1, len(panel.y_names) + 1), panel.y_names)
     if last:
         ax.set_xlabel(panel.x_name, color=colours()["ink"])
     ax.set_ylabel(panel.y_name, color=colours()["ink"])

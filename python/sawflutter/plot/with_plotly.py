@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._extras import extra
 from .chart import (
     Bars,
     Chart,
@@ -27,8 +28,9 @@ if TYPE_CHECKING:
 
 def draw(chart: Chart) -> Figure:
     """A figure with the panels of a chart, one above the other."""
-    import plotly.graph_objects as go
-    from plotly.subplots import make_subplots
+    with extra("plot"):
+        import plotly.graph_objects as go
+        from plotly.subplots import make_subplots
 
     panels = chart.panels or (Panel("", "", ()),)
     figure = make_subplots(
@@ -48,9 +50,12 @@ def draw(chart: Chart) -> Figure:
                 showarrow=False, xanchor="left", xshift=6, row=row, col=1,
             )  # fmt: skip
         _axes(figure, panel, row, last=row == len(panels))
-    facts = f"<br><span style='font-size:13px;color:{colours()['quiet']}'>{chart.facts}</span>"
+    facts = f"<br><span style='font-size:13px;color:{colours()['quiet']}'>{'<br>'.join(chart.lines())}</span>"
     figure.update_layout(
-        title={"text": f"<b>{chart.title}</b>{facts}", "x": 0.02, "font": {"size": 20}},
+        title={
+            "text": f"<b>{chart.title}</b>{facts}", "x": 0.02, "font": {"size": 20},
+            "y": 1.0, "yanchor": "top", "pad": {"t": 16},
+        },
         template="simple_white",
         font={
             "family": "Inter, Helvetica, Arial, sans-serif",
@@ -60,8 +65,12 @@ def draw(chart: Chart) -> Figure:
         hovermode="closest",
         showlegend=False,
         height=320 + 240 * len(panels),
-        margin={"r": 190 if any(end_labels(panel, 0.0) for panel in panels) else 40},
-    )
+        margin={
+            "r": 190 if any(end_labels(panel, 0.0) for panel in panels) else 40,
+            # Title, facts and the title of the panel, one above the other.
+            "t": 56 + 18 * len(chart.lines()) + 24 * bool(panels[0].title),
+        },
+    )  # fmt: skip
     return figure
 
 
@@ -73,15 +82,16 @@ def _scaled(values: Any, panel: Panel) -> Any:
 
 def _add(go: Any, figure: Figure, item: Item, panel: Panel, row: int) -> None:
     at = {"row": row, "col": 1}
-    # Plotly leaves out what is drawn into panels that are still empty.
-    always = {**at, "exclude_empty_subplots": False}
+    # Plotly leaves out what is drawn into panels that are still empty, and its template draws the
+    # rest with an opacity of 30 %, which narrow bands are not seen with.
+    opaque = {**at, "exclude_empty_subplots": False, "opacity": 1.0}
     if isinstance(item, Shade):
         figure.add_vrect(
-            item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **always
+            item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **opaque
         )
     elif isinstance(item, Upright):
         dash = "dash" if item.dashed else "solid"
-        figure.add_vline(item.x, line={"color": item.colour, "width": 1, "dash": dash}, **always)
+        figure.add_vline(item.x, line={"color": item.colour, "width": 1, "dash": dash}, **opaque)
     elif isinstance(item, Heat):
         low, high = item.range or (None, None)
         scale = [[k / (len(item.scale) - 1), colour] for k, colour in enumerate(item.scale)]
@@ -129,6 +139,11 @@ def _axes(figure: Figure, panel: Panel, row: int, last: bool) -> None:
     if panel.y_range is not None:
         low, high = panel.y_range
         figure.update_yaxes(range=_scaled([low, high], panel).tolist(), row=row, col=1)
+        if panel.equal:
+            figure.update_yaxes(scaleanchor="x", row=row, col=1)
+        if panel.y_names:
+            places = list(range(1, len(panel.y_names) + 1))
+            figure.update_yaxes(tickvals=places, ticktext=list(panel.y_names), row=row, col=1)
         if panel.y_root:
             ticks = root_ticks(low, high)
             figure.update_yaxes(

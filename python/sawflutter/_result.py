@@ -1,0 +1,167 @@
+"""What all results can do."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+from . import _native
+from ._entry import Entry
+from ._view import html
+from .errors import InputError, ModelWarning
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from plotly.graph_objects import Figure
+
+    from .plot.chart import Chart
+    from .scene import Scene
+
+R = TypeVar("R", bound="Result")
+
+
+class Result(Entry):
+    """Base of all results. A result is made of the JSON that the program writes and keeps it word
+    for word: :meth:`save` writes the same bytes as the program does.
+    """
+
+    figure_names: ClassVar[tuple[str, ...]] = ()
+    """Names of the program's own figures of this result, see :meth:`figure`."""
+
+    command: ClassVar[str] = ""
+    """The command of the program that reports it."""
+
+    _text: str
+
+    @classmethod
+    def from_json(cls: type[R], text: str) -> R:
+        """The result of a JSON text, as :meth:`to_json` gives it.
+
+        Raises
+        ------
+        InputError
+            Where the text is the report of something else.
+        """
+        data = json.loads(text)
+        try:
+            result = cls.from_dict(data)
+        except TypeError as error:
+            version = data.get("sawflutter") if isinstance(data, dict) else None
+            written = f"one of sawflutter {version}" if version else "something else"
+            raise InputError(
+                f"this is no report of {cls.command!r} that this version reads, but {written} "
+                f"({error}); sawflutter.load reads a report of any kind"
+            ) from error
+        object.__setattr__(result, "_text", text)
+        result._read()
+        return result
+
+    @classmethod
+    def computed(cls: type[R], text: str) -> R:
+        """The result of a report that was just made, with its warnings."""
+        result = cls.from_json(text)
+        for warning in result._warnings():
+            # At the line that has called the method.
+            warnings.warn(warning, ModelWarning, stacklevel=3)
+        return result
+
+    @classmethod
+    def load(cls: type[R], path: str | os.PathLike[str]) -> R:
+        """Reads a report of this kind that the program or :meth:`save` has written.
+
+        Raises
+        ------
+        InputError
+            Where the file is the report of something else.
+        OSError
+            Where it cannot be read.
+        """
+        return cls.from_json(Path(path).read_text(encoding="utf-8"))
+
+    def _read(self) -> None:
+        """What is to be done once all is read."""
+
+    def _warnings(self) -> tuple[str, ...]:
+        """Numbers that no saw has, and remarks on the validity of the result."""
+        return (*getattr(self, "unusual_numbers", ()), *getattr(self, "warnings", ()))
+
+    def to_json(self) -> str:
+        """The report as the program writes it."""
+        return self._text
+
+    @property
+    def raw(self) -> dict[str, Any]:
+        """The report as a dict, with every key that it has."""
+        data: dict[str, Any] = json.loads(self._text)
+        return data
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it."""
+        Path(path).write_bytes(self._text.encode())
+
+    @property
+    def saw(self) -> Scene:
+        """The scene that was looked at; of a fit or a placement, the one that was found."""
+        from .scene import Scene
+
+        return Scene.from_json(json.dumps(self.raw["scene"]))
+
+    def figure(self, name: str) -> bytes | None:
+        """A figure of the program, the same bytes as it writes; None where the saw has none.
+
+        Parameters
+        ----------
+        name : str
+            One of :attr:`figure_names`, PNG or SVG.
+        """
+        return _native.picture(name, self._text)
+
+    def chart(self) -> Chart:
+        """What :meth:`plot` and :meth:`plot_matplotlib` draw: lines, points and bands as numbers."""
+        raise NotImplementedError
+
+    def plot(self) -> Figure:
+        """A plotly figure."""
+        from .plot import with_plotly
+
+        return with_plotly.draw(self.chart())
+
+    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
+        """A matplotlib figure; its upper or only axes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Axes to draw the upper panel into; without them, a figure with all panels is begun.
+        """
+        from .plot import with_matplotlib
+
+        return with_matplotlib.draw(self.chart(), ax)
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return self._text == other._text
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self).from_json, (self._text,)
+
+    def __repr__(self) -> str:
+        warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
+        return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
+
+    def _facts(self) -> str:
+        """The answer in a line."""
+        return ""
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the answer, and the program's figure."""
+        name = next((name for name in self.figure_names if name.endswith(".svg")), None)
+        picture = self.figure(name) if name is not None else None
+        return html(repr(self), None if picture is None else picture.decode())

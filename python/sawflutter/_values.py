@@ -1,0 +1,80 @@
+"""Values of a scene as JSON: plain numbers, those of NumPy, and quantities with a unit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+# What the end of a key stands for.
+_UNITS = {
+    "deg": "deg",
+    "hz": "Hz",
+    "k": "K",
+    "kg": "kg",
+    "m": "m",
+    "n": "N",
+    "pa": "Pa",
+    "rpm": "rpm",
+    "s": "s",
+    "tooth": "",
+    "w": "W",
+}
+_POWERS = {"m2": "m**2", "m3": "m**3", "s2": "s**2"}
+
+
+def to_json(data: Any) -> str:
+    """JSON of a scene or a study."""
+    return json.dumps(plain(data, ""))
+
+
+def plain(value: Any, key: str) -> Any:
+    """A value as JSON has it; a quantity of pint in the unit that its key names."""
+    if value is None or isinstance(value, (str, bool, int)):
+        return value
+    if isinstance(value, Mapping):
+        return {name: plain(inner, name) for name, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(inner, key) for inner in value]
+    if hasattr(value, "m_as"):
+        value = value.m_as(_needed_unit(key))
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    if hasattr(value, "__float__"):
+        return float(value)
+    kind = type(value).__name__
+    raise TypeError(f"{key}: {value!r} is no value of a scene, but of the type {kind}")
+
+
+def unit(key: str) -> tuple[str, str]:
+    """The name of a number and its unit, which the end of its key says.
+
+    >>> unit("stiffness_n_per_m"), unit("poisson_ratio"), unit("air_n_s_per_m3")
+    (('stiffness', 'N/m'), ('poisson_ratio', ''), ('air', 'N*s/m**3'))
+    """
+    words, found = key.replace("_3_2", "^(3/2)").split("_"), list[str]()
+    while words and (words[-1] == "per" or _unit(words[-1]) is not None):
+        if words[-1] == "tooth" and found:
+            break
+        found.insert(0, words.pop())
+    cut = found.index("per") if "per" in found else len(found)
+    above, below = (
+        "*".join(filter(None, map(_unit, part))) for part in (found[:cut], found[cut + 1 :])
+    )
+    named = f"{above or 1}/{below}" if below else above
+    return "_".join(words) or key, named
+
+
+def _unit(word: str) -> str | None:
+    base, _, power = word.partition("^")
+    found = _POWERS.get(base, _UNITS.get(base))
+    return found if not power or found is None else f"{found}**{power}"
+
+
+def _needed_unit(key: str) -> str:
+    _, found = unit(key)
+    if not found:
+        raise TypeError(f"{key} has no unit: give a number in place of a quantity")
+    return found

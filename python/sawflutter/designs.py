@@ -1,0 +1,285 @@
+"""What questions that ask for many saws find: fits, places, studies, and what accuracy takes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ._extras import extra
+from ._report_types import FitReport, PlaceReport, Setting, StudyReport
+from ._result import Result
+from ._table import frame, read
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from plotly.graph_objects import Figure
+
+    from .plot.chart import Chart
+
+
+class FitResults(Result, FitReport):
+    """A saw fitted to measured frequencies: :attr:`saw` is the calibrated one."""
+
+    command = "fit"
+    figure_names = ("fit.svg", "fit.png")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a fitted number; needs pandas."""
+        return frame(self.parameters)
+
+    def chart(self) -> Chart:
+        """Measured and computed frequencies over speed."""
+        from .plot.design import fit
+
+        return fit(self, self._facts())
+
+    def _facts(self) -> str:
+        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
+        return f"{found}; {self.rms_hz:.3f} Hz rms, before {self.rms_before_hz:.3f} Hz"
+
+
+class PlaceResults(Result, PlaceReport):
+    """The best place found for the guides: :attr:`saw` is that saw."""
+
+    command = "place"
+    figure_names = ("place.svg", "place.png")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a number that was moved; needs pandas."""
+        return frame(self.parameters)
+
+    def chart(self) -> Chart:
+        """The goal over one or two numbers."""
+        from .plot.design import place
+
+        return place(self, self._facts())
+
+    def _facts(self) -> str:
+        found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
+        robust = "fragile" if self.fragile else "robust"
+        kept = "" if self.kept else ", but the lower limit of the first critical speed is NOT kept"
+        goal = f"{self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}"
+        worst = f"{1e2 * self.worst_neighbour_share:.0f} % at the worst of its tolerances"
+        return f"{found}; {goal}, {robust}: {worst}{kept}"
+
+
+class StudyResults(Result, StudyReport):
+    """Many saws, summed up; :meth:`sawflutter.Study.run` makes it."""
+
+    command = "study"
+    figure_names = ("study.svg", "study.png")
+
+    _table: Path | str | None = None
+    """``study.csv``: where it is, or what is in it."""
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> StudyResults:
+        """Reads a report that the program or :meth:`save` has written, with the table of the saws
+        beside it: the file of the same name that ends in .csv."""
+        result = super().load(path)
+        object.__setattr__(result, "_table", _beside(path).absolute())
+        return result
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report, the same bytes as the program, and beside it the table of the saws, of
+        the same name that ends in .csv; :func:`sawflutter.load` reads both."""
+        table = self._csv()
+        super().save(path)
+        if table is not None and self._table != _beside(path).absolute():
+            _beside(path).write_bytes(table.encode())
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a saw, from the table beside the report; needs pandas.
+
+        Raises
+        ------
+        FileNotFoundError
+            Where the table is not beside the report.
+        """
+        table = self._csv()
+        if table is None:
+            raise FileNotFoundError(
+                "the table of the saws is study.csv beside the report: load it there"
+            )
+        return read(table)
+
+    def _csv(self) -> str | None:
+        if isinstance(self._table, Path):
+            return self._table.read_bytes().decode() if self._table.exists() else None
+        return self._table
+
+    @staticmethod
+    def _with_table(text: str, table: str | None) -> StudyResults:
+        result = StudyResults.from_json(text)
+        object.__setattr__(result, "_table", table)
+        return result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return StudyResults._with_table, (self._text, self._csv())
+
+    def sensitivity(self, *, confidence: float = 0.95, seed: int = 0) -> pd.DataFrame:
+        """Sobol' indices of the first order: the share of the variance of a speed that a number
+        causes by itself, whatever the others are. What is missing to 1 in their sum is due to
+        several together. Needs SALib, which estimates them by RBD-FAST from the saws that there
+        are (Tarantola, Gatelli and Mara, Reliability Engineering and System Safety 91 (2006), 717).
+
+        Parameters
+        ----------
+        confidence : float
+            Of the half-width beside each index, from resampled saws.
+        seed : int
+            Of this resampling.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a number; columns ``lowest_critical``, ``flutter``, and the half-widths
+            ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
+            is the same in all saws. A saw without a speed counts with the last speed looked at, and
+            one that was not analysed does not count.
+        """
+        with extra("sensitivity"):
+            import pandas as pd
+            from SALib.analyze import rbd_fast
+
+        table = self.to_dataframe()
+        table = table[table["status"] == "analysed"]
+        names = [parameter["path"] for parameter in self.study["parameters"]]
+        numbers = table[names].to_numpy(dtype=float)
+        # Ranks: an index depends on the order of the saws by each number, not on its distribution.
+        bounds = [[low, high] for low, high in zip(numbers.min(axis=0), numbers.max(axis=0))]
+        problem = {"num_vars": len(names), "names": names, "bounds": bounds}
+        columns: dict[str, Any] = {}
+        for key, column in (("lowest_critical", "lowest_critical_rpm"), ("flutter", "flutter_rpm")):
+            speeds = table[column].astype(float).fillna(self.swept_to_rpm).to_numpy()
+            columns[key] = columns[f"{key}_confidence"] = np.full(len(names), np.nan)
+            if len(speeds) > 1 and np.ptp(speeds) > 0.0:
+                found = rbd_fast.analyze(problem, numbers, speeds, conf_level=confidence, seed=seed)
+                columns[key] = np.array(found["S1"])
+                columns[f"{key}_confidence"] = np.array(found["S1_conf"])
+        return pd.DataFrame(columns, index=pd.Index(names, name="number"))
+
+    def map_chart(
+        self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
+    ) -> Chart:
+        """A speed over the two numbers of a grid, as a heat map; needs pandas.
+
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which; the median where several saws are drawn in a point of the grid.
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+        """
+        from .plot.design import grid
+
+        paths = [
+            parameter["path"]
+            for parameter in self.study["parameters"]
+            if parameter["distribution"]["kind"] == "grid"
+        ]
+        if len(paths) != 2:
+            raise ValueError(f"a map needs a grid of two numbers, and this study has {len(paths)}")
+        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
+        return grid(self, rows, (paths[0], paths[1]), speed)
+
+    def plot_map(
+        self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
+    ) -> Figure:
+        """:meth:`map_chart` as a plotly figure."""
+        from .plot import with_plotly
+
+        return with_plotly.draw(self.map_chart(speed))
+
+    def plot_map_matplotlib(
+        self,
+        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
+        ax: Axes | None = None,
+    ) -> Axes:
+        """:meth:`map_chart` with matplotlib; its axes."""
+        from .plot import with_matplotlib
+
+        return with_matplotlib.draw(self.map_chart(speed), ax)
+
+    def chart(self) -> Chart:
+        """Shares of the saws below a speed, and those that can be run at one."""
+        from .plot.design import study
+
+        return study(self, self._facts())
+
+    def _facts(self) -> str:
+        passing = self.all.passing
+        kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
+        lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
+        said = "".join(f", {count} {word}" for count, word in lost if count)
+        return f"{self.all.saws} saws{said}{kept}"
+
+
+class TradeoffResults:
+    """Computing time against true error, for bases of several sizes."""
+
+    def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
+        self.settings: tuple[Setting, ...] = tuple(settings)
+        self.name = name
+        self._text = text
+
+    @classmethod
+    def from_json(cls, text: str, name: str = "") -> TradeoffResults:
+        """The result of a JSON text."""
+        return cls((Setting.from_dict(setting) for setting in json.loads(text)), text, name)
+
+    def recommended(self, error: float) -> Setting | None:
+        """The fastest chart within a relative error."""
+        charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
+        return min(charts, key=lambda setting: setting.seconds, default=None)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes ``tradeoff.json``."""
+        Path(path).write_bytes(self._text.encode())
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a setting; needs pandas."""
+        return frame(self.settings)
+
+    def chart(self) -> Chart:
+        """Error over time."""
+        from .plot.design import tradeoff
+
+        return tradeoff(self.settings, self.name)
+
+    def plot(self) -> Figure:
+        """A plotly figure."""
+        from .plot import with_plotly
+
+        return with_plotly.draw(self.chart())
+
+    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
+        """A matplotlib figure; its axes."""
+        from .plot import with_matplotlib
+
+        return with_matplotlib.draw(self.chart(), ax)
+
+    def __eq__(self, other: object) -> bool:
+        return self._text == other._text if isinstance(other, TradeoffResults) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __reduce__(self) -> tuple[Any, tuple[str, str]]:
+        return TradeoffResults.from_json, (self._text, self.name)
+
+    def __repr__(self) -> str:
+        return f"<TradeoffResults {self.name!r}: {len(self.settings)} settings>"
+
+
+def _beside(path: str | os.PathLike[str]) -> Path:
+    return Path(path).with_suffix(".csv")

@@ -1,0 +1,98 @@
+"""The matrices of the equation of motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import SupportsFloat, SupportsIndex
+
+import numpy as np
+
+from . import _native
+from ._entry import Entry, FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Matrices(Entry):
+    """Matrices of the equation of motion, each of the shape (functions, functions); they cannot be
+    written to. :meth:`sawflutter.Scene.matrices` makes them.
+
+    q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is one. Unknowns are,
+    for no nodal diameters, the radial functions times 1; for each further number n of them, first
+    times cos nθ, then times sin nθ.
+    """
+
+    stiffness: FloatArray
+    """K in 1/s²: bending, guides, membrane stress that does not depend on speed."""
+
+    spin: FloatArray
+    """S: centrifugal stress less the convective part."""
+
+    gyroscopic: FloatArray
+    """G, skew."""
+
+    damping: FloatArray | None
+    """C in 1/s; None without damping."""
+
+    circulatory: FloatArray | None
+    """N in 1/s; None without material damping."""
+
+    max_diameters: int
+    """Largest number of nodal diameters."""
+
+    radial_functions: int
+    """Radial functions of each."""
+
+    @classmethod
+    def of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
+        """The matrices of a scene as JSON, in a basis or in that of its accuracy."""
+        found, diameters, functions = _native.matrices(scene, basis=basis)
+        arrays = {name: _square(found[name]) if name in found else None for name in _NAMES}
+        return cls(**arrays, max_diameters=diameters, radial_functions=functions)  # type: ignore[arg-type]
+
+    @property
+    def mass(self) -> FloatArray:
+        """M, one."""
+        one = np.eye(len(self.stiffness))
+        one.setflags(write=False)
+        return one
+
+    def companion(self, rpm: SupportsFloat) -> FloatArray:
+        """Matrix of x' = A x with x = (q, q') at a speed: its eigenvalues are those of the saw, in
+        1/s.
+
+        Parameters
+        ----------
+        rpm : float
+            Rotation speed, of any size.
+
+        Returns
+        -------
+        ndarray of float, of the shape (2 functions, 2 functions)
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> eigenvalues = np.linalg.eigvals(sf.Scene.paper().matrices(basis=(8, 5)).companion(0.0))
+        >>> lowest_hz = np.sort(abs(eigenvalues.imag))[0] / (2 * np.pi)
+        >>> round(float(lowest_hz), 1)
+        7.8
+        """
+        speed = float(rpm) * np.pi / 30.0
+        size = len(self.stiffness)
+        velocity = 2.0 * speed * self.gyroscopic
+        position = self.stiffness + speed**2 * self.spin
+        if self.damping is not None:
+            velocity = velocity + self.damping
+        if self.circulatory is not None:
+            position = position + speed * self.circulatory
+        return np.block([[np.zeros((size, size)), np.eye(size)], [-position, -velocity]])
+
+
+_NAMES = ("stiffness", "spin", "gyroscopic", "damping", "circulatory")
+
+
+def _square(values: bytes) -> FloatArray:
+    array = np.frombuffer(values, "<f8")
+    size = round(len(array) ** 0.5)
+    return array.reshape(size, size)

@@ -1,0 +1,61 @@
+"""Critical speeds over the stiffness of the guides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._entry import Entry, FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from plotly.graph_objects import Figure
+
+    from .plot.chart import Chart
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StiffnessMap(Entry):
+    """Critical speeds of a saw whose guides are more or less stiff, as rotor dynamics shows them
+    over the stiffness of bearings. :meth:`sawflutter.Scene.run_stiffness_map` makes it."""
+
+    name: str
+    """Title of the scene."""
+
+    stiffness_n_per_m: FloatArray
+    """Stiffness of each guide that is varied."""
+
+    critical_rpm: FloatArray
+    """Critical speeds within the sweep, ascending, a row each; NaN where there are fewer."""
+
+    flutter_rpm: FloatArray
+    """Flutter speed of each; NaN where there is none within the sweep."""
+
+    def chart(self) -> Chart:
+        """Critical speeds and flutter speed over the stiffness."""
+        from .plot.design import stiffness
+
+        return stiffness(self)
+
+    def plot(self) -> Figure:
+        """A plotly figure."""
+        from .plot import with_plotly
+
+        return with_plotly.draw(self.chart())
+
+    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
+        """A matplotlib figure; its axes."""
+        from .plot import with_matplotlib
+
+        return with_matplotlib.draw(self.chart(), ax)
+
+
+def rows(values: list[FloatArray]) -> FloatArray:
+    """Arrays of several lengths as rows, the short ones filled with NaN."""
+    table = np.full((len(values), max(map(len, values), default=0)), np.nan)
+    for row, of in zip(table, values):
+        row[: len(of)] = of
+    table.setflags(write=False)
+    return table

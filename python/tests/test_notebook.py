@@ -1,0 +1,190 @@
+"""What a notebook hands to the package, and what it is told back."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import sys
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import sawflutter as sf
+from sawflutter._measured import table
+
+# A table that a person would write, the second frequency at rest not seen.
+CSV = "rpm,mode 1 [Hz],mode 2 [Hz],mode 3 [Hz]\n0.0,10.0,,26.0\n500.0,4.5,15.5,28.0\n"
+ROWS: list[list[float]] = [[0, 10.0, np.nan, 26.0], [500, 4.5, 15.5, 28.0]]
+
+
+@pytest.mark.parametrize(
+    "measured",
+    [
+        ROWS,
+        np.array(ROWS),
+        np.array(ROWS, np.float32),
+        [(np.int64(0), [10.0, None, 26.0]), (500, np.array([4.5, 15.5, 28.0]))],
+        ((row[0], tuple(row[1:])) for row in ROWS),
+        pd.DataFrame(ROWS, columns=["rpm", "a", "b", "c"]),
+        pd.DataFrame(ROWS, columns=["rpm", "a", "b", "c"])[["a", "rpm", "b", "c"]],
+        pd.DataFrame(ROWS, columns=["rpm", "a", "b", "c"]).set_index("rpm"),
+    ],
+)
+def test_measured_frequencies_come_as_a_notebook_has_them(measured: Any) -> None:
+    assert table(measured) == ("measured", CSV)
+
+
+@pytest.mark.parametrize(
+    "at_rest", [[10.0, 15.5], (10, 15.5), np.array([10.0, 15.5]), pd.Series([10.0, 15.5])]
+)
+def test_frequencies_alone_are_those_at_rest(at_rest: Any) -> None:
+    assert table(at_rest) == ("measured", "rpm,mode 1 [Hz],mode 2 [Hz]\n0.0,10.0,15.5\n")
+
+
+@pytest.mark.parametrize(
+    "measured", [3.0, [["a", "b"]], pd.DataFrame({"speed": [1.0]}), [[0.0, [1.0, "x"]]]]
+)
+def test_what_is_no_table_of_frequencies_says_what_is(measured: Any) -> None:
+    with pytest.raises(TypeError, match="rpm"):
+        table(measured)
+
+
+def test_numbers_of_numpy_go_wherever_numbers_go(draft: sf.Scene) -> None:
+    speed = np.float32(1250.0)
+    assert draft.check(operating_rpm=speed, margin=np.float64(0.85)) == draft.check(
+        operating_rpm=1250.0
+    )
+    assert draft.matrices(basis=(np.int64(6), np.int8(4))) == draft.matrices(basis=(6, 4))
+    assert draft.run_campbell(tolerance=np.float64(3e-3)) == draft.run_campbell(tolerance=3e-3)
+    assert draft.modes(np.int32(500)) == draft.modes(500.0)
+
+
+def test_a_number_that_no_saw_has_is_warned_of_before_the_answer(draft: sf.Scene) -> None:
+    """The density in g/cm³, as many tables have it."""
+    wrong = draft.replace({"blade.material.density_kg_per_m3": 7.85, "guides": []})
+    with pytest.warns(sf.ModelWarning, match="density") as told:
+        r = wrong.run_campbell()
+    # At the line of the user, not within the package.
+    assert {warning.filename for warning in told} == {__file__}
+    shown = repr(r)
+    assert "density" in shown
+    assert shown.index("density") < shown.index("critical speed")
+    assert "density" in r._repr_html_()
+    # What is read again is not computed: no second warning.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert sf.CampbellResults.from_json(r.to_json()) == r
+
+
+def test_a_repr_says_what_has_happened(draft: sf.Scene) -> None:
+    free = draft.replace({"guides": []}).run_campbell()
+    assert f"no flutter above {free.flutter_threshold_per_s:g} 1/s" in repr(free)
+    up = draft.run_up()
+    crossed = sum(entry.band.from_rpm < up.rpm[-1] for entry in up.bands)
+    assert f", {crossed} bands crossed" in repr(up)
+    if up.linear_until_rpm is not None:
+        assert "the linear model ends" in repr(up)
+
+
+def test_the_range_of_speeds_is_an_argument(draft: sf.Scene) -> None:
+    r = draft.run_campbell(speed_range=(500, 1600.0))
+    assert (r.campbell.from_rpm, r.campbell.to_rpm) == pytest.approx((500.0, 1600.0))
+    assert r == draft.replace({"sweep": {"from_rpm": 500, "to_rpm": 1600}}).run_campbell()
+    assert draft.run_campbell(speed_range=np.linspace(500, 1600, 5)) == r
+
+
+def test_matrices_compare_and_cannot_be_written_to(draft: sf.Scene) -> None:
+    m = draft.matrices(basis=(6, 4))
+    assert m == draft.matrices(basis=(6, 4)) and m != draft.matrices(basis=(6, 5))
+    for array in (m.stiffness, m.spin, m.gyroscopic, m.mass):
+        with pytest.raises(ValueError):
+            array[0, 0] = 1.0
+    assert pickle.loads(pickle.dumps(m)) == m
+
+
+def test_copies_cannot_be_written_to_either(report: sf.CampbellResults) -> None:
+    branch = report.branches[0]
+    for again in (pickle.loads(pickle.dumps(branch)), copy.deepcopy(branch)):
+        assert again == branch
+        with pytest.raises(ValueError):
+            again.rpm[0] = 1.0
+    with pytest.raises(ValueError):
+        report.critical_rpm[0] = 1.0
+
+
+def test_a_branch_knows_the_edges_of_its_bands(draft: sf.Scene, report: sf.CampbellResults) -> None:
+    """A rpm beside a band the saw is stable, say NumPy's eigenvalues; and so does the branch."""
+    matrices = draft.matrices()
+    looked = 0
+    for band in report.bands[:4]:
+        for rpm in (band.from_rpm - 1.0, band.to_rpm + 1.0):
+            eigenvalues = np.linalg.eigvals(matrices.companion(rpm))
+            if max(eigenvalues.real) > 1e-2 or not 0.0 < rpm < 3000.0:
+                continue
+            looked += 1
+            for number in band.branches:
+                _, growth = report.branches[number - 1].at(rpm)
+                assert np.isnan(growth) or abs(growth) < 1e-3, (band, rpm, growth)
+        inside = [float(report.branches[n - 1].at(band.peak_rpm)[1]) for n in band.branches]
+        assert max(inside) > 0.0
+    assert looked >= 4
+
+
+def test_tables_have_directions_and_nodal_diameters(report: sf.CampbellResults) -> None:
+    bands = report.to_dataframe("bands")
+    assert len(bands) == len(report.bands)
+    assert bands["from_rpm"].tolist() == [band.from_rpm for band in report.bands]
+    assert bands["nodal_diameters"][0] == "2"
+    assert all(bands["directions"].str.len() > 0)
+    rest = report.to_dataframe("modes_at_rest")
+    assert rest["nodal_diameters"].tolist() == [m.nodal_diameters for m in report.modes_at_rest]
+    assert report.to_dataframe("critical_speeds")["rpm"].tolist() == report.critical_rpm.tolist()
+    with pytest.raises(ValueError, match="modes_at_rest"):
+        report.to_dataframe("modes")  # type: ignore[arg-type]
+
+
+def test_a_report_of_another_kind_is_refused(report: sf.CampbellResults, tmp_path: Path) -> None:
+    report.save(tmp_path / "report.json")
+    assert sf.CampbellResults.load(tmp_path / "report.json") == report
+    with pytest.raises(sf.InputError, match="sawflutter.load"):
+        sf.CheckResults.load(tmp_path / "report.json")
+
+
+def test_guides_without_stiffness_leave_the_free_blade(draft: sf.Scene) -> None:
+    """Its lowest critical speed is exact: 1476.6 rpm; and the saw of the paper has 1530.7."""
+    own = draft["guides[0].stiffness_n_per_m"]
+    found = draft.run_stiffness_map([1e-3, own])
+    assert found.critical_rpm[:, 0] == pytest.approx([1476.6, 1530.7], rel=1e-3)
+    assert np.isnan(found.flutter_rpm[0]) and found.flutter_rpm[1] == pytest.approx(
+        2256.0, rel=5e-3
+    )
+    with pytest.raises(sf.PathError, match="add_guide"):
+        draft.run_stiffness_map([1e6], guide=3)
+
+
+@pytest.mark.parametrize(
+    ("module", "said"), [("plotly", "sawflutter\\[plot\\]"), ("pandas", "sawflutter\\[pandas\\]")]
+)
+def test_a_missing_package_says_how_it_is_installed(
+    report: sf.CampbellResults, monkeypatch: pytest.MonkeyPatch, module: str, said: str
+) -> None:
+    for name in [name for name in sys.modules if name.partition(".")[0] == module]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setattr(sys, "meta_path", [_Missing(module), *sys.meta_path])
+    with pytest.raises(ImportError, match=said):
+        report.plot() if module == "plotly" else report.to_dataframe()
+
+
+class _Missing:
+    """Finds that a package is not there."""
+
+    def __init__(self, module: str) -> None:
+        self.module = module
+
+    def find_spec(self, name: str, path: object = None, target: object = None) -> None:
+        if name.partition(".")[0] == self.module:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
