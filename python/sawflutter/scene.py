@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
-    from typing_extensions import Unpack
 
     from .plot.chart import Chart
     from .plot.motion import Animation
@@ -212,14 +211,24 @@ class Scene(Questions, Mapping[str, Any]):
             _paths.put(data, path, _values.plain(value, path.rpartition(".")[2]))
         return Scene(data)
 
-    def add_guide(self, **guide: Unpack[GuideDict]) -> Scene:
+    def add_guide(
+        self,
+        *,
+        radius_m: Number = None,
+        angle_deg: Number = None,
+        radial_length_m: Number = None,
+        tangential_length_m: Number = None,
+        stiffness_n_per_m: Number = None,
+        damping_n_s_per_m: Number = None,
+        gap_m: Number = None,
+    ) -> Scene:
         """The scene with one more guide, the last of :attr:`guides`.
 
         Parameters
         ----------
-        **guide
-            Its numbers, like ``radius_m``, see :data:`sawflutter.SceneDict`. What is left out is that
-            of the last guide.
+        radius_m, angle_deg, radial_length_m, tangential_length_m, stiffness_n_per_m,
+        damping_n_s_per_m, gap_m : float, optional
+            Its numbers, as in a scene file. What is left out is that of the last guide.
 
         Raises
         ------
@@ -232,8 +241,18 @@ class Scene(Questions, Mapping[str, Any]):
         >>> len(sf.Scene.paper().add_guide(angle_deg=120.0).guides)
         2
         """
-        last = self.guides[-1:]
-        return self.replace({"guides": [*self.guides, {**(last[0] if last else {}), **guide}]})
+        given = {
+            "radius_m": radius_m,
+            "angle_deg": angle_deg,
+            "radial_length_m": radial_length_m,
+            "tangential_length_m": tangential_length_m,
+            "stiffness_n_per_m": stiffness_n_per_m,
+            "damping_n_s_per_m": damping_n_s_per_m,
+            "gap_m": gap_m,
+        }
+        guide = {key: value for key, value in given.items() if value is not None}
+        last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
+        return self.replace({"guides": [*self.guides, {**last, **guide}]})
 
     def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number = None) -> Scene:
         """The scene with another accuracy, by name or as a relative error.

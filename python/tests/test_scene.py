@@ -130,7 +130,7 @@ def test_a_scene_is_a_mapping_in_full() -> None:
     # What looks like a change of the scene is refused, with the remedy.
     for change in (
         lambda: saw.__setitem__("name", "other"),
-        lambda: saw.blade.update(thickness_m=0.003),
+        lambda: saw["blade"].update(thickness_m=0.003),
         lambda: saw["guides"][0].__setitem__("radius_m", 0.3),
     ):
         with pytest.raises(TypeError, match="replace"):
