@@ -138,6 +138,12 @@ fn key_facts(report: &Report) -> String {
     };
     let guides = count(report.scene.guides.len(), "guide", "guides");
     let critical = match report.critical_speeds.first() {
+        Some(lowest) if report.critical_speeds_without_damping => {
+            format!(
+                "lowest critical speed without damping {:.0} rpm",
+                lowest.rpm
+            )
+        }
         Some(lowest) => format!("lowest critical speed {:.0} rpm", lowest.rpm),
         None => "no critical speed".to_owned(),
     };

@@ -49,6 +49,8 @@ pub fn empty_report(name: &str) -> Report {
         scene,
         terms: Vec::new(),
         modes_at_rest: Vec::new(),
+        overdamped_modes_at_rest: 0,
+        critical_speeds_without_damping: false,
         critical_speeds: Vec::new(),
         instabilities: Vec::new(),
         flutter_speed_rpm: None,

@@ -73,11 +73,13 @@ impl<'a> Numbered<'a> {
         entries
     }
 
-    /// The branch that begins with a mode at rest.
+    /// The branch that begins with a mode at rest, counted among those that oscillate.
     pub fn of_mode_at_rest(&self, index: usize) -> Option<usize> {
         let first = self.campbell().samples.first();
-        first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
-        self.at((0, index))
+        let first = first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
+        let modes = first.modes.iter().enumerate();
+        let mut oscillating = modes.filter(|(_, mode)| !mode.mode.is_overdamped());
+        self.at((0, oscillating.nth(index)?.0))
     }
 
     /// The growing branch of a band and its mirror image, read off the speed of its peak.

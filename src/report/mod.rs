@@ -74,10 +74,18 @@ pub struct Report {
     pub unusual_numbers: Vec<String>,
     /// Terms of the equation of motion that were assembled.
     pub terms: Vec<String>,
-    /// The lowest modes of the blade at rest, ascending.
+    /// The lowest modes of the blade at rest that oscillate, ascending.
     pub modes_at_rest: Vec<RestMode>,
+    /// Modes at rest that decay without oscillating (overdamped), no faster than 2π `campbell.complete_to_hz`; they
+    /// are counted here and not listed.
+    #[serde(default)]
+    pub overdamped_modes_at_rest: usize,
     /// Every critical speed up to the end of the sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
+    /// Whether `critical_speeds` are those of the saw without its damping: where damping turns with the blade, no
+    /// eigenvalue of the damped saw is zero at any speed.
+    #[serde(default)]
+    pub critical_speeds_without_damping: bool,
     /// The bands of instability found within the sweep, by onset; `certificate` says how much of
     /// the sweep is proven to have no other.
     pub instabilities: Vec<InstabilityEntry>,

@@ -6,7 +6,7 @@ mod reflecting;
 
 use std::sync::atomic::Ordering;
 
-use faer::{Col, Mat, Scale};
+use faer::{Col, Mat, Scale, c64};
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
@@ -15,15 +15,14 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::half_order;
 use super::inertia::WholeBasis;
-use super::mode::{ModeKind, classify};
+use super::mode::{ModeKind, classify, is_seen};
+use super::model::{CHART_MODES, chart_height};
 use super::projection::Projection;
 use super::vectors::{Eigenpair, orthonormal, split};
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
 
-/// Modes a chart shows at the lowest speed.
-const CHART_MODES: usize = 12;
 /// Vectors closer than this to the span of the others are left out. Eigenvalues of
 /// a projected symmetric problem are off by the square of it.
 const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERANCE", 1e-6);
@@ -209,11 +208,19 @@ impl<'a> Builder<'a> {
     }
 
     fn chart_height(&self, speed: f64) -> Result<(f64, Snapshot), SpectrumError> {
-        let pairs = self.lowest(speed, CHART_MODES + 2)?;
-        let frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im).collect();
-        let height = frequencies.get(CHART_MODES - 1).or(frequencies.last());
-        let height = 1.02 * height.copied().unwrap_or(self.scale);
-        Ok((height, Snapshot { speed, pairs }))
+        let is_conservative = self.system.is_conservative();
+        let mut count = CHART_MODES + 2;
+        loop {
+            let pairs = self.lowest(speed, count)?;
+            let lambdas: Vec<c64> = pairs.iter().map(|(lambda, _)| *lambda).collect();
+            let seen = lambdas.iter().filter(|lambda| is_seen(**lambda)).count();
+            if is_conservative || seen >= CHART_MODES || 2 * count >= self.system.order() {
+                let height = chart_height(&lambdas, is_conservative).unwrap_or(self.scale);
+                return Ok((height, Snapshot { speed, pairs }));
+            }
+            // Those that decay without oscillating stand between.
+            count *= 2;
+        }
     }
 
     /// Whether a snapshot has every mode of the window.

@@ -67,6 +67,19 @@ pub(super) const GROWTH_NOISE: f64 = 1e-7;
 /// motions are free: a double zero is known to √ε of it only.
 pub(super) const RIGID_NOISE: f64 = 2e-7;
 
+/// A motion that changes by e to the power of 2π/1e-2 = 628 within a period does not oscillate: of a free tilt in air, of
+/// which the period is infinite, the speed at which the two waves of equal n are told apart at rest makes one.
+const LEAST_OSCILLATION: f64 = 1e-2;
+
+fn oscillates(lambda: c64) -> bool {
+    lambda.im.abs() > LEAST_OSCILLATION * lambda.re.abs()
+}
+
+/// Whether a wave decays by less than e to the power of 2π within a period: it is seen as a line of a chart.
+pub fn is_seen(lambda: c64) -> bool {
+    lambda.im.abs() > -lambda.re
+}
+
 impl Mode {
     /// ω = |Im λ|, in rad/s.
     pub fn frequency_rad_per_s(&self) -> f64 {
@@ -89,10 +102,15 @@ impl Mode {
         is_known.then(|| -self.lambda.re / size)
     }
 
+    /// Whether it decays without oscillating, of a damped blade.
+    pub fn is_overdamped(&self) -> bool {
+        self.kind == ModeKind::Damped && self.lambda.re < 0.0 && !oscillates(self.lambda)
+    }
+
     /// −2π Re λ/|Im λ|, the logarithm of the ratio of two amplitudes a period apart, of a damped
     /// blade; `None` where it does not oscillate.
     pub fn logarithmic_decrement(&self) -> Option<f64> {
-        let oscillates = self.kind == ModeKind::Damped && self.lambda.im != 0.0;
+        let oscillates = self.kind == ModeKind::Damped && oscillates(self.lambda);
         oscillates.then(|| -std::f64::consts::TAU * self.lambda.re / self.lambda.im.abs())
     }
 

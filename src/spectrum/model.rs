@@ -19,7 +19,7 @@ use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
 use super::inertia::WholeBasis;
-use super::mode::{Mode, ModeKind, classify};
+use super::mode::{Mode, ModeKind, classify, is_seen};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::reflected::ReflectedModel;
@@ -73,6 +73,24 @@ pub struct SpectralModel {
     /// Work done so far.
     pub counters: WorkCounters,
     structure: OnceLock<WholeBasis>,
+}
+
+/// Modes a chart shows at the lowest speed.
+pub(super) const CHART_MODES: usize = 12;
+
+/// A little above the frequency of the twelfth of the modes of a speed, in order of their frequency or size, or of the
+/// last where there are fewer; of a damped blade of those that oscillate, or where none does of any in place of its
+/// frequency |λ|.
+pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64> {
+    let last = |sizes: Vec<f64>| sizes.get(CHART_MODES - 1).or(sizes.last()).copied();
+    let of_seen = lambdas
+        .iter()
+        .filter(|lambda| is_conservative || is_seen(**lambda))
+        .map(|lambda| lambda.im.abs());
+    let of_all = lambdas.iter().map(|lambda| lambda.norm());
+    last(of_seen.collect())
+        .or_else(|| last(of_all.collect()))
+        .map(|frequency| 1.02 * frequency)
 }
 
 /// Below this order a factorization of the whole matrix costs less than one by blocks and columns.
@@ -191,8 +209,8 @@ impl SpectralModel {
     /// Frequency of the twelfth mode at the lowest speed: what a chart shows.
     fn twelfth_frequency(&self, range: (f64, f64)) -> Result<f64, SpectrumError> {
         let modes = self.all_modes(range.0)?;
-        let twelfth = modes.get(11).or(modes.last());
-        Ok(1.02 * twelfth.map_or(0.0, Mode::frequency_rad_per_s))
+        let lambdas: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
+        Ok(chart_height(&lambdas, self.is_conservative()).unwrap_or(0.0))
     }
 
     /// Every mode of the reduced model, ordered by |Im λ|; those above
@@ -204,13 +222,16 @@ impl SpectralModel {
         self.solve(speed_rad_per_s, f64::INFINITY)
     }
 
-    /// Modes up to `complete_to`, without the rigid motions at rest.
+    /// Modes up to `complete_to`, without the rigid motions at rest, and of a damped blade without those that decay
+    /// faster than that: a reduced model does not span them, and none is seen.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let mut modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s)?;
-        modes.retain(|m| m.kind != ModeKind::Rigid);
+        let highest = self.complete_to_rad_per_s;
+        let mut modes = self.solve(speed_rad_per_s, highest)?;
+        let is_spanned = |m: &Mode| m.kind != ModeKind::Damped || m.lambda.re >= -highest;
+        modes.retain(|m| m.kind != ModeKind::Rigid && is_spanned(m));
         Ok(modes)
     }
 
@@ -263,6 +284,13 @@ impl SpectralModel {
         self.components
             .iter()
             .all(|component| component.full.is_conservative())
+    }
+
+    /// Whether some damping turns with the blade: a wave that stands still in space is strained by it, and no
+    /// eigenvalue is zero at the critical speeds, which are those of the blade without damping.
+    pub(crate) fn has_turning_damping(&self) -> bool {
+        let mut components = self.components.iter();
+        components.any(|component| component.full.circulatory.is_some())
     }
 
     /// dλ/dΩ of a mode at a speed.

@@ -110,8 +110,10 @@ pub struct Analysis {
     pub estimates: Option<Estimates>,
     /// What keeps the estimated errors above the tolerance of the scene, where they are and the chart is drawn in full.
     pub out_of_reach: Option<OutOfReach>,
-    /// The modes at rest, ascending.
+    /// The modes at rest that oscillate, ascending.
     pub modes_at_rest: Vec<DescribedMode>,
+    /// How many others are as slow, but decay without oscillating.
+    pub overdamped_at_rest: usize,
     /// λ of the mode that grows fastest at the operating speed, or decays most slowly, where
     /// the scene gives one within the sweep.
     pub fastest_operating: Option<c64>,
@@ -156,7 +158,9 @@ impl Analysis {
         } = ChosenBasis::new(scene, scene.tolerance())?;
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let mut chart = charted(&model, range, options)?;
-        let modes_at_rest = modes_at_rest(&model, &chart)?;
+        let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?
+            .into_iter()
+            .partition(|mode| mode.mode.is_overdamped());
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
         let mut listed = is_refined.then(|| Listed::new(&model, &modes_at_rest));
         if let Some(listed) = &mut listed {
@@ -188,6 +192,7 @@ impl Analysis {
             first_merge_rad_per_s: first_merge,
             root_loci,
             modes_at_rest,
+            overdamped_at_rest: overdamped.len(),
             fastest_operating: None,
             listed_backward_error: None,
             heat,

@@ -78,7 +78,14 @@ fn modes(text: &mut String, report: &Report) -> std::fmt::Result {
         );
         writeln!(text, "{line}")?;
     }
-    Ok(())
+    match report.overdamped_modes_at_rest {
+        0 => Ok(()),
+        1 => writeln!(text, "  1 other decays without oscillating (overdamped)"),
+        many => writeln!(
+            text,
+            "  {many} others decay without oscillating (overdamped)"
+        ),
+    }
 }
 
 fn damping(mode: &RestMode) -> String {
@@ -99,7 +106,13 @@ fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
             report.campbell.to_rpm
         );
     }
-    writeln!(text, "\nCritical speeds [rpm]")?;
+    match report.critical_speeds_without_damping {
+        true => writeln!(
+            text,
+            "\nCritical speeds of the saw without its damping [rpm]"
+        )?,
+        false => writeln!(text, "\nCritical speeds [rpm]")?,
+    }
     for critical in speeds.iter().take(ROWS) {
         let name = numbered(critical.branch, &critical.name);
         writeln!(text, "  {:>9.1}  {name}", critical.rpm)?;

@@ -5,6 +5,7 @@
 //! blade. With both, their ratio decides. (Huang and Crandall, J. Appl. Mech. 41, 1974,
 //! for rotating shafts and disks.)
 
+use faer::c64;
 use nalgebra::DMatrix;
 use sawflutter::analytical::free_wave::{FreeWave, LightDamping};
 use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
@@ -345,4 +346,46 @@ fn a_divergence_has_the_branch_that_it_has_without_damping() {
     let undamped = branches(None);
     assert!(undamped.len() >= 3, "{undamped:?}");
     assert_eq!(branches(Some(damping)), undamped);
+}
+
+/// λ² + τω²λ + ω² = 0 of a wave of the free blade at rest, ω being its frequency without damping: above 2/τ, 1592 Hz here,
+/// nothing oscillates, and below that the modes are listed as the formula says, slowest first.
+#[test]
+fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
+    const RETARDATION_S: f64 = 2e-4;
+    let damped = analysis_of(0.0, RETARDATION_S);
+    let undamped = damped.scene.edited(|saw| saw.damping = None).unwrap();
+    let undamped = Analysis::new(&undamped).unwrap();
+    assert_eq!(damped.overdamped_at_rest, 0);
+    assert!(damped.modes_at_rest.len() >= 10);
+    let pairs = damped.modes_at_rest.iter().zip(&undamped.modes_at_rest);
+    for (found, undamped) in pairs.take(10) {
+        let omega = undamped.mode.lambda.im;
+        let decay = 0.5 * RETARDATION_S * omega * omega;
+        let expected = c64::new(-decay, (omega * omega - decay * decay).sqrt());
+        let off = (found.mode.lambda - expected).norm() / omega;
+        assert!(off < 1e-6, "{} {expected}", found.mode.lambda);
+    }
+    let report = damped.report();
+    assert!(report.campbell.complete_to_hz > 100.0);
+    assert!(report.critical_speeds_without_damping);
+    assert!(
+        report
+            .summary()
+            .contains("Critical speeds of the saw without its damping")
+    );
+}
+
+/// Heave and tilt of a free blade in still air: λ = −c/(ρh), 0.29 1/s, without a frequency. They are counted, the tilts about
+/// two diameters as the one pair that any rotation makes of them; the decrement of what is listed is that of a wave that swings.
+#[test]
+fn rigid_motions_in_air_are_counted_and_not_listed() {
+    let report = analysis_of(AIR, 0.0).report();
+    assert_eq!(report.overdamped_modes_at_rest, 2);
+    for mode in &report.modes_at_rest {
+        assert!(mode.frequency_hz > 20.0, "{}", mode.frequency_hz);
+        assert!(mode.logarithmic_decrement.unwrap() < 0.1);
+    }
+    // Air that stands in space does not resist a wave that stands there.
+    assert!(!report.critical_speeds_without_damping);
 }

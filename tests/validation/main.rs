@@ -18,6 +18,7 @@ mod membrane;
 mod paper;
 mod paper_free_blade;
 mod rigid_motions;
+mod run_up;
 mod saws;
 mod sensitivity;
 mod spline;

@@ -75,6 +75,7 @@ pub fn dense_analysis(
         estimates: None,
         out_of_reach: None,
         modes_at_rest: Vec::new(),
+        overdamped_at_rest: 0,
         fastest_operating: None,
         listed_backward_error: None,
         heat: None,

@@ -64,14 +64,15 @@ export function tables(place, report) {
     band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed || band.to_rpm < report.campbell.to_rpm ? "" : " …"}`,
     band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.map((name, k) => numbered(band.branches[k], name)).join(" and "),
   ]);
+  const overdamped = report.overdamped_modes_at_rest;
   const damped = report.modes_at_rest.some((m) => typeof m.damping_ratio === "number");
   const rest = report.modes_at_rest.slice(0, 12).map((m) => [
     m.frequency_hz.toFixed(2), ...(damped ? [shown(m.damping_ratio, 3)] : []), numbered(m.branch, m.name),
   ]);
   const both = [
-    table("Critical speeds", ["rpm", "mode"], speeds),
+    table(`Critical speeds${report.critical_speeds_without_damping ? " of the saw without its damping" : ""}`, ["rpm", "mode"], speeds),
     table("Bands of instability", ["kind", "from rpm", "to rpm", "growth 1/s", "Hz", "modes"], bands),
-    table("Modes at rest", ["Hz", ...(damped ? ["ζ"] : []), "mode"], rest),
+    table(`Modes at rest${overdamped ? `; ${overdamped} others decay without oscillating` : ""}`, ["Hz", ...(damped ? ["ζ"] : []), "mode"], rest),
   ];
   place.replaceChildren(...both);
 }

@@ -1,0 +1,55 @@
+//! What bands do to a run-up: each integrates its own eigenvalue.
+
+use rayon::prelude::*;
+use sawflutter::plate::Plate;
+use sawflutter::scene::{Accuracy, RunUpFile, Scene, rad_per_s};
+use sawflutter::spectrum::LowestModes;
+use sawflutter::transient::RunningUp;
+
+const SPEEDS_RPM: [f64; 2] = [2540.0, 2630.0];
+const DURATION_S: f64 = 1.35;
+
+/// ∫ Σ Re λ dt over all growing modes of the whole basis, by the rectangle rule.
+fn growth_of_all_modes(plate: &Plate) -> f64 {
+    const SAMPLES: usize = 300;
+    let lowest = LowestModes::new(plate);
+    let at = |k: usize| {
+        let share = (k as f64 + 0.5) / SAMPLES as f64;
+        let rpm = SPEEDS_RPM[0] + share * (SPEEDS_RPM[1] - SPEEDS_RPM[0]);
+        let modes = lowest.at(rad_per_s(rpm), 16).unwrap();
+        let growths = modes.iter().map(|mode| mode.lambda.re);
+        growths.filter(|growth| *growth > 1e-4).sum::<f64>()
+    };
+    let sum: f64 = (0..SAMPLES).into_par_iter().map(at).sum();
+    sum * DURATION_S / SAMPLES as f64
+}
+
+/// Of a divergence and of the flutter within its speeds the exponents add up to the integral over all growing modes: neither
+/// counts the growth of the other.
+#[test]
+fn overlapping_bands_share_the_growth_of_all_modes() {
+    for damping_n_s_per_m in [0.0, 0.5] {
+        let scene = Scene::paper().edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
+            saw.runup = Some(RunUpFile {
+                from_rpm: SPEEDS_RPM[0],
+                to_rpm: SPEEDS_RPM[1],
+                duration_s: DURATION_S,
+                force_n: 1e-6,
+                angle_deg: 0.0,
+            });
+        });
+        let found = RunningUp::new(&scene.unwrap(), &|_, _| ()).unwrap();
+        let bands = &found.analysis.chart.instabilities;
+        let exponents: Vec<f64> = found.growths.iter().map(|growth| growth.exponent).collect();
+        let overlap = bands
+            .windows(2)
+            .any(|pair| pair[1].from_rad_per_s < pair[0].to_rad_per_s);
+        let all = growth_of_all_modes(&found.analysis.model.plate);
+        let sum: f64 = exponents.iter().sum();
+        println!("{exponents:?}: {sum} {all}");
+        assert!(overlap, "{bands:?}");
+        assert!((sum / all - 1.0).abs() < 0.01, "{sum} {all}");
+    }
+}
