@@ -274,9 +274,9 @@ class Operating(Entry):
     wave that stands still ten times as far as at rest, or more. Null where none is so near."""
 
     safe_window_rpm: FloatArray | None
-    """The window without instability: the speeds around it at which no instability counts, within
-    the sweep, and no nearer than 5 % to a critical speed; null where the saw is unstable or at a
-    critical speed."""
+    """The window without instability: the speeds around it at which no instability counts,
+    within the sweep, and no nearer than 5 % to a critical speed; null where the saw is unstable
+    or at a critical speed."""
 
     growth_per_s: float | None
     """Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep."""
@@ -1586,8 +1586,8 @@ class RunUpBand(Entry):
     """Time that the run-up spends in it."""
 
     growth_exponent: float
-    """Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows by e
-    to this power."""
+    """Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows
+    by e to this power."""
 
     seen_amplification: float | None
     """Largest deflection at the probe within the band over that in as many speeds before; null
@@ -1659,8 +1659,8 @@ class RunUpReport(Entry):
     """Bands of instability and what they do to the run-up."""
 
     first_doubling_rpm: float | None
-    """Onset of the first band that more than doubles a motion at this rate, e to the power of its
-    exponent; null where none does."""
+    """Onset of the first band that more than doubles a motion at this rate, e to the power of
+    its exponent; null where none does."""
 
     campbell: Campbell
     """Branches over the speeds of the run-up."""
