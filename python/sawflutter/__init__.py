@@ -28,6 +28,7 @@ from .errors import (
     StudyError,
 )
 from .matrices import Matrices
+from .modes import Modes
 from .results import (
     CampbellResults,
     CheckResults,
@@ -61,6 +62,7 @@ __all__ = [
     "Matrices",
     "Mode",
     "ModelWarning",
+    "Modes",
     "PathError",
     "PlaceResults",
     "RestMode",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Literal, SupportsFloat, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +15,7 @@ from ._progress import Progress, reporting
 from ._report_types import Mode
 from ._scene_types import Accuracy, GuideDict
 from .matrices import Matrices
+from .modes import Modes
 from .results import (
     CampbellResults,
     CheckResults,
@@ -107,22 +108,30 @@ class Questions:
             text = _native.analyze(scene._text, sensitivity=sensitivity, progress=told)
         return CampbellResults.computed(text)
 
-    def modes(self, rpm: SupportsFloat) -> tuple[Mode, ...]:
-        """Modes at a speed within the sweep, ascending by frequency, with their shapes.
+    @overload
+    def modes(self, rpm: SupportsFloat) -> tuple[Mode, ...]: ...
+    @overload
+    def modes(self, rpm: Iterable[SupportsFloat]) -> Modes: ...
+    def modes(self, rpm: Any) -> tuple[Mode, ...] | Modes:
+        """Modes at a speed within the sweep, or at several, ascending by frequency, with their
+        shapes.
 
         Parameters
         ----------
-        rpm : float
-            The speed.
+        rpm : float or array_like
+            The speed, or several: these are found in one basis.
 
         Returns
         -------
         tuple of Mode
+            At one speed.
+        Modes
+            At several, with frequencies and growth rates as arrays.
 
         Raises
         ------
         ArgumentError
-            Where the speed is outside of the sweep.
+            Where a speed is outside of the sweep.
 
         Examples
         --------
@@ -130,9 +139,14 @@ class Questions:
         >>> saw = sf.Scene.paper().replace({"accuracy": "draft"})
         >>> f"{saw.modes(rpm=0)[0].frequency_hz:.1f} Hz"
         '7.7 Hz'
+        >>> saw.modes([0, 500, 1000]).frequency_hz[:, 0].round(1).tolist()
+        [7.7, 5.2, 2.6]
         """
-        found = json.loads(_native.modes(self._text, float(rpm)))
-        return tuple(Mode.from_dict(mode) for mode in found)
+        speeds = np.asarray(rpm, float)
+        found = json.loads(_native.modes(self._text, speeds.ravel().tolist()))
+        if speeds.ndim == 0:
+            return tuple(Mode.from_dict(mode) for mode in found[0])
+        return Modes.of(speeds.ravel(), found)
 
     def check(
         self,

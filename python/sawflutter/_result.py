@@ -109,6 +109,10 @@ class Result(Entry):
 
         return Scene.from_json(json.dumps(self.raw["scene"]))
 
+    def summary(self) -> str:
+        """The report in words, as the program prints it."""
+        return _native.summary(self.command, self._text)
+
     def figure(self, name: str) -> bytes | None:
         """A figure of the program, the same bytes as it writes; None where the saw has none.
 
@@ -164,4 +168,4 @@ class Result(Entry):
         """What a notebook shows: the answer, and the program's figure."""
         name = next((name for name in self.figure_names if name.endswith(".svg")), None)
         picture = self.figure(name) if name is not None else None
-        return html(repr(self), None if picture is None else picture.decode())
+        return html(self.summary(), None if picture is None else picture.decode())

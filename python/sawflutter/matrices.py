@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _native
 from ._entry import Entry, FloatArray
@@ -42,12 +43,15 @@ class Matrices(Entry):
     radial_functions: int
     """Radial functions of each."""
 
+    scene: str = field(default="", repr=False)
+    """The scene as JSON."""
+
     @classmethod
     def of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
         """The matrices of a scene as JSON, in a basis or in that of its accuracy."""
         found, diameters, functions = _native.matrices(scene, basis=basis)
         arrays = {name: _square(found[name]) if name in found else None for name in _NAMES}
-        return cls(**arrays, max_diameters=diameters, radial_functions=functions)  # type: ignore[arg-type]
+        return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)  # type: ignore[arg-type]
 
     @property
     def mass(self) -> FloatArray:
@@ -55,6 +59,47 @@ class Matrices(Entry):
         one = np.eye(len(self.stiffness))
         one.setflags(write=False)
         return one
+
+    def at(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
+        """The basis functions φ at points of the blade, fixed in space: a deflection there is
+        w = φᵀ q, and a force F there is f = F φ. With them the receptance of two points at Ω and ω
+        is φ₁ᵀ (K + Ω² S + Ω N − ω² + iω (2 Ω G + C))⁻¹ φ₂.
+
+        Parameters
+        ----------
+        radius_m, angle_deg : array_like
+            Distances from the axis and angles from the cut, positive with the rotation; they are
+            broadcast against each other.
+
+        Returns
+        -------
+        ndarray of float
+            In 1/√kg, of the broadcast shape with the functions as its last axis.
+
+        Raises
+        ------
+        ArgumentError
+            Where a point is off the blade.
+
+        Examples
+        --------
+        The deflection under a newton at rest, where it acts:
+
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> m = sf.Scene.paper().matrices(basis=(12, 6))
+        >>> rim = m.at(radius_m=0.355, angle_deg=90.0)
+        >>> print(f"{1e6 * rim @ np.linalg.solve(m.stiffness, rim):.0f} µm")
+        290 µm
+        """
+        radius, angle = np.broadcast_arrays(
+            np.asarray(radius_m, float), np.radians(np.asarray(angle_deg, float))
+        )
+        basis = (self.max_diameters, self.radial_functions)
+        found = _native.functions_at(
+            self.scene, basis, radius.ravel().tolist(), angle.ravel().tolist()
+        )
+        return np.frombuffer(found, "<f8").reshape(*radius.shape, len(self.stiffness))
 
     def companion(self, rpm: SupportsFloat) -> FloatArray:
         """Matrix of x' = A x with x = (q, q') at a speed: its eigenvalues are those of the saw, in

@@ -26,7 +26,6 @@ from ._report_types import (
 )
 from ._result import Result
 from ._table import frame, read
-from ._view import html
 from .designs import FitResults, PlaceResults, StudyResults, TradeoffResults
 from .errors import InputError
 
@@ -80,10 +79,6 @@ class CampbellResults(Result, CampbellReport):
     def modes(self, rpm: float) -> tuple[Mode, ...]:
         """Modes at a speed of the sweep, with their shapes; see :meth:`sawflutter.Scene.modes`."""
         return self.saw.modes(rpm)
-
-    def summary(self) -> str:
-        """The report in words, as the program prints it."""
-        return _native.summary(self._text)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes ``campbell.csv``, the same bytes as the program: one row a branch and speed."""
@@ -150,10 +145,6 @@ class CampbellResults(Result, CampbellReport):
 
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
-
-    def _repr_html_(self) -> str:
-        picture = self.figure("campbell.svg")
-        return html(self.summary(), None if picture is None else picture.decode())
 
     def _facts(self) -> str:
         first, last = self.campbell.from_rpm, self.campbell.to_rpm
@@ -247,7 +238,9 @@ class CutResults(Result, CutReport):
         return with_plotly.draw(self.map_chart(run))
 
     def _facts(self) -> str:
-        return ", ".join(f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs)
+        return ", ".join(
+            f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs
+        )
 
 
 class RunUpResults(Result, RunUpReport):

@@ -49,25 +49,32 @@ pub fn analyze(
     })
 }
 
-/// Modes of a scene at a speed of its sweep, ascending by frequency.
+/// Modes of a scene at speeds of its sweep, ascending by frequency at each, from one basis.
 #[pyfunction]
 #[pyo3(signature = (scene, at_rpm, *, progress=None))]
 pub fn modes(
     py: Python<'_>,
     scene: &str,
-    at_rpm: f64,
+    at_rpm: Vec<f64>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
-    compute(py, progress, move |_| {
+    compute(py, progress, move |meter| {
         let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
         let range = chosen.range_rad_per_s;
-        let speed = SpeedRange::from(range).speed_at("rpm", at_rpm)?;
+        let speeds = at_rpm.iter();
+        let speeds = speeds.map(|rpm| SpeedRange::from(range).speed_at("rpm", *rpm));
+        let speeds = speeds.collect::<Result<Vec<_>, _>>()?;
         let model =
             SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced)?;
-        let found = model.describe(speed, model.modes(speed)?);
-        let entry = |mode| ModeEntry::new(&model.plate, speed, mode);
-        json(&found.iter().map(entry).collect::<Vec<_>>())
+        let mut entries = Vec::new();
+        for (done, speed) in speeds.iter().enumerate() {
+            meter.show(done, speeds.len());
+            let found = model.describe(*speed, model.modes(*speed)?);
+            let entry = |mode| ModeEntry::new(&model.plate, *speed, mode);
+            entries.push(found.iter().map(entry).collect::<Vec<_>>());
+        }
+        json(&entries)
     })
 }
 

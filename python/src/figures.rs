@@ -52,11 +52,25 @@ fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture
     })
 }
 
-/// What `sawflutter analyze` prints of a report.
+/// What the program prints of a report of the command of this name.
 #[pyfunction]
-pub fn summary(report: &str) -> PyResult<String> {
-    let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
-    Ok(report.summary())
+pub fn summary(command: &str, report: &str) -> PyResult<String> {
+    macro_rules! of {
+        ($kind:ty) => {
+            serde_json::from_str::<$kind>(report).map(|report| report.summary())
+        };
+    }
+    let summary = match command {
+        "check" => of!(CheckReport),
+        "cut" => of!(CutReport),
+        "runup" => of!(RunUpReport),
+        "washboard" => of!(WashboardReport),
+        "fit" => of!(FitReport),
+        "place" => of!(PlaceReport),
+        "study" => of!(StudyReport),
+        _ => of!(Report),
+    };
+    Ok(summary.map_err(Failure::from)?)
 }
 
 /// `campbell.csv` of a report.

@@ -19,7 +19,7 @@ mod _native {
     #[pymodule_export]
     use super::figures::{campbell_csv, palette, picture, summary};
     #[pymodule_export]
-    use super::matrices::matrices;
+    use super::matrices::{functions_at, matrices};
     #[pymodule_export]
     use super::study::{Study, StudyLog, processor};
     #[pymodule_export]

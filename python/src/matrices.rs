@@ -22,8 +22,7 @@ pub fn matrices<'py>(
     basis: Option<(usize, usize)>,
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
-    let basis = basis.map(|(diameters, radial)| Resolution::new(diameters, radial));
-    let basis = basis.transpose().map_err(Failure::from)?;
+    let basis = basis.map(resolution).transpose()?;
     let (named, resolution) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
@@ -44,6 +43,37 @@ pub fn matrices<'py>(
         found.set_item(name, PyBytes::new(py, &matrix))?;
     }
     Ok((found, resolution.max_diameters, resolution.radial_functions))
+}
+
+/// Every basis function at points of the blade, in 1/√kg, row by row as little-endian doubles.
+#[pyfunction]
+pub fn functions_at<'py>(
+    py: Python<'py>,
+    scene: &str,
+    basis: (usize, usize),
+    radius_m: Vec<f64>,
+    angle_rad: Vec<f64>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let scene = arguments::scene(scene)?;
+    let blade = scene.blade();
+    let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+    // The edge of a blade is not told from its value in metres.
+    let within = |r: &f64| inner * (1.0 - 1e-12) <= *r && *r <= outer * (1.0 + 1e-12);
+    if let Some(off) = radius_m.iter().find(|radius| !within(radius)) {
+        let allowed = format!("from {inner} to {outer}, the radii of the blade");
+        return Err(
+            Failure::argument("radius_m", off, allowed, "name a point of the blade").into(),
+        );
+    }
+    let plate = Plate::new(&scene, resolution(basis)?);
+    let points = radius_m.iter().zip(&angle_rad);
+    let values = points.flat_map(|(radius, angle)| plate.functions_at(*radius, *angle));
+    let bytes: Vec<u8> = values.flat_map(f64::to_le_bytes).collect();
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn resolution((diameters, radial): (usize, usize)) -> Result<Resolution, Failure> {
+    Ok(Resolution::new(diameters, radial)?)
 }
 
 fn bytes(matrix: &Mat<f64>) -> Vec<u8> {

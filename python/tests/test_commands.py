@@ -241,6 +241,7 @@ def test_every_result_is_saved_loaded_and_pickled(
         assert loaded == result and type(loaded) is type(result)
         assert pickle.loads(pickle.dumps(result)) == result
         assert "<img" in result._repr_html_()
+        assert result.saw.name in result.summary()
 
 
 def test_a_saw_that_cannot_be_analysed_says_why(draft: sf.Scene) -> None:

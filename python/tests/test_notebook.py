@@ -97,6 +97,45 @@ def test_the_range_of_speeds_is_an_argument(draft: sf.Scene) -> None:
     assert draft.run_campbell(speed_range=np.linspace(500, 1600, 5)) == r
 
 
+def test_modes_at_several_speeds_are_arrays(draft: sf.Scene) -> None:
+    """Held against NumPy's eigenvalues of the exported matrices."""
+    speeds = [0.0, 500.0, 1200.0, 2275.0]
+    found = draft.modes(speeds)
+    assert found.rpm.tolist() == speeds
+    assert found.frequency_hz.shape == found.growth_per_s.shape == found.krein_sign.shape
+    matrices = draft.matrices()
+    for place, rpm in enumerate(speeds):
+        alone = draft.modes(rpm)
+        assert found.modes[place] == alone
+        eigenvalues = np.linalg.eigvals(matrices.companion(rpm))
+        for hz, growth in zip(found.frequency_hz[place, :6], found.growth_per_s[place, :6]):
+            value = growth + 2j * np.pi * hz
+            assert np.min(abs(eigenvalues - value)) < 1e-4 * max(abs(value), 1.0)
+    tidy = found.to_dataframe()
+    assert len(tidy) == sum(len(of) for of in found.modes)
+    assert {"rpm", "frequency_hz", "direction", "nodal_diameters", "krein_sign"} <= set(tidy)
+    with pytest.raises(sf.ArgumentError, match="rpm"):
+        draft.modes([0.0, 1e6])
+
+
+def test_basis_functions_are_orthonormal_over_the_mass_of_the_blade(draft: sf.Scene) -> None:
+    """∫ ρ h φᵢ φⱼ dA is one, by Gauss and the rectangle rule: the mass matrix of the package."""
+    free = draft.replace({"guides": []})
+    m = free.matrices(basis=(3, 3))
+    inner, outer = (free.blade[f"{end}_diameter_m"] / 2 for end in ("inner", "outer"))  # type: ignore[literal-required]
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    radius = inner + (outer - inner) * (nodes + 1) / 2
+    around = np.linspace(0.0, 360.0, 16, endpoint=False)
+    phi = m.at(radius[:, None], around)
+    assert phi.shape == (12, 16, len(m.stiffness))
+    surface = free["blade.material.density_kg_per_m3"] * free["blade.thickness_m"]
+    area = surface * (weights * radius * (outer - inner) / 2)[:, None] * (2 * np.pi / 16)
+    mass = np.einsum("ra,rai,raj->ij", np.broadcast_to(area, (12, 16)), phi, phi)
+    assert np.allclose(mass, m.mass, atol=1e-10)
+    with pytest.raises(sf.ArgumentError, match="radius_m"):
+        m.at(outer + 0.01, 0.0)
+
+
 def test_matrices_compare_and_cannot_be_written_to(draft: sf.Scene) -> None:
     m = draft.matrices(basis=(6, 4))
     assert m == draft.matrices(basis=(6, 4)) and m != draft.matrices(basis=(6, 5))

@@ -1,0 +1,62 @@
+"""Modes at several speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+
+from ._entry import Entry, FloatArray, IntArray
+from ._report_types import Mode
+from ._table import frame
+from .stiffness import rows
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes(Entry):
+    """Modes at several speeds, from one basis: a row a speed, ascending by frequency. Where a speed
+    has fewer modes than another, the row is filled with NaN, and Krein signs with 0."""
+
+    rpm: FloatArray
+    """Speeds."""
+
+    frequency_hz: FloatArray
+    """Frequencies, of the shape (speeds, modes)."""
+
+    growth_per_s: FloatArray
+    """Growth rates, of the same shape."""
+
+    krein_sign: IntArray
+    """Krein signs, of the same shape; 0 where a mode has none."""
+
+    modes: tuple[tuple[Mode, ...], ...]
+    """The modes themselves, with their shapes, of each speed."""
+
+    @classmethod
+    def of(cls, rpm: npt.ArrayLike, modes: list[list[dict[str, object]]]) -> Modes:
+        """The table of what the library reports of each speed."""
+        found = tuple(tuple(Mode.from_dict(mode) for mode in of) for of in modes)
+
+        def table(value: Callable[[Mode], float]) -> FloatArray:
+            return rows([np.array([value(mode) for mode in of]) for of in found])
+
+        speeds = np.array(rpm, float)
+        signs = np.nan_to_num(table(lambda mode: mode.krein_sign)).astype(np.int64)
+        for array in (speeds, signs):
+            array.setflags(write=False)
+        hz, growth = table(lambda mode: mode.frequency_hz), table(lambda mode: mode.growth_per_s)
+        return cls(speeds, hz, growth, signs, found)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a speed and mode: speed, frequency, growth rate, Krein sign, direction and the
+        number of nodal diameters that has the largest share; needs pandas."""
+        table = frame(mode for of in self.modes for mode in of)
+        diameters = [mode.harmonics[0].nodal_diameters for of in self.modes for mode in of]
+        table["nodal_diameters"] = diameters
+        return table
