@@ -466,8 +466,8 @@ class MeasuredRowDict(TypedDict):
     rpm: float
     """Rotation speed."""
 
-    frequencies_hz: list[float]
-    """Frequencies in the space-fixed frame."""
+    frequencies_hz: list[float | None]
+    """Frequencies in the space-fixed frame, lowest first; null in the place of one that was not seen."""
 
 
 class MeasuredDict(TypedDict):

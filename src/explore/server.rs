@@ -21,6 +21,7 @@ use super::pages::Pages;
 use super::reply::{Refusal, SavedFile, Start};
 use super::task::{Meter, Task};
 use super::{mode, page};
+use crate::fit::Measurement;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
@@ -115,6 +116,7 @@ fn router(desk: Desk, door: Door) -> Router {
         .route("/alive", post(alive))
         .route("/leave", post(leave))
         .route("/read", post(read))
+        .route("/measured/{name}", post(measured))
         .route("/jobs", get(jobs))
         .route("/chart/{fidelity}", post(chart))
         .route("/mode", post(mode_shape))
@@ -242,6 +244,14 @@ async fn read(scene: String) -> Response {
     match Scene::from_json(&scene) {
         Ok(scene) => json(StatusCode::OK, scene.file()),
         Err(error) => refused(&error.into()),
+    }
+}
+
+/// Reads a table of measured frequencies as `sawflutter fit` does, and gives it back as the block of a scene.
+async fn measured(Path(name): Path<String>, table: String) -> Response {
+    match Measurement::from_csv(&name, &table) {
+        Ok(measurement) => json(StatusCode::OK, &measurement.as_scene_block()),
+        Err(error) => refused(&Refusal::of(&error)),
     }
 }
 

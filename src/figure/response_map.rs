@@ -91,9 +91,9 @@ fn draw_branches(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, frequenc
         }
     }
     for row in report.scene.measured.iter().flat_map(|m| &m.rows) {
-        for hz in &row.frequencies_hz {
-            if speed.shows(row.rpm) && frequency.shows(*hz) {
-                draw_measured_mark(sheet, [speed.at(row.rpm), frequency.at(*hz)]);
+        for hz in row.seen_hz() {
+            if speed.shows(row.rpm) && frequency.shows(hz) {
+                draw_measured_mark(sheet, [speed.at(row.rpm), frequency.at(hz)]);
             }
         }
     }

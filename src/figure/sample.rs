@@ -264,7 +264,7 @@ fn measured() -> Measured {
     ];
     let row = |(rpm, frequencies): (f64, [f64; 4])| MeasuredRow {
         rpm,
-        frequencies_hz: frequencies.to_vec(),
+        frequencies_hz: frequencies.map(Some).to_vec(),
     };
     Measured {
         source: "read off a published table".to_owned(),

@@ -60,10 +60,7 @@ impl Row {
 impl Measurement {
     /// The `measured` block of a scene.
     pub fn of_scene(measured: &Measured) -> Self {
-        let row = |row: &MeasuredRow| {
-            let columns: Vec<_> = row.frequencies_hz.iter().copied().map(Some).collect();
-            Row::new(row.rpm, &columns)
-        };
+        let row = |row: &MeasuredRow| Row::new(row.rpm, &row.frequencies_hz);
         Measurement {
             source: measured.source.clone(),
             rows: measured.rows.iter().map(row).collect(),
@@ -131,23 +128,27 @@ impl Measurement {
         self.rows.iter().map(Row::depth).max().unwrap_or(0)
     }
 
-    /// As the block of a scene. A row in which a frequency was missed below one that was seen
-    /// cannot be written there without shifting its pairs, and is left out.
-    pub fn as_scene_block(&self) -> Option<Measured> {
-        let whole = |row: &&Row| !row.pairs.is_empty() && row.depth() == row.pairs.len();
-        let rows: Vec<MeasuredRow> = self
-            .rows
-            .iter()
-            .filter(whole)
-            .map(|row| MeasuredRow {
-                rpm: row.rpm,
-                frequencies_hz: row.pairs.iter().map(|(_, hz)| *hz).collect(),
-            })
-            .collect();
-        (!rows.is_empty()).then(|| Measured {
+    /// The `measured` block of a scene that says the same: rows in ascending speed, without those in which
+    /// nothing was seen.
+    pub fn as_scene_block(&self) -> Measured {
+        let row = |row: &Row| {
+            let mut frequencies_hz = vec![None; row.depth()];
+            for &(place, hz) in &row.pairs {
+                frequencies_hz[place] = Some(hz);
+            }
+            let rpm = row.rpm;
+            MeasuredRow {
+                rpm,
+                frequencies_hz,
+            }
+        };
+        let seen = self.rows.iter().filter(|row| !row.pairs.is_empty());
+        let mut rows: Vec<MeasuredRow> = seen.map(row).collect();
+        rows.sort_by(|x, y| x.rpm.total_cmp(&y.rpm));
+        Measured {
             source: self.source.clone(),
             rows,
-        })
+        }
     }
 }
 
@@ -204,8 +205,10 @@ mod tests {
             (table.count(), table.depth(), table.top_rpm()),
             (6, 4, 2000.0)
         );
-        // The first row has a gap, which a scene cannot say.
-        assert_eq!(table.as_scene_block().unwrap().rows.len(), 1);
+        let block = table.as_scene_block();
+        let first = [Some(9.0), Some(10.5), None, Some(43.0)];
+        assert_eq!(block.rows[0].frequencies_hz, first);
+        assert_eq!(Measurement::of_scene(&block), table);
         assert_eq!(table.up_to(1999.0).rows.len(), 1);
     }
 

@@ -324,7 +324,7 @@ fn calibrated(
     scene_at(scene.file(), freed, &best.shares)?.edited(|file| {
         file.notes.push(note);
         if file.measured.is_none() {
-            file.measured = measurement.as_scene_block();
+            file.measured = Some(measurement.as_scene_block());
         }
     })
 }

@@ -233,6 +233,13 @@ pub struct Measured {
 pub struct MeasuredRow {
     /// Rotation speed.
     pub rpm: f64,
-    /// Frequencies in the space-fixed frame.
-    pub frequencies_hz: Vec<f64>,
+    /// Frequencies in the space-fixed frame, lowest first; null in the place of one that was not seen.
+    pub frequencies_hz: Vec<Option<f64>>,
+}
+
+impl MeasuredRow {
+    /// The frequencies that were seen, in Hz.
+    pub fn seen_hz(&self) -> impl Iterator<Item = f64> {
+        self.frequencies_hz.iter().copied().flatten()
+    }
 }

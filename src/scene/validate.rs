@@ -184,6 +184,7 @@ fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
         let key = format!("measured.rows[{index}]");
         within(&format!("{key}.rpm"), row.rpm, (0.0, MAX_RPM))?;
         for (column, &hz) in row.frequencies_hz.iter().enumerate() {
+            let Some(hz) = hz else { continue };
             within(
                 &format!("{key}.frequencies_hz[{column}]"),
                 hz,

@@ -248,3 +248,33 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
         page.close().await;
     });
 }
+
+/// A mark before three digits separates thousands or is decimal: the page asks, unless only one of the two numbers
+/// is that of a saw.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_number_that_may_be_one_of_two_is_asked_about() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let fault = "[id='operating_rpm:fault']";
+        page.enter("operating_rpm", "1,800").await;
+        page.wait("document.body.classList.contains('stale')").await;
+        assert_eq!(
+            page.text(fault).await,
+            "“1,800” may be 1800 or 1.8; write one of these, in rpm"
+        );
+        page.enter("operating_rpm", "0x10").await;
+        page.wait(&format!(
+            "document.querySelector({fault:?}).textContent.includes('must be a number')"
+        ))
+        .await;
+        page.enter("operating_rpm", "1800").await;
+        page.enter("blade.thickness_m", "2,850").await;
+        page.settle().await;
+        let scene = page.value("sawflutter.state.scene").await;
+        assert_eq!(scene["operating_rpm"], json!(1800));
+        assert_eq!(scene["blade"]["thickness_m"], json!(0.00285));
+        page.close().await;
+    });
+}

@@ -50,6 +50,7 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
             ("notes.json", "{ \"a\": 1 }"),
             ("broken.json", "not json"),
             ("empty.csv", "rpm,hz"),
+            ("kilohertz.csv", "rpm,f1 [kHz]\n0,0.1\n"),
         ] {
             page.script(&format!("sawflutter.open(new File([{text:?}], {name:?}))"))
                 .await;
@@ -74,6 +75,23 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
         page.settle().await;
         let rows = page.value("sawflutter.state.scene.measured.rows").await;
         assert_eq!(rows[0], json!({ "rpm": 0, "frequencies_hz": [9.5, 11] }));
+        // The speed in the last column, a wave that was not seen, and a column order of its own: as `sawflutter fit`
+        // reads the table.
+        let table = "f2,f1,f3,rpm\n27.5,9.5,43,0\n,4.5,40,500\n";
+        page.script(&format!(
+            "sawflutter.open(new File([{table:?}], 'shop.csv'))"
+        ))
+        .await;
+        page.wait("sawflutter.state.scene.measured.source === 'shop.csv'")
+            .await;
+        page.settle().await;
+        assert_eq!(
+            page.value("sawflutter.state.scene.measured.rows").await,
+            json!([
+                { "rpm": 0, "frequencies_hz": [9.5, 27.5, 43] },
+                { "rpm": 500, "frequencies_hz": [4.5, null, 40] },
+            ])
+        );
         // The tick shows or hides the points; the scene stays.
         let scene = page.value("sawflutter.state.scene").await;
         page.script("document.querySelector('#measured').click()")

@@ -215,6 +215,22 @@ fn inches_and_examples_show_the_same_saws() {
         assert_eq!(thickness, json!(0.003175));
         page.find("#inches").await.click().await.unwrap();
 
+        // What was typed as a tolerance is the same length after the unit has changed.
+        page.find("#tab-study").await.click().await.unwrap();
+        page.enter("study:blade.thickness_m", "0.254").await;
+        page.script("document.querySelector('#inches').click()")
+            .await;
+        let tolerance = "document.getElementById('study:blade.thickness_m')";
+        assert_eq!(
+            page.value(&format!("{tolerance}.value")).await,
+            json!("0.01")
+        );
+        let label = format!("{tolerance}.closest('.field').textContent");
+        assert_eq!(page.value(&label).await, json!("± thickness, in"));
+        page.script("document.querySelector('#inches').click()")
+            .await;
+        page.find("#tab-chart").await.click().await.unwrap();
+
         // A task knows units too, and an example is a saw that computes.
         let count = page
             .value("document.querySelectorAll('#examples option').length - 1")

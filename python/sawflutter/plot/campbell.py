@@ -68,7 +68,7 @@ def highest_shown_hz(r: CampbellReport) -> float:
         wanted += branch.frequency_hz[branch.krein_sign < 0].tolist()
     measured = r.scene.get("measured")
     for row in measured["rows"] if measured else []:
-        wanted += row["frequencies_hz"]
+        wanted += [hz for hz in row["frequencies_hz"] if hz is not None]
     top = HEADROOM * max(wanted, default=0.0)
     complete = r.campbell.complete_to_hz
     top = min(top, complete) if complete > 0.0 else top
@@ -185,7 +185,8 @@ def _measured(r: CampbellReport) -> list[Item]:
     measured = r.scene.get("measured")
     if not measured:
         return []
-    pairs = [(row["rpm"], hz) for row in measured["rows"] for hz in row["frequencies_hz"]]
+    rows = ((row["rpm"], hz) for row in measured["rows"] for hz in row["frequencies_hz"])
+    pairs = [(rpm, hz) for rpm, hz in rows if hz is not None]
     x, y = np.array(pairs, float).reshape(-1, 2).T
     hover = [f"{measured['source']}<br>{rpm:.0f} rpm<br>{hz:g} Hz" for rpm, hz in pairs]
     return [Points(x, y, colours()["ink"], measured["source"], hollow=True, hover=hover)]

@@ -76,7 +76,7 @@ def response(r: RunUpReport) -> Chart:
         )
     measured = r.scene.get("measured")
     for row in measured["rows"] if measured else []:
-        below = np.array([hz for hz in row["frequencies_hz"] if hz <= limit])
+        below = np.array([hz for hz in row["frequencies_hz"] if hz is not None and hz <= limit])
         speed = np.full(len(below), row["rpm"])
         items.append(Points(speed, below, colours()["ink"], hollow=True))
     speeds = (float(of.rpm[0]), float(of.rpm[-1]))

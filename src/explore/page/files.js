@@ -1,9 +1,9 @@
 // Scenes from files, examples and addresses, and files of the scene.
 
 import { node } from "./dom.js";
-import { carried, download, link, measured } from "./kept.js";
+import { carried, download, link } from "./kept.js";
 import { clone } from "./scene.js";
-import { read, saved } from "./talk.js";
+import { measured, read, saved } from "./talk.js";
 
 export class Files {
   // The scene as it was last saved to a file, or as the program was started with.
@@ -62,7 +62,7 @@ export class Files {
     try {
       const text = await file.text();
       if (/\.(csv|tsv|txt)$/i.test(file.name)) {
-        const points = measured(file.name, text);
+        const points = await measured(file.name, text);
         this.state.change((scene) => (scene.measured = points), { structure: true });
         return;
       }

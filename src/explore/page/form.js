@@ -6,7 +6,7 @@ import { node } from "./dom.js";
 import { Range } from "./range.js";
 import { Refusals } from "./refusal.js";
 import { get } from "./scene.js";
-import { numberOf, partName, shown, tidy, unitOf } from "./words.js";
+import { numberOf, partName, readings, shown, tidy, unitOf } from "./words.js";
 
 // The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
 // is mounted on and what it cuts.
@@ -252,7 +252,7 @@ export class Form {
     input.addEventListener("change", () => {
       const texts = input.value.split(/[,;\s]+/).filter((text) => text !== "");
       // What is no number the library shall refuse in its own words.
-      const numbers = texts.map((text) => (Number.isFinite(Number(text)) ? tidy(Number(text) / scale) : text));
+      const numbers = texts.map((text) => (readings(text).length > 0 ? tidy(readings(text)[0] / scale) : text));
       this.state.set(path, numbers.length > 0 ? numbers : undefined);
     });
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
@@ -274,8 +274,9 @@ export class Form {
     const quantity = this.quantities.get(path.replace(/\[\d+\]/g, "[]"));
     const range = new Range(key, value ?? fallback ?? beginnings.number(key, this.state.scene) ?? 0, quantity, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
+    const isUsual = (typed) => !quantity || (quantity.usual[0] <= typed / scale && typed / scale <= quantity.usual[1]);
     input.addEventListener("change", () => {
-      const number = numberOf(input.value);
+      const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);
       else if (number !== null) send(tidy(number / scale));
       // What is no number the library shall refuse in its own words.

@@ -34,7 +34,9 @@ function stretchOf(report, branch, i, damped, colours) {
   const both = (ends) => ends.map((rpm, k) => [rpm, damped ? growth[k] : Math.max(growth[k], 0)]);
   if (Math.max(...growth) <= NEGLIGIBLE_PER_S) return damped ? { colour: colours.standing, ends: both(speeds) } : null;
   const inside = growth[0] > growth[1] ? speeds[0] : speeds[1];
-  const band = report.instabilities.find((b) => b.from_rpm <= inside && inside <= b.to_rpm);
+  // Where bands overlap, the branch grows in its own.
+  const around = report.instabilities.filter((b) => b.from_rpm <= inside && inside <= b.to_rpm);
+  const band = around.find((b) => b.branches.includes(branch.branch));
   // Without damping growth begins and ends with the band, wherever the samples are.
   const within = damped || !band ? speeds : speeds.map((rpm) => Math.min(Math.max(rpm, band.from_rpm), band.to_rpm));
   return { colour: bandColour(colours, band?.kind ?? "flutter"), ends: both(within) };

@@ -73,21 +73,3 @@ export function download(name, blob) {
   link.remove();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
-
-// Rows "rpm, frequencies in Hz" of a spreadsheet as measured points; lines without a number first
-// are headings. Decimal commas where the columns are parted by semicolons or tabs.
-export function measured(name, text) {
-  const rows = [];
-  const decimal = (cell, parting) => (parting === "," ? cell : cell.replace(",", "."));
-  for (const line of text.split(/\r?\n/)) {
-    const parting = /[;\t]/.test(line) ? /[;\t]/ : ",";
-    const cells = line.split(parting).map((cell) => decimal(cell.trim(), parting));
-    if (cells[0] === "" || !Number.isFinite(Number(cells[0]))) continue;
-    const frequencies_hz = cells.slice(1).filter((cell) => cell !== "").map(Number);
-    if (frequencies_hz.length > 0) rows.push({ rpm: Number(cells[0]), frequencies_hz });
-  }
-  if (rows.length === 0 || rows.some((row) => row.frequencies_hz.some((hz) => !Number.isFinite(hz)))) {
-    throw new Error(`${name} has no table of frequencies; write a line for each speed: rpm, then frequencies in Hz`);
-  }
-  return { source: name, rows: rows.sort((x, y) => x.rpm - y.rpm) };
-}

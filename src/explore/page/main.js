@@ -232,6 +232,7 @@ function measure(on) {
   by("inches").checked = on;
   useInches(on);
   form.build();
+  tasks.changed();
   try {
     localStorage.setItem(INCHES, on ? "1" : "");
   } catch {

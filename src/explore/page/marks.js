@@ -70,7 +70,7 @@ export function highestShown(report) {
   const lowest = atRest.sort((x, y) => x - y).slice(0, 6);
   const reflected = branches.flatMap((b) => b.frequency_hz.filter((_, i) => b.krein_sign[i] < 0));
   const bands = report.instabilities.map((band) => band.frequency_hz);
-  const measured = (report.scene.measured?.rows ?? []).flatMap((row) => row.frequencies_hz);
+  const measured = (report.scene.measured?.rows ?? []).flatMap((row) => row.frequencies_hz.filter((hz) => hz !== null));
   const wanted = 1.1 * [...lowest, ...reflected, ...bands, ...measured].reduce((x, y) => Math.max(x, y), 0);
   const top = Math.min(wanted, complete_to_hz > 0 ? complete_to_hz : Infinity);
   return top > 0 ? top : 1;
@@ -178,7 +178,7 @@ export function drawMeasured(context, place, measured, colours, scale) {
   context.fillStyle = colours.paper;
   context.lineWidth = 1.2 * scale;
   for (const row of measured.rows) {
-    for (const frequency of row.frequencies_hz) {
+    for (const frequency of row.frequencies_hz.filter((hz) => hz !== null)) {
       const [x, y] = place(row.rpm, frequency);
       context.beginPath();
       context.arc(x, y, 3 * scale, 0, 2 * Math.PI);

@@ -1,6 +1,6 @@
 // Why a number is refused: in the words and the unit of its field, with a range that is of use.
 
-import { shown, tidy, unitOf } from "./words.js";
+import { shown, tidy, unitOf, whichOf } from "./words.js";
 
 // Bounds so far apart only keep numbers from overflowing: what is usual says more.
 const FAR = 1e9;
@@ -25,6 +25,8 @@ export class Refusals {
     const subject = capital(SHORT.includes(unit) ? quantity?.name ?? name : name);
     const inUnit = (value, digits) => shown(tidy(value * scale), digits);
     const of = unit && ` ${unit}`;
+    const which = typeof typed === "string" ? whichOf(typed) : null;
+    if (which) return `${which}${of && `, in${of}`}`;
     if (whole && !(Number.isSafeInteger(typed) && typed >= 0)) return `${subject} must be a whole number`;
     if (typeof typed !== "number") return `${subject} must be a number${unit && `, in ${unit}`}`;
     if (allowed === null) return null;

@@ -45,6 +45,12 @@ export async function read(text) {
   return answer.json();
 }
 
+// A table of measured frequencies as the program reads it, as the `measured` block of a scene.
+export async function measured(name, table) {
+  const answer = await post(`measured/${encodeURIComponent(name)}`, table);
+  return answer.json();
+}
+
 // Influence of the scene's numbers on the speeds of a chart.
 export async function influence(chart, signal) {
   const answer = await post("influence", JSON.stringify(chart), signal);

@@ -6,7 +6,7 @@ import { node } from "./dom.js";
 import { download } from "./kept.js";
 import { get, set } from "./scene.js";
 import { Refused, task } from "./talk.js";
-import { numberOf, partName, shown, tidy, unitOf } from "./words.js";
+import { numberOf, partName, shown, tidy, unitOf, whichOf } from "./words.js";
 
 // The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
 // size, pads set by hand, stiffness guessed from the material.
@@ -99,6 +99,8 @@ export class Tasks {
 class Task {
   #abort = null;
   #scene = null;
+  // Of a study: the fields of its tolerances, each with the unit that it is typed in.
+  tolerances = [];
 
   constructor(panel, entry, state, { onScene, inWords }) {
     Object.assign(this, { panel, entry, state, onScene, inWords });
@@ -149,18 +151,22 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
   }
 
-  // A field for each number that has a usual tolerance; what was typed stays.
+  // A field for each number that has a usual tolerance; what was typed stays, in the unit that is shown now.
   #offerTolerances(scene) {
-    const usual = usualTolerances(scene);
-    if (this.paths?.join() === usual.map(([path]) => path).join()) return;
-    this.paths = usual.map(([path]) => path);
-    const fields = usual.map(([path, width]) => {
-      const { unit, scale, name } = unitOf(path.split(".").at(-1));
+    const usual = usualTolerances(scene).map(([path, width]) => ({ path, width, ...unitOf(path.split(".").at(-1)) }));
+    const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
+    if (this.tolerances.length === usual.length && usual.every(same)) return;
+    const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
+    this.tolerances = usual.map(({ path, width, unit, scale, name }) => {
+      const before = typed.get(path);
+      const number = before ? numberOf(before.text) : width * scale;
+      const value = before && number === null ? before.text : shown(tidy(before ? (number / before.scale) * scale : number));
       const where = path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
-      const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value: shown(tidy(width * scale)) });
-      return node("div", { className: "field" }, node("label", { htmlFor: input.id, textContent: `± ${where}, ${unit}` }), input);
+      const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value });
+      const label = node("label", { htmlFor: input.id, textContent: `± ${where}, ${unit}` });
+      return { path, unit, scale, input, field: node("div", { className: "field" }, label, input) };
     });
-    this.inputs.replaceChildren(...fields);
+    this.inputs.replaceChildren(...this.tolerances.map(({ field }) => field));
   }
 
   #asked() {
@@ -173,9 +179,8 @@ class Task {
       return { scene, window, min_critical_rpm: least };
     }
     if (this.entry.name !== "study") return { scene };
-    const parameters = this.paths.map((path) => {
-      const { scale } = unitOf(path.split(".").at(-1));
-      const plus_minus = tidy(number(document.getElementById(`study:${path}`).value) / scale);
+    const parameters = this.tolerances.map(({ path, scale, input }) => {
+      const plus_minus = tidy(number(input.value) / scale);
       if (plus_minus < 0) throw new RangeError("A tolerance must be at least 0: it counts to both sides");
       return { path, distribution: { kind: "tolerance", plus_minus } };
     });
@@ -285,6 +290,6 @@ function putIn(scene, part) {
 // A number as it was typed.
 function number(text) {
   const value = numberOf(text);
-  if (value === null) throw new RangeError(`${text || "Nothing"} is no number`);
+  if (value === null) throw new RangeError(whichOf(text) ?? `${text ? `“${text}”` : "Nothing"} is no number`);
   return value;
 }

@@ -47,10 +47,31 @@ export function unitOf(key) {
 // Twelve digits: what is typed comes back as typed, whatever the unit.
 export const tidy = (value) => Number(value.toPrecision(12));
 
-// A number as people type it, with a comma or a true minus; null where it is none.
-export function numberOf(text) {
-  const plain = text.trim().replace(",", ".").replace("−", "-");
-  return plain !== "" && Number.isFinite(Number(plain)) ? Number(plain) : null;
+const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const GROUPED = /^([+-]?[1-9]\d{0,2})[.,](\d{3})$/;
+
+// The numbers that a text may mean, with a decimal comma or a true minus. Before three digits a mark is decimal or
+// separates thousands: then there are two, the one with the decimal mark first.
+export function readings(text) {
+  const plain = text.trim().replace("−", "-");
+  const point = plain.replace(",", ".");
+  if (!DECIMAL.test(point) || !Number.isFinite(Number(point))) return [];
+  const grouped = GROUPED.exec(plain);
+  return grouped ? [Number(point), Number(grouped[1] + grouped[2])] : [Number(point)];
+}
+
+// The number that a text means; null where it is none or may be one of two. The decimal mark is certain where only
+// the number with it is usual.
+export function numberOf(text, isUsual = () => true) {
+  const [decimal, grouped] = readings(text);
+  const isCertain = grouped === undefined || (isUsual(decimal) && !isUsual(grouped));
+  return decimal !== undefined && isCertain ? decimal : null;
+}
+
+// What to type instead of a text that may be one of two numbers.
+export function whichOf(text) {
+  const [decimal, grouped] = readings(text);
+  return grouped === undefined ? null : `“${text.trim()}” may be ${grouped} or ${decimal}; write one of these`;
 }
 
 export function shown(value, digits = 6) {

@@ -9,6 +9,7 @@ use super::super::style::{
 };
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, Direction, Report};
+use crate::scene::MeasuredRow;
 
 /// From the end of a branch to its label.
 const LABEL_GAP: f64 = 16.0;
@@ -72,7 +73,7 @@ pub fn highest_shown_hz(report: &Report) -> f64 {
     });
     let bands = report.instabilities.iter().map(|band| band.frequency_hz);
     let measured = report.scene.measured.iter().flat_map(|m| &m.rows);
-    let measured = measured.flat_map(|row| row.frequencies_hz.iter().copied());
+    let measured = measured.flat_map(MeasuredRow::seen_hz);
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;
@@ -275,7 +276,7 @@ pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
 
 fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
     let rows = chart.report.scene.measured.iter().flat_map(|m| &m.rows);
-    let points = rows.flat_map(|row| row.frequencies_hz.iter().map(|&hz| (row.rpm, hz)));
+    let points = rows.flat_map(|row| row.seen_hz().map(|hz| (row.rpm, hz)));
     points
         .filter(|&(rpm, hz)| chart.speed.shows(rpm) && chart.frequency.shows(hz))
         .map(|(rpm, hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
