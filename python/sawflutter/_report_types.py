@@ -723,8 +723,8 @@ class CampbellReport(Entry):
     """Every critical speed up to the end of the sweep, ascending."""
 
     critical_speeds_without_damping: bool
-    """Whether critical_speeds are those of the saw without its damping: where damping turns with
-    the blade, no eigenvalue of the damped saw is zero at any speed."""
+    """Whether critical_speeds are those of the saw without its damping: where damping turns
+    with the blade, no eigenvalue of the damped saw is zero at any speed."""
 
     instabilities: tuple[Instability, ...]
     """The bands of instability found within the sweep, by onset; `certificate` says how much of
