@@ -8,21 +8,21 @@ use sawflutter::plate::Resolution;
 use sawflutter::scene::Scene;
 use sawflutter::stability::{Analysis, InstabilityKind};
 
-/// Three times as many functions as a tolerance of 1e-3 takes of these saws.
+/// A basis that is large beside what 1e-2 takes of saws with soft pads.
 const TRUTH: Resolution = Resolution {
-    max_diameters: 40,
-    radial_functions: 20,
+    max_diameters: 30,
+    radial_functions: 15,
 };
 
 /// Of thirty saws, thirty others and thirty of which none had a part in any constant, one each.
 #[test]
 fn estimates_and_promises_hold() {
     let mut kept = Kept::default();
-    let of_each = [&saws()[12], &drawn_saws(3..4)[0], &drawn_saws(92..93)[0]];
+    let of_each = [&saws()[8], &drawn_saws(0..1)[0], &drawn_saws(90..91)[0]];
     for saw in of_each {
-        kept.add(&saw.what, &promises(saw, &[1e-2, 1e-3], TRUTH));
+        kept.add(&saw.what, &promises(saw, &[1e-2], TRUTH));
     }
-    kept.assert(6);
+    kept.assert(3);
 }
 
 /// Flutter onsets keep the promise too.
