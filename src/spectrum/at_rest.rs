@@ -1,6 +1,6 @@
 //! The lowest modes of the undamped blade at rest: a symmetric problem.
 
-use faer::linalg::solvers::{DenseSolveCore, Solve};
+use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::{Col, Mat, Scale, Side};
 
 use super::component::Component;
@@ -24,7 +24,11 @@ const SMALL: usize = 64;
 /// Vectors iterated beyond the number of modes wanted: the error of a frequency falls by the
 /// fourth power of its ratio to the first one left out, each time.
 const MORE: Tuned = Tuned::new("spectrum/at_rest::MORE", 10.0);
-const ITERATIONS: Tuned = Tuned::new("spectrum/at_rest::ITERATIONS", 8.0);
+/// Residual ‖K₀⁻¹q − q/ω²‖ω² up to which the iteration goes: of the frequency the error is half its square, over
+/// the relative distance to the squares that the vectors do not span.
+const RESIDUAL: f64 = 1e-5;
+/// Where it has not come so far after as many rounds, all eigenvectors are computed: eight are usual.
+const MOST_ROUNDS: usize = 40;
 
 /// The lowest `count` modes at rest of the components of a plate, ascending; without damping, and
 /// without the rigid motions that nothing holds.
@@ -53,7 +57,6 @@ pub fn modes_at_rest(
 /// (ω², q), ascending: subspace iteration with K₀⁻¹, or all at once where there are few.
 fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
     let order = system.order();
-    let failed = || SpectrumError::NoConvergence { order, rpm: 0.0 };
     let mut stiffness = system.stiffness.clone();
     let mean = stiffness.norm_l2() / (order as f64).sqrt();
     for z in &system.free_rigid {
@@ -61,38 +64,92 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
     }
     let unstable = |_| SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(unstable)?;
-    let free = |vectors: &mut Mat<f64>| {
-        for z in &system.free_rigid {
-            let shares = z.transpose() * &*vectors;
-            *vectors -= z * shares;
-        }
-    };
     let width = count + MORE.count();
-    let (span, flexibility) = if order <= SMALL.max(2 * width) {
-        let mut inverse = factor.inverse();
-        free(&mut inverse);
-        (Mat::identity(order, order), inverse)
-    } else {
-        let mut span = Mat::from_fn(order, width, |i, k| {
-            ((1.3 * i as f64 + 0.3) * (k + 1) as f64).sin() / (1.0 + i as f64).sqrt()
-        });
-        for _ in 0..ITERATIONS.count() {
-            free(&mut span);
-            span = factor.solve(&span).qr().compute_thin_Q();
-        }
-        let flexibility = span.transpose() * factor.solve(&span);
-        (span, flexibility)
+    let iterated = match order <= SMALL.max(2 * width) {
+        true => None,
+        false => iterated(system, &factor, [count, width])?,
     };
-    let eigen = flexibility.self_adjoint_eigen(Side::Lower);
-    let eigen = eigen.map_err(|_| failed())?;
-    let noise = 1e-14 * flexibility.norm_l2();
-    let places = (0..flexibility.nrows()).rev();
-    Ok(places
-        .map(|k| (eigen.S()[k], k))
-        .filter(|(inverse, _)| *inverse > noise)
-        .take(count)
-        .map(|(inverse, k)| (inverse.recip(), &span * eigen.U().col(k)))
-        .collect())
+    let ritz = match iterated {
+        Some(ritz) => ritz,
+        None => {
+            let mut inverse = factor.inverse();
+            release(system, &mut inverse);
+            Ritz::new(Mat::identity(order, order), inverse)?
+        }
+    };
+    Ok(ritz.lowest(count))
+}
+
+/// Takes the rigid motions that nothing holds out of vectors.
+fn release(system: &GyroscopicSystem, vectors: &mut Mat<f64>) {
+    for z in &system.free_rigid {
+        let shares = z.transpose() * &*vectors;
+        *vectors -= z * shares;
+    }
+}
+
+/// The subspace of `width` vectors on which the lowest `count` modes have converged; `None` where they do not.
+fn iterated(
+    system: &GyroscopicSystem,
+    factor: &Llt<f64>,
+    [count, width]: [usize; 2],
+) -> Result<Option<Ritz>, SpectrumError> {
+    let mut solved = Mat::from_fn(system.order(), width, |i, k| {
+        ((1.3 * i as f64 + 0.3) * (k + 1) as f64).sin() / (1.0 + i as f64).sqrt()
+    });
+    for _ in 0..MOST_ROUNDS {
+        release(system, &mut solved);
+        let span = solved.qr().compute_thin_Q();
+        solved = factor.solve(&span);
+        let ritz = Ritz::new(span, solved.clone())?;
+        if ritz.residual(count) <= RESIDUAL {
+            return Ok(Some(ritz));
+        }
+    }
+    Ok(None)
+}
+
+/// What orthonormal vectors say of the modes that they span.
+struct Ritz {
+    span: Mat<f64>,
+    /// K₀⁻¹ times these.
+    solved: Mat<f64>,
+    /// 1/ω² and the vectors in the span, descending.
+    modes: Vec<(f64, Col<f64>)>,
+}
+
+impl Ritz {
+    fn new(span: Mat<f64>, solved: Mat<f64>) -> Result<Self, SpectrumError> {
+        let order = span.nrows();
+        let flexibility = span.transpose() * &solved;
+        let eigen = flexibility.self_adjoint_eigen(Side::Lower);
+        let eigen = eigen.map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
+        let noise = 1e-14 * flexibility.norm_l2();
+        let modes = (0..flexibility.nrows()).rev();
+        let modes = modes.map(|k| (eigen.S()[k], eigen.U().col(k).to_owned()));
+        Ok(Ritz {
+            span,
+            solved,
+            modes: modes.filter(|(inverse, _)| *inverse > noise).collect(),
+        })
+    }
+
+    /// Largest of the residuals of the first modes.
+    fn residual(&self, count: usize) -> f64 {
+        let off = |(inverse, share): &(f64, Col<f64>)| {
+            let residual = &self.solved * share - Scale(*inverse) * (&self.span * share);
+            residual.norm_l2() / inverse
+        };
+        self.modes.iter().take(count).map(off).fold(0.0, f64::max)
+    }
+
+    /// ω² and q of the first modes.
+    fn lowest(&self, count: usize) -> Vec<(f64, Col<f64>)> {
+        let modes = self.modes.iter().take(count);
+        modes
+            .map(|(inverse, share)| (inverse.recip(), &self.span * share))
+            .collect()
+    }
 }
 
 #[cfg(test)]

@@ -43,18 +43,18 @@ fn along(
     -(y.adjoint() * changed) / (y.adjoint() * slope)
 }
 
-/// dΩ of the speed at which two modes merge, λ = iω with ∂(xᴴLx)/∂ω = 0 there, for a small
-/// change of the matrices: −xᴴ(dL)x / xᴴ(∂L/∂Ω)x. With λ = 0 it is that of a critical speed.
+/// dΩ of the speed at which two modes merge, where yᴴ(∂L/∂λ)x = 0, for a small change of the matrices, with the right
+/// and the left vector x, y: −yᴴ(dL)x / yᴴ(∂L/∂Ω)x. With λ = 0 it is that of a critical speed.
 pub fn of_merging(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     lambda: c64,
-    x: &Col<c64>,
+    [x, y]: [&Col<c64>; 2],
     change: &GyroscopicSystem,
 ) -> f64 {
     let changed = change_of_residual(change, speed_rad_per_s, lambda, x);
     let slope = speed_slope(system, speed_rad_per_s, lambda, x);
-    -(x.adjoint() * changed).re / (x.adjoint() * slope).re
+    -(y.adjoint() * changed).re / (y.adjoint() * slope).re
 }
 
 /// (dL)x = (λ(2Ω dG + dC) + dK(Ω))x.

@@ -86,6 +86,7 @@ pub(crate) use mode_pair::ModePair;
 pub use model::{DescribedMode, SpectralModel, Strategy};
 pub(crate) use progress::Work;
 pub use progress::{Progress, Stage};
+pub(crate) use real_eigen::real_eigenvalues;
 pub(crate) use refined::RefinedPair;
 pub(crate) use reflected::{KnownStates, ReflectedModel};
 pub(crate) use scale::frequency_scale;

@@ -9,12 +9,17 @@ use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
 use crate::scene::{Parameter, Scene, SceneError, SceneFile};
-use crate::spectrum::{Differences, Mode, SpectrumError, derivative, matrix_slopes};
+use crate::spectrum::{Differences, Mode, ModeKind, SpectrumError, derivative, matrix_slopes};
 use crate::system::GyroscopicSystem;
 
 /// Step of the differences as a share of the change, 1e-3 of the number where that is 1 %:
 /// truncation (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
 const STEP: f64 = 0.1;
+
+/// Relative distance below the onset of a band at which the two modes that coalesce there are looked at.
+const BELOW: f64 = 1e-8;
+/// An onset this close to a critical speed, relatively, is that speed.
+const SAME_SPEED: f64 = 1e-10;
 
 /// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, a rise of
 /// temperature by 1 K.
@@ -66,9 +71,9 @@ impl Analysis {
     /// eigenvalues at one speed; most influential on the lowest critical speed first.
     ///
     /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω).
-    /// Critical speeds and the onsets of undamped bands move by dΩ = −xᴴ(dL)x / xᴴ(∂L/∂Ω)x, at λ = 0 and
-    /// at the λ = iω where two modes coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*,
-    /// 1966).
+    /// Critical speeds and the onsets of undamped bands move by dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x, at λ = 0, at the λ = iω
+    /// where two waves coalesce, where y = x, and at the real λ where two real ones do (P. Lancaster, *Lambda-Matrices
+    /// and Vibrating Systems*, 1966).
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -206,6 +211,8 @@ struct Merging {
     speed: f64,
     lambda: c64,
     x: Col<c64>,
+    /// The left vector, where it is another one.
+    y: Option<Col<c64>>,
     /// Re λ = 0 of a damped mode moves with the real part alone.
     damped: bool,
 }
@@ -218,6 +225,7 @@ impl Merging {
             speed,
             lambda: c64::new(0.0, 0.0),
             x,
+            y: None,
             damped: false,
         }
     }
@@ -231,16 +239,20 @@ impl Merging {
         if !model.is_conservative() {
             return Self::damped(analysis, band);
         }
+        let is_onset = |speed: f64| (speed / band.from_rad_per_s - 1.0).abs() < SAME_SPEED;
         if band.kind == InstabilityKind::Divergence {
-            let distance = |speed: f64| (speed - band.from_rad_per_s).abs();
-            let nearest = model
-                .critical
-                .iter()
-                .min_by(|x, y| distance(x.speed_rad_per_s).total_cmp(&distance(y.speed_rad_per_s)));
-            return Ok(nearest.map(|c| Self::standing(c.component, c.speed_rad_per_s, &c.shape)));
+            let mut critical = model.critical.iter();
+            return match critical.find(|c| is_onset(c.speed_rad_per_s)) {
+                Some(c) => Ok(Some(Self::standing(
+                    c.component,
+                    c.speed_rad_per_s,
+                    &c.shape,
+                ))),
+                None => Self::of_real(analysis, band.from_rad_per_s),
+            };
         }
         // Just below the onset the two vectors are x ± εu: their mean is x up to ε².
-        let before = band.from_rad_per_s * (1.0 - 1e-8);
+        let before = band.from_rad_per_s * (1.0 - BELOW);
         let modes = model.modes(before)?;
         let pair = closest_opposite(&modes);
         let Some((first, second)) = pair else {
@@ -257,7 +269,41 @@ impl Merging {
             speed: band.from_rad_per_s,
             lambda: (first.lambda + second.lambda) * 0.5,
             x: mean,
+            y: None,
             damped: false,
+        }))
+    }
+
+    /// Where two real λ begin that were a quadruple; `None` where no such mode is found.
+    ///
+    /// Just below it the vector is x + iεu: its real part is x up to ε². As L(λ)ᵀ = L(−λ) of an undamped saw, the left
+    /// vector is that of the mirror image −λ.
+    fn of_real(analysis: &Analysis, speed: f64) -> Result<Option<Self>, SpectrumError> {
+        let model = &analysis.model;
+        let before = speed * (1.0 - BELOW);
+        let modes = model.modes(before)?;
+        let nearest = |kind: ModeKind, expected: c64| {
+            let off = |mode: &&Mode| (mode.lambda - expected).norm();
+            let alike = modes.iter().filter(|mode| mode.kind == kind);
+            alike.min_by(|x, y| off(x).total_cmp(&off(y)))
+        };
+        let slowest = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
+        let slowest = slowest.min_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+        let pair = slowest.and_then(|mode| {
+            let mirrored = nearest(ModeKind::Decaying, -mode.lambda.conj())?;
+            Some((mode, mirrored))
+        });
+        Ok(pair.map(|(mode, mirrored)| {
+            let component = &model.components[mode.component];
+            let vector = |mode: &Mode| real_part(component.lifted(before, &mode.coordinates));
+            Merging {
+                component: mode.component,
+                speed,
+                lambda: c64::new(mode.lambda.re, 0.0),
+                x: vector(mode),
+                y: Some(vector(mirrored)),
+                damped: false,
+            }
         }))
     }
 
@@ -282,6 +328,7 @@ impl Merging {
             lambda: mode.lambda,
             x: analysis.model.components[mode.component]
                 .lifted(band.from_rad_per_s, &mode.coordinates),
+            y: None,
             damped: true,
         }))
     }
@@ -293,8 +340,16 @@ impl Merging {
             let slope = derivative::with_speed(system, self.speed, self.lambda, &self.x);
             return -moved.re / slope.re;
         }
-        derivative::of_merging(system, self.speed, self.lambda, &self.x, change)
+        let left = self.y.as_ref().unwrap_or(&self.x);
+        derivative::of_merging(system, self.speed, self.lambda, [&self.x, left], change)
     }
+}
+
+/// Of a vector that is real but for its phase and a small part.
+fn real_part(vector: Col<c64>) -> Col<c64> {
+    let square: c64 = vector.iter().map(|q| q * q).sum();
+    let phase = (square / square.norm().max(f64::MIN_POSITIVE)).sqrt();
+    Col::from_fn(vector.nrows(), |i| c64::new((vector[i] / phase).re, 0.0))
 }
 
 /// The + and the − mode whose frequencies are closest.

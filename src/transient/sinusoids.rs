@@ -9,6 +9,8 @@
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Col, Mat, c64};
 
+use crate::spectrum::real_eigenvalues;
+
 /// Re(2 a e^{λt}), or a e^{λt} for a real λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sinusoid {
@@ -119,7 +121,7 @@ fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     let right = svd.V().subcols(0, rank);
     let (first, second) = (right.subrows(0, width), right.subrows(1, width));
     let step = first.qr().solve_lstsq(second);
-    step.eigenvalues().ok()
+    real_eigenvalues(step.as_ref()).ok()
 }
 
 /// Least squares for a in samples Σ a zᵏ: that at the beginning of the record of what decays,

@@ -9,7 +9,7 @@ use faer::{Mat, Scale};
 use rayon::prelude::*;
 
 use crate::scene::Probe;
-use crate::spectrum::{SpectrumError, fastest_growing};
+use crate::spectrum::{SpectrumError, fastest_growing, real_eigenvalues};
 use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
@@ -198,7 +198,7 @@ fn largest_multiplier_ln(
     }
     let order = product.nrows();
     let not_converged = || SpectrumError::NoConvergence { order, rpm };
-    let multipliers = product.eigenvalues().map_err(|_| not_converged())?;
+    let multipliers = real_eigenvalues(product.as_ref()).map_err(|_| not_converged())?;
     // A maximum would pass over what is not a number.
     if !multipliers.iter().all(|z| z.is_finite()) {
         return Err(not_converged().into());

@@ -2,9 +2,11 @@
 //! of whole analyses, with the numbers of the scene really moved.
 
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, Parameter, RimFile, Scene, ThicknessRow, rad_per_s};
+use sawflutter::scene::{
+    GuideFile, InPlane, Mount, Parameter, RimFile, Scene, ThicknessRow, rad_per_s,
+};
 use sawflutter::spectrum::SpectralModel;
-use sawflutter::stability::Analysis;
+use sawflutter::stability::{Analysis, InstabilityKind};
 
 use super::saws::dense_analysis;
 
@@ -84,6 +86,62 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
             let error = (told - difference).abs();
             assert!(error < 1e-6 * 0.01, "{path} {k}: {told} for {difference}");
         }
+    }
+}
+
+/// Divergence that begins where a flutter mode becomes two real eigenvalues, 43 rpm above the nearest critical speed:
+/// its onset moves as differences of the onset say, and not as that critical speed does.
+#[test]
+fn the_onset_of_divergence_moves_with_the_coalescence_that_it_is() {
+    let scene = Scene::paper().edited(|saw| {
+        (saw.spline, saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None, None);
+        saw.blade.outer_diameter_m = 0.6687;
+        saw.blade.inner_diameter_m = 0.199;
+        saw.blade.thickness_m = 0.002392;
+        saw.mount = Mount::Collar {
+            diameter_m: 0.199,
+            in_plane: InPlane::Fixed,
+        };
+        saw.guides[0] = GuideFile {
+            radius_m: 0.239,
+            angle_deg: -7.5,
+            radial_length_m: 0.111,
+            tangential_length_m: 0.0502,
+            stiffness_n_per_m: 113_900.0,
+            ..saw.guides[0]
+        };
+    });
+    let scene = scene.unwrap();
+    let of = |scene: &Scene| dense_analysis(scene, RESOLUTION, [2110.0, 2200.0], 12);
+    let middle = of(&scene);
+    let diverges = |a: &Analysis| {
+        let mut bands = a.chart.instabilities.iter();
+        bands.position(|b| {
+            b.kind == InstabilityKind::Divergence && b.from_rad_per_s > a.range_rad_per_s.0
+        })
+    };
+    let place = diverges(&middle).expect("divergence that begins within the range");
+    let onset = |a: &Analysis| a.chart.instabilities[diverges(a).unwrap()].from_rad_per_s;
+    let critical = middle.model.critical.iter().map(|c| c.speed_rad_per_s);
+    let nearest = critical
+        .map(|c| (c / onset(&middle) - 1.0).abs())
+        .fold(1.0, f64::min);
+    assert!(nearest > 1e-3, "{nearest}");
+    let found = middle.sensitivities(rad_per_s(2150.0)).unwrap();
+    let share = 0.01;
+    for path in [
+        "blade.thickness_m",
+        "guides[0].stiffness_n_per_m",
+        "guides[0].radius_m",
+    ] {
+        let told = found.iter().find(|own| own.parameter == path).expect(path);
+        let [low, high] = [-share, share].map(|s| onset(&of(&moved(&scene, path, s))));
+        let difference = (high - low) / (2.0 * share * onset(&middle));
+        let told = told.onsets[place].expect("an onset");
+        assert!(
+            (told - difference).abs() < 1e-5 * 0.01_f64.max(difference.abs()),
+            "{path}: {told} {difference}"
+        );
     }
 }
 
