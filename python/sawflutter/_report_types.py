@@ -345,7 +345,7 @@ class AccuracyEntry(Entry):
     """Largest number of nodal diameters."""
 
     radial_functions: int
-    """Radial functions for each."""
+    """Radial functions for each, those included that steps and bends of the thickness add."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -458,6 +458,10 @@ class Certificate(Entry):
     """Number of counts of eigenvalues on the whole basis, independent of the reduced model,
     that the modes were compared with."""
 
+    uncertain_counts: int
+    """Counts that were tried besides and were not certain, for an eigenvalue lies on their
+    path."""
+
     miscounted_modes: tuple[Miscount, ...]
     """Modes that these counts say are missing, or too many; expected none."""
 
@@ -474,6 +478,10 @@ class Certificate(Entry):
 
     unproven_rpm: FloatArray
     """The rest, which was searched and not proven: from and to."""
+
+    unproven_counting_rpm: FloatArray
+    """Parts of the rest in which, by the same estimate, a band could hide that counts: from and
+    to."""
 
     max_backward_error: float
     """Largest backward error, on the whole basis, of any mode of the chart."""

@@ -23,7 +23,7 @@ pub fn matrices<'py>(
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
     let basis = basis.map(resolution).transpose()?;
-    let (named, resolution) = compute(py, None, move |_| {
+    let (named, diameters, functions) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
             None => ChosenBasis::new(&scene, scene.tolerance())?.saw.plate,
@@ -36,13 +36,13 @@ pub fn matrices<'py>(
         ];
         named.extend(system.damping.iter().map(|m| ("damping", bytes(m))));
         named.extend(system.circulatory.iter().map(|m| ("circulatory", bytes(m))));
-        Ok((named, plate.resolution))
+        Ok((named, plate.max_diameters(), plate.radial_functions()))
     })?;
     let found = PyDict::new(py);
     for (name, matrix) in named {
         found.set_item(name, PyBytes::new(py, &matrix))?;
     }
-    Ok((found, resolution.max_diameters, resolution.radial_functions))
+    Ok((found, diameters, functions))
 }
 
 /// Every basis function at points of the blade, in 1/√kg, row by row as little-endian doubles.

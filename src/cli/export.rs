@@ -64,9 +64,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         "scene": scene.file().name,
         "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
         "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
-        "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; mass matrix one",
+        "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; J = radial_functions; mass matrix one",
         "max_diameters": plate.resolution.max_diameters,
-        "radial_functions": plate.resolution.radial_functions,
+        "radial_functions": plate.radial_functions(),
         "files": files.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
     });
     let json = serde_json::to_string_pretty(&about)?;
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 "{} functions: n up to {}, {} radial functions each\n{}\n",
                 plate.degrees_of_freedom(),
                 plate.resolution.max_diameters,
-                plate.resolution.radial_functions,
+                plate.radial_functions(),
                 "equation and units in matrices.json"
             )
         })

@@ -35,6 +35,7 @@ impl Analysis {
             &analysis.chart,
             model.is_conservative(),
             analysis.range_rad_per_s,
+            scene.flutter_threshold_per_s(),
             errors.fold(0.0, f64::max),
             self.listed_backward_error,
         );
@@ -62,7 +63,7 @@ impl Analysis {
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
-                radial_functions: resolution.radial_functions,
+                radial_functions: model.plate.radial_functions(),
                 degrees_of_freedom: model.plate.degrees_of_freedom(),
                 tolerance: scene.tolerance(),
                 reached: analysis.reaches_tolerance(),

@@ -26,6 +26,8 @@ pub struct CertificateEntry {
     /// Number of counts of eigenvalues on the whole basis, independent of the reduced model, that
     /// the modes were compared with.
     pub full_basis_counts: usize,
+    /// Counts that were tried besides and were not certain, for an eigenvalue lies on their path.
+    pub uncertain_counts: usize,
     /// Modes that these counts say are missing, or too many; expected none.
     pub miscounted_modes: Vec<MiscountEntry>,
     /// Whether modes were missing at first, so that the bands were searched again on the whole basis.
@@ -45,6 +47,8 @@ pub struct CertificateEntry {
     /// where no proof was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unproven_growth_per_s: Option<f64>,
+    /// Parts of the rest in which, by the same estimate, a band could hide that counts: from and to.
+    pub unproven_counting_rpm: Vec<[f64; 2]>,
     /// Largest backward error, on the whole basis, of any mode of the chart.
     pub max_backward_error: f64,
     /// Largest backward error, on the whole basis, of the eigenvalues listed: those of the modes at rest, at the peaks
@@ -93,6 +97,7 @@ impl CertificateEntry {
         chart: &StabilityChart,
         is_undamped: bool,
         range: (f64, f64),
+        threshold_per_s: f64,
         max_backward_error: f64,
         max_listed_backward_error: Option<f64>,
     ) -> Self {
@@ -100,12 +105,14 @@ impl CertificateEntry {
         let violations = certificate.violations_rad_per_s.iter();
         let unproven = certificate.unproven_rad_per_s.iter().flatten();
         let proven_share = proven_share(certificate, range);
+        let counting = chart.unproven_counting_rad_per_s(threshold_per_s);
         CertificateEntry {
             statement: statement(certificate, is_undamped, proven_share),
             speeds_checked: certificate.speeds_checked,
             krein_violations: certificate.violations_rad_per_s.len(),
             violating_rpm: violations.map(|s| rpm(*s)).collect(),
             full_basis_counts: certificate.full_basis_counts,
+            uncertain_counts: certificate.uncertain_counts,
             miscounted_modes: certificate.miscounts.iter().map(Into::into).collect(),
             searched_again: certificate.searched_again,
             mismatches: certificate.mismatches.iter().map(Into::into).collect(),
@@ -113,6 +120,7 @@ impl CertificateEntry {
             proven_share,
             unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
             unproven_growth_per_s: chart.unproven_growth_per_s(),
+            unproven_counting_rpm: counting.iter().map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
             max_backward_error,
             max_listed_backward_error,
         }
@@ -190,9 +198,17 @@ pub(super) fn statement(
             false => format!("growing modes match the bands at {checked} of {checked} speeds"),
         });
     }
-    if certificate.full_basis_counts > 0 {
-        let counts = certificate.full_basis_counts;
-        agree.push(format!("{counts} counts on the whole basis agree"));
+    let (certain, uncertain) = (certificate.full_basis_counts, certificate.uncertain_counts);
+    let tried = certain + uncertain;
+    match (certain, uncertain) {
+        (0, 0) => (),
+        (0, _) => agree.push(format!(
+            "none of {tried} counts on the whole basis was certain"
+        )),
+        (_, 0) => agree.push(format!("{certain} counts on the whole basis agree")),
+        _ => agree.push(format!(
+            "{certain} of {tried} counts on the whole basis were certain and agree"
+        )),
     }
     if let Some(share) = proven_share {
         agree.push(match share == 1.0 {
@@ -333,6 +349,22 @@ mod tests {
         assert!(
             statement(&clean, true, whole)
                 .ends_with("the whole sweep is proven free of unlisted bands")
+        );
+        let with_counts = |full_basis_counts, uncertain_counts| {
+            let counted = Certificate {
+                full_basis_counts,
+                uncertain_counts,
+                ..Certificate::default()
+            };
+            statement(&counted, false, None)
+        };
+        assert_eq!(
+            with_counts(0, 4),
+            "none of 4 counts on the whole basis was certain"
+        );
+        assert_eq!(
+            with_counts(3, 1),
+            "3 of 4 counts on the whole basis were certain and agree"
         );
         let wrong = contradicted(clean);
         assert_eq!(

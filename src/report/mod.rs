@@ -218,7 +218,7 @@ pub struct AccuracyEntry {
     pub name: Accuracy,
     /// Largest number of nodal diameters.
     pub max_diameters: usize,
-    /// Radial functions for each.
+    /// Radial functions for each, those included that steps and bends of the thickness add.
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,

@@ -142,7 +142,7 @@ impl WashboardReport {
             ceiling_n_per_m: found.ceiling_n_per_m,
             complete_to_hz: found.complete_to_rad_per_s / TAU,
             max_diameters: resolution.max_diameters,
-            radial_functions: resolution.radial_functions,
+            radial_functions: found.plate.radial_functions(),
             estimated_relative_error: error.is_finite().then_some(error),
             warnings: warnings(found),
         }

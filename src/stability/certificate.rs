@@ -18,6 +18,8 @@ pub struct Certificate {
     pub gave_up: bool,
     /// Counts of modes on the whole basis that were certain.
     pub full_basis_counts: usize,
+    /// Counts that were not, for an eigenvalue lies on their path.
+    pub uncertain_counts: usize,
     /// Where they contradict the spectra.
     pub(crate) miscounts: Vec<Miscount>,
     /// Whether they did so at first, and the bands were searched again on the whole basis.

@@ -15,6 +15,26 @@ impl StabilityChart {
     /// what the tension by rotation adds. At the speeds that are drawn the modes are known, so a band
     /// would lie between two of them. Not proven: the two waves are taken for the only ones.
     pub fn unproven_growth_per_s(&self) -> Option<f64> {
+        let growth = self.hidden()?.into_iter().map(|(_, growth)| growth);
+        Some(growth.fold(0.0, f64::max))
+    }
+
+    /// Parts of the stretches that are not proven in which a band that counts could hide, one that grows as fast as the
+    /// threshold, by the same estimate; joined where they touch.
+    pub fn unproven_counting_rad_per_s(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
+        let mut joined: Vec<(f64, f64)> = Vec::new();
+        let hidden = self.hidden().unwrap_or_default().into_iter();
+        for ((from, to), _) in hidden.filter(|(_, growth)| *growth >= threshold_per_s) {
+            match joined.last_mut() {
+                Some(last) if last.1 >= from => last.1 = to,
+                _ => joined.push((from, to)),
+            }
+        }
+        joined
+    }
+
+    /// Parts of the stretches that are not proven, between the speeds that are drawn, and the estimate for each.
+    fn hidden(&self) -> Option<Vec<((f64, f64), f64)>> {
         let stretches = self.certificate.unproven_rad_per_s.as_ref()?;
         let drawn: Vec<f64> = self
             .campbell
@@ -22,16 +42,14 @@ impl StabilityChart {
             .iter()
             .map(|s| s.speed_rad_per_s)
             .collect();
-        let growth = stretches.iter().flat_map(|&(from, to)| {
+        let parts = stretches.iter().flat_map(|&(from, to)| {
             let within = drawn.iter().copied().filter(move |s| from < *s && *s < to);
             let ends: Vec<f64> = [from].into_iter().chain(within).chain([to]).collect();
-            let parts: Vec<f64> = ends
-                .windows(2)
-                .map(|ends| 0.25 * approach(&self.campbell, ends[0], ends[1]) * (ends[1] - ends[0]))
-                .collect();
-            parts
+            let parts = ends.windows(2).map(|ends| (ends[0], ends[1]));
+            parts.collect::<Vec<_>>()
         });
-        Some(growth.fold(0.0, f64::max))
+        let growth = |(from, to)| 0.25 * approach(&self.campbell, from, to) * (to - from);
+        Some(parts.map(|part| (part, growth(part))).collect())
     }
 }
 
@@ -85,5 +103,14 @@ mod tests {
         assert!(looked_at >= 7);
         let hidden = chart.unproven_growth_per_s().unwrap();
         assert!(hidden > 0.0 && hidden < 4.0 * rad_per_s(1.0), "{hidden}");
+        // A band that counts can hide only where the estimate reaches the threshold, and is as wide as that takes.
+        assert!(chart.unproven_counting_rad_per_s(1.01 * hidden).is_empty());
+        let unproven = chart.certificate.unproven_rad_per_s.iter().flatten();
+        let counting = chart.unproven_counting_rad_per_s(0.5 * hidden);
+        assert!(!counting.is_empty());
+        for (from, to) in counting {
+            let mut holding = unproven.clone();
+            assert!(holding.any(|(x, y)| *x <= from && to <= *y));
+        }
     }
 }

@@ -163,18 +163,54 @@ fn end_of_window(report: &Report, rpm: f64) -> &'static str {
     }
 }
 
+/// Whether a growth that counts could hide in what is not proven, where it would change an answer: below the flutter
+/// speed, or at the operating speed; of the stretches in which one could.
+fn hidden(
+    stretches_rpm: &[[f64; 2]],
+    threshold_per_s: f64,
+    flutter_rpm: Option<f64>,
+    operating_rpm: Option<f64>,
+) -> String {
+    let matters = |[from, to]: &&[f64; 2]| {
+        flutter_rpm.is_none_or(|flutter| *from < flutter)
+            || operating_rpm.is_some_and(|rpm| (*from..=*to).contains(&rpm))
+    };
+    let mut stretches = stretches_rpm.iter().filter(matters);
+    let growth = format!("growth of {threshold_per_s} 1/s or more");
+    let Some([from, to]) = stretches.next() else {
+        let place = match (flutter_rpm, operating_rpm) {
+            (Some(_), Some(_)) => "below the flutter speed or at the operating speed",
+            (Some(_), None) => "below the flutter speed",
+            (None, _) => "in the sweep",
+        };
+        return format!("What is not proven could hide no {growth} {place} (estimated)");
+    };
+    let more = match stretches.count() {
+        0 => String::new(),
+        1 => " and in one more place".to_owned(),
+        count => format!(" and in {count} more places"),
+    };
+    format!(
+        "What is not proven could hide a {growth} at {from:.1} to {to:.1} rpm{more} (estimated)"
+    )
+}
+
 /// Certificate, estimated error and warnings.
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;
     let statement = format!("Certificate: {}", certificate.statement);
     writeln!(text, "{}", wrapped(&statement))?;
-    if let Some(growth) = certificate
+    if certificate
         .unproven_growth_per_s
-        .filter(|growth| *growth > 0.0)
+        .is_some_and(|growth| growth > 0.0)
     {
-        let line =
-            format!("What is not proven could hide a growth of {growth:.1e} 1/s (estimated)");
+        let line = hidden(
+            &certificate.unproven_counting_rpm,
+            report.flutter_threshold_per_s,
+            report.flutter_speed_rpm,
+            report.operating.as_ref().map(|operating| operating.rpm),
+        );
         writeln!(text, "{}", wrapped(&line))?;
     }
     let error = certificate.max_backward_error;
@@ -199,4 +235,39 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
         writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hidden;
+
+    #[test]
+    fn a_growth_that_could_hide_is_told_where_it_would_change_an_answer() {
+        let says = |stretches: &[[f64; 2]], flutter, operating| {
+            hidden(stretches, 0.25, flutter, operating)
+                .replace("What is not proven could hide ", "")
+                .replace(" (estimated)", "")
+        };
+        let stretches = [[1530.0, 1531.0], [2560.0, 2561.0]];
+        assert_eq!(
+            says(&stretches[1..], Some(2256.0), Some(1250.0)),
+            "no growth of 0.25 1/s or more below the flutter speed or at the operating speed"
+        );
+        assert_eq!(
+            says(&stretches, Some(2256.0), None),
+            "a growth of 0.25 1/s or more at 1530.0 to 1531.0 rpm"
+        );
+        assert_eq!(
+            says(&stretches[1..], Some(2256.0), Some(2560.5)),
+            "a growth of 0.25 1/s or more at 2560.0 to 2561.0 rpm"
+        );
+        assert_eq!(
+            says(&stretches, None, None),
+            "a growth of 0.25 1/s or more at 1530.0 to 1531.0 rpm and in one more place"
+        );
+        assert_eq!(
+            says(&[], None, None),
+            "no growth of 0.25 1/s or more in the sweep"
+        );
+    }
 }

@@ -107,6 +107,7 @@ fn bands(
         speeds_checked: spectra.len() + counts.spectra.len(),
         violations_rad_per_s: violations,
         full_basis_counts: counts.made,
+        uncertain_counts: counts.spectra.len() - counts.made,
         miscounts: counts.miscounts,
         gave_up: solver.is_exhausted(),
         ..Certificate::default()
