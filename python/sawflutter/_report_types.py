@@ -110,13 +110,14 @@ class CriticalSpeed(Entry):
     """Number of the branch that stands still, where the chart shows which."""
 
     name: str
-    """Name of that branch, or of the wave that stands still where the branch is not known."""
+    """The wave that stands still: "2 diameters", or the shares of waves where none dominates,
+    "3 (52 %) + 2 (41 %)". The branch is named by its mode at rest, and otherwise."""
 
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic of the wave that stands still."""
+    """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
-    """Nodal circles of that harmonic."""
+    """Its nodal circles."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the speed."""
@@ -147,11 +148,16 @@ class Instability(Entry):
     frequency_hz: float
     """Frequency at the peak."""
 
+    name: str | None
+    """The waves that make it, at its own speed: "2 diameters" of a divergence, "4 reflected
+    with 2 forward" of flutter; null where no chart was drawn. The branches are named by their
+    modes at rest, and otherwise."""
+
     branches: IntArray
     """Numbers of the branches that become unstable; none where no chart was drawn."""
 
     modes: tuple[str, ...]
-    """Their names."""
+    """The same waves one by one, reflected ones first: "4 diameters, reflected"."""
 
     counted_rpm: FloatArray
     """Stretches [from, to] in which it counts as an instability of the saw: divergence as a
@@ -567,7 +573,7 @@ class RootPath(Entry):
     """One eigenvalue over the speeds of a [RootLociEntry]."""
 
     name: str
-    """Name of the branch."""
+    """The waves of this mode that make the band, in words."""
 
     growth_per_s: FloatArray
     """Re λ."""

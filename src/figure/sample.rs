@@ -151,6 +151,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         peak_rpm: (from + to) / 2.0,
         peak_growth_per_s: growth,
         frequency_hz: hz,
+        name: None,
         branches: Vec::new(),
         modes: Vec::new(),
         counted_rpm: vec![[from, to]],

@@ -9,7 +9,7 @@ use super::BranchEntry;
 use crate::campbell::{Branch, Campbell, SpeedSample};
 use crate::scene::rpm;
 use crate::spectrum::{
-    DescribedMode, Direction, ModeKind, NamedCriticalSpeed, SpectralModel, in_words,
+    DescribedMode, Direction, EventName, ModeKind, NamedCriticalSpeed, SpectralModel,
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
@@ -84,38 +84,55 @@ impl<'a> Numbered<'a> {
 
     /// The growing branch of a band and its mirror image, read off the speed of its peak.
     pub fn of_band(&self, band: &Instability) -> Vec<usize> {
-        let Some(index) = self.nearest_sample(band.peak_rad_per_s) else {
-            return Vec::new();
-        };
-        let sample = &self.campbell().samples[index];
-        let wanted = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
-        let kinds = match band.kind {
-            InstabilityKind::Divergence => vec![ModeKind::Divergent],
-            InstabilityKind::Flutter => vec![ModeKind::Flutter, ModeKind::Decaying],
-        };
-        let damped = |m: &DescribedMode| m.mode.kind == ModeKind::Damped && m.mode.lambda.re > 0.0;
+        let growing = self.at_peak(band, self.growing_kind(band));
         let conservative = self.analysis.model.is_conservative();
-        let kinds = if conservative {
-            kinds
-        } else {
-            vec![ModeKind::Damped]
+        let partner = match (band.kind, conservative) {
+            (InstabilityKind::Divergence, _) => None,
+            (InstabilityKind::Flutter, true) => self.at_peak(band, ModeKind::Decaying),
+            (InstabilityKind::Flutter, false) => self.damped_partner(band),
         };
-        let found = kinds.into_iter().filter_map(|kind| {
-            let modes = sample.modes.iter().enumerate();
-            let same = modes.filter(|(_, m)| m.mode.kind == kind && (conservative || damped(m)));
-            let off = |m: &DescribedMode| {
-                let lambda = m.mode.lambda;
-                (c64::new(lambda.re.abs(), lambda.im) - wanted).norm()
-            };
-            let nearest = same.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));
-            self.at((index, nearest?.0))
-        });
-        let mut numbers: Vec<usize> = found.collect();
-        if !conservative && band.kind == InstabilityKind::Flutter {
-            let partner = damped_partner(&sample.modes, wanted);
-            numbers.extend(partner.and_then(|mode| self.at((index, mode))));
+        let both = [growing, partner].into_iter().flatten();
+        both.filter_map(|point| self.at(point)).collect()
+    }
+
+    /// The waves that make a band, where the chart shows it.
+    pub fn event(&self, band: &Instability) -> Option<EventName> {
+        let point = self.at_peak(band, self.growing_kind(band))?;
+        let growing = self.campbell().mode(point);
+        let speed = self.campbell().samples[point.0].speed_rad_per_s;
+        let plate = &self.analysis.model.plate;
+        let (mode, shape) = (&growing.mode, &growing.shape);
+        Some(EventName::growing(plate, mode, shape, speed))
+    }
+
+    fn growing_kind(&self, band: &Instability) -> ModeKind {
+        match band.kind {
+            _ if !self.analysis.model.is_conservative() => ModeKind::Damped,
+            InstabilityKind::Divergence => ModeKind::Divergent,
+            InstabilityKind::Flutter => ModeKind::Flutter,
         }
-        numbers
+    }
+
+    /// The mode of a kind that is nearest to that of the peak of a band, or to its mirror image.
+    fn at_peak(&self, band: &Instability, kind: ModeKind) -> Option<(usize, usize)> {
+        let index = self.nearest_sample(band.peak_rad_per_s)?;
+        let modes = self.campbell().samples[index].modes.iter().enumerate();
+        let grows = |m: &DescribedMode| kind != ModeKind::Damped || m.mode.lambda.re > 0.0;
+        let same = modes.filter(|(_, m)| m.mode.kind == kind && grows(m));
+        let wanted = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+        let off = |m: &DescribedMode| {
+            let lambda = m.mode.lambda;
+            (c64::new(lambda.re.abs(), lambda.im) - wanted).norm()
+        };
+        let nearest = same.min_by(|x, y| off(x.1).total_cmp(&off(y.1)))?;
+        Some((index, nearest.0))
+    }
+
+    fn damped_partner(&self, band: &Instability) -> Option<(usize, usize)> {
+        let index = self.nearest_sample(band.peak_rad_per_s)?;
+        let growing = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+        let partner = damped_partner(&self.campbell().samples[index].modes, growing)?;
+        Some((index, partner))
     }
 
     /// The branch that stands still at a critical speed.
@@ -230,11 +247,6 @@ fn standing_likeness(
     let own = component.coordinates(shape);
     let product: c64 = (0..own.nrows()).map(|i| own[i] * critical.shape[i]).sum();
     product.norm_sqr()
-}
-
-/// Name of a wave that stands, where no branch is known that it belongs to.
-pub fn standing(critical: &NamedCriticalSpeed) -> String {
-    in_words(critical.diameters, critical.circles, Direction::Standing)
 }
 
 /// The mode that one which grows in a damped blade has met: two that meet have λ = c ± g, nearly

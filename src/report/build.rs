@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use super::branches::{Numbered, standing};
+use super::branches::Numbered;
 use super::remarks::{terms, warnings};
 use super::{
     AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, ExcitationEntry,
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::plate::Plate;
 use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, WorkCounters};
+use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError};
 
 /// Harmonics with a smaller share are left out of a mode's shape.
@@ -97,9 +97,14 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
         .instabilities
         .iter()
         .find(|b| b.from_rad_per_s == onset)?;
-    let names = branches.of_band(band).into_iter();
-    let names = names.map(|number| branches.name(number));
-    let names = names.chain(std::iter::repeat(String::new()));
+    // The reflected waves come first in the name, and last of the paths.
+    let waves = branches
+        .event(band)
+        .into_iter()
+        .flat_map(|event| event.waves);
+    let mut names: Vec<String> = waves.map(|waves| waves.in_words()).collect();
+    names.reverse();
+    let names = names.into_iter().chain(std::iter::repeat(String::new()));
     let paths = names.zip(&loci.paths).map(|(name, path)| RootPathEntry {
         name,
         growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
@@ -269,19 +274,19 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
             break;
         }
         let speed = rpm(critical.speed_rad_per_s);
+        let (diameters, circles) = (critical.name.diameters(), critical.name.circles());
         let double = |e: &CriticalSpeedEntry| {
             analysis.model.plate.is_axisymmetric()
-                && (e.nodal_diameters, e.nodal_circles) == (critical.diameters, critical.circles)
+                && (e.nodal_diameters, e.nodal_circles) == (diameters, circles)
                 && (speed / e.rpm - 1.0).abs() < DOUBLE
         };
         if !entries.iter().any(double) {
-            let branch = branches.of_critical(critical);
             entries.push(CriticalSpeedEntry {
                 rpm: speed,
-                branch,
-                name: branch.map_or_else(|| standing(critical), |number| branches.name(number)),
-                nodal_diameters: critical.diameters,
-                nodal_circles: critical.circles,
+                branch: branches.of_critical(critical),
+                name: critical.name.in_words(),
+                nodal_diameters: diameters,
+                nodal_circles: circles,
                 estimated_relative_error: estimates.and_then(|e| e.critical.get(index).copied()),
             });
         }
@@ -301,6 +306,7 @@ impl InstabilityEntry {
             peak_rpm: rpm(band.peak_rad_per_s),
             peak_growth_per_s: band.peak_growth_per_s,
             frequency_hz: band.frequency_rad_per_s / TAU,
+            name: None,
             branches: Vec::new(),
             modes: Vec::new(),
             counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
@@ -311,19 +317,18 @@ impl InstabilityEntry {
 }
 
 impl InstabilityEntry {
-    /// The band with the names of its branches.
+    /// The band with its waves and the numbers of its branches.
     pub(super) fn in_chart(
         band: &Instability,
         branches: &Numbered<'_>,
         threshold_per_s: f64,
     ) -> Self {
-        let numbers = branches.of_band(band);
+        let event = branches.event(band);
+        let waves = event.iter().flat_map(|event| &event.waves);
         InstabilityEntry {
-            modes: numbers
-                .iter()
-                .map(|number| branches.name(*number))
-                .collect(),
-            branches: numbers,
+            modes: waves.map(EventWaves::in_words).collect(),
+            name: event.as_ref().map(EventName::in_words),
+            branches: branches.of_band(band),
             ..Self::new(band, threshold_per_s)
         }
     }

@@ -70,7 +70,7 @@ pub struct RootLociEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RootPathEntry {
-    /// Name of the branch.
+    /// The waves of this mode that make the band, in words.
     pub name: String,
     /// Re λ.
     pub growth_per_s: Vec<f64>,

@@ -135,11 +135,12 @@ pub struct CriticalSpeedEntry {
     pub rpm: f64,
     /// Number of the branch that stands still, where the chart shows which.
     pub branch: Option<usize>,
-    /// Name of that branch, or of the wave that stands still where the branch is not known.
+    /// The wave that stands still: "2 diameters", or the shares of waves where none dominates, "3 (52 %) + 2 (41 %)".
+    /// The branch is named by its mode at rest, and otherwise.
     pub name: String,
-    /// Nodal diameters of the dominant harmonic of the wave that stands still.
+    /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
-    /// Nodal circles of that harmonic.
+    /// Its nodal circles.
     pub nodal_circles: usize,
     /// Estimated relative error of the speed.
     #[serde(default)]
@@ -164,9 +165,13 @@ pub struct InstabilityEntry {
     pub peak_growth_per_s: f64,
     /// Frequency at the peak.
     pub frequency_hz: f64,
+    /// The waves that make it, at its own speed: "2 diameters" of a divergence, "4 reflected with 2 forward" of flutter;
+    /// null where no chart was drawn. The branches are named by their modes at rest, and otherwise.
+    #[serde(default)]
+    pub name: Option<String>,
     /// Numbers of the branches that become unstable; none where no chart was drawn.
     pub branches: Vec<usize>,
-    /// Their names.
+    /// The same waves one by one, reflected ones first: "4 diameters, reflected".
     pub modes: Vec<String>,
     /// Stretches [from, to] in which it counts as an instability of the saw: divergence as a
     /// whole; flutter of an undamped blade as a whole when its largest growth reaches the

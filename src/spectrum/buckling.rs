@@ -63,8 +63,8 @@ pub fn first_singular(
             let name = standing_name(plate, component.first, &shape, speed_rad_per_s);
             first = Some(SingularStress {
                 multiple,
-                diameters: name.diameters,
-                circles: name.circles,
+                diameters: name.diameters(),
+                circles: name.circles(),
             });
         }
     }

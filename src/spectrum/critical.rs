@@ -7,9 +7,8 @@ use crate::system::GyroscopicSystem;
 
 use super::component::Component;
 use super::error::SpectrumError;
+use super::event_name::EventName;
 use super::generalized::singular_multiples;
-use super::mode::{Mode, ModeKind};
-use super::mode_name::ModeName;
 
 /// A speed at which K(Ω) is singular: a wave stands still in space.
 #[derive(Debug, Clone)]
@@ -46,10 +45,8 @@ pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, 
 pub struct NamedCriticalSpeed {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Nodal diameters of the dominant harmonic.
-    pub diameters: usize,
-    /// Nodal circles of the dominant harmonic.
-    pub circles: usize,
+    /// The waves that it is made by.
+    pub name: EventName,
     /// Index of the component it belongs to.
     pub component: usize,
     /// The standing wave in the unknowns of its component, ‖x‖ = 1.
@@ -112,11 +109,9 @@ pub(super) fn named(
     for (index, (component, found)) in components.iter().zip(found).enumerate() {
         for critical in found {
             let speed = critical.speed_rad_per_s;
-            let name = standing_name(plate, component.first, &critical.shape, speed);
             named.push(NamedCriticalSpeed {
                 speed_rad_per_s: speed,
-                diameters: name.diameters,
-                circles: name.circles,
+                name: standing_name(plate, component.first, &critical.shape, speed),
                 component: index,
                 shape: critical.shape,
             });
@@ -132,24 +127,10 @@ pub(crate) fn standing_name(
     first: usize,
     unknowns: &Col<f64>,
     speed_rad_per_s: f64,
-) -> ModeName {
+) -> EventName {
     let mut shape = Col::zeros(plate.degrees_of_freedom());
     for i in 0..unknowns.nrows() {
         shape[first + i] = c64::new(unknowns[i], 0.0);
     }
-    // A shape at rest has no kinetic energy to be named by: it is named as an oscillation.
-    let lambda = match speed_rad_per_s > 0.0 {
-        true => c64::new(0.0, 0.0),
-        false => c64::new(0.0, 1.0),
-    };
-    let standing = Mode {
-        lambda,
-        kind: ModeKind::Positive,
-        frequency_slope: 0.0,
-        growth_slope: c64::new(0.0, 0.0),
-        action: 1,
-        component: 0,
-        coordinates: Col::zeros(0),
-    };
-    ModeName::new(plate, &standing, &shape, speed_rad_per_s)
+    EventName::standing(plate, &shape, speed_rad_per_s)
 }

@@ -25,6 +25,7 @@ mod component;
 mod critical;
 mod deflation;
 mod error;
+mod event_name;
 mod free_wave;
 mod generalized;
 mod growth;
@@ -50,6 +51,7 @@ mod residual;
 mod scale;
 mod structured;
 mod vectors;
+mod wave;
 mod work;
 
 pub(crate) use argument::turn_along;
@@ -68,6 +70,7 @@ pub use critical::NamedCriticalSpeed;
 pub use critical::{CriticalSpeed, critical_speeds};
 pub(crate) use critical::{clear_range, searched_range, standing_name};
 pub use error::SpectrumError;
+pub use event_name::{EventName, EventWaves};
 pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
 pub use growth::fastest_growing_of;

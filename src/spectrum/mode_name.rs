@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::plate::Plate;
 
 use super::mode::{Mode, ModeKind};
+use super::wave::Wave;
 
 /// How a wave runs, seen from space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -62,7 +63,7 @@ pub struct ModeName {
 
 /// Where the squares of the amplitudes of all forward and of all backward waves differ by less
 /// than this share of both, the motion stands: the larger is less than twice the smaller.
-const STANDING: f64 = 1.0 / 3.0;
+pub(super) const STANDING: f64 = 1.0 / 3.0;
 /// A harmonic with this share of the energy names the mode alone.
 const DOMINANT: f64 = 2.0 / 3.0;
 /// Harmonics are named until they have this share together, and no more than so many.
@@ -70,8 +71,6 @@ const NAMED_SHARE: f64 = 0.75;
 const MOST_NAMED: usize = 3;
 /// Nodal circles of a harmonic with less of the energy are not counted.
 const COUNTED: f64 = 1e-3;
-/// A sign change of the radial profile counts where it leaves this share of its peak.
-const CIRCLE: f64 = 0.03;
 
 impl ModeName {
     /// Names a mode from its coordinates q in the basis of the plate.
@@ -107,7 +106,7 @@ impl ModeName {
     /// "1 diameter", or the shares of the harmonics where none dominates: "0 (54 %) + 1 (45 %)";
     /// "0/1" is one circle without diameters.
     pub fn in_shares(&self) -> String {
-        match self.mixed(MOST_NAMED) {
+        match mixed(&self.harmonics, MOST_NAMED) {
             Some(shares) => shares,
             None => in_words(self.diameters, self.circles, Direction::Standing),
         }
@@ -116,33 +115,33 @@ impl ModeName {
     /// The same as short as it can be: "1", "0/1", "0 (54 %) + 1 (45 %)".
     pub fn in_short(&self) -> String {
         let dominant = || short(self.diameters, self.circles);
-        self.mixed(2).unwrap_or_else(dominant)
-    }
-
-    /// The harmonics with their shares, unless one dominates.
-    fn mixed(&self, most: usize) -> Option<String> {
-        if self.harmonics.first().is_none_or(|h| h.share >= DOMINANT) {
-            return None;
-        }
-        let mut named = 0.0;
-        let mut terms = Vec::new();
-        for h in self.harmonics.iter().take(most) {
-            if named >= NAMED_SHARE {
-                break;
-            }
-            named += h.share;
-            let percent = 100.0 * h.share;
-            terms.push(format!(
-                "{} ({percent:.0} %)",
-                short(h.diameters, h.circles)
-            ));
-        }
-        Some(terms.join(" + "))
+        mixed(&self.harmonics, 2).unwrap_or_else(dominant)
     }
 }
 
+/// Harmonics with their shares, largest first, unless one dominates.
+pub(super) fn mixed(harmonics: &[HarmonicShare], most: usize) -> Option<String> {
+    if harmonics.first().is_none_or(|h| h.share >= DOMINANT) {
+        return None;
+    }
+    let mut named = 0.0;
+    let mut terms = Vec::new();
+    for h in harmonics.iter().take(most) {
+        if named >= NAMED_SHARE {
+            break;
+        }
+        named += h.share;
+        let percent = 100.0 * h.share;
+        terms.push(format!(
+            "{} ({percent:.0} %)",
+            short(h.diameters, h.circles)
+        ));
+    }
+    Some(terms.join(" + "))
+}
+
 /// "2", with a nodal circle "2/1".
-fn short(diameters: usize, circles: usize) -> String {
+pub(super) fn short(diameters: usize, circles: usize) -> String {
     match circles {
         0 => format!("{diameters}"),
         _ => format!("{diameters}/{circles}"),
@@ -195,93 +194,6 @@ pub fn in_words(diameters: usize, circles: usize, direction: Direction) -> Strin
         Direction::Backward => words + ", backward",
         Direction::Reflected => words + ", reflected",
         Direction::Standing => words,
-    }
-}
-
-/// One harmonic, split into the two waves e^{i(ωt − nθ)} and e^{i(ωt + nθ)}.
-///
-/// Their weight is the kinetic energy of the lateral motion, in which the material
-/// moves at Dw/Dt = (λ + Ω∂θ)w. Of a standing wave in space, where ∂w/∂t says
-/// nothing, it is the n² that a rigid tilt would otherwise outweigh.
-struct Wave {
-    diameters: usize,
-    carried: f64,
-    forward: Vec<c64>,
-    backward: Vec<c64>,
-    forward_energy: f64,
-    backward_energy: f64,
-}
-
-impl Wave {
-    /// q_c cos nθ + q_s sin nθ has (q_c + i q_s)/2 on e^{−inθ}, (q_c − i q_s)/2 on e^{+inθ}.
-    fn new(plate: &Plate, lambda: c64, q: &Col<c64>, diameters: usize, speed: f64) -> Self {
-        let size = plate.basis.count();
-        let offset = plate.offset(diameters);
-        let wave = |sign: f64| {
-            let combine = |j: usize| {
-                let sine = if diameters > 0 {
-                    q[offset + size + j]
-                } else {
-                    c64::new(0.0, 0.0)
-                };
-                (q[offset + j] + c64::new(0.0, sign) * sine) * std::f64::consts::FRAC_1_SQRT_2
-            };
-            (0..size).map(combine).collect::<Vec<c64>>()
-        };
-        let carried = diameters as f64 * speed;
-        let energy = |wave: &[c64], velocity: c64| {
-            velocity.norm_sqr() * wave.iter().map(|c| c.norm_sqr()).sum::<f64>()
-        };
-        let (forward, backward) = (wave(1.0), wave(-1.0));
-        Wave {
-            diameters,
-            carried,
-            forward_energy: energy(&forward, lambda - c64::new(0.0, carried)),
-            backward_energy: energy(&backward, lambda + c64::new(0.0, carried)),
-            forward,
-            backward,
-        }
-    }
-
-    fn energy(&self) -> f64 {
-        self.forward_energy + self.backward_energy
-    }
-
-    fn runs_forward(&self) -> bool {
-        self.diameters > 0 && self.forward_energy >= self.backward_energy
-    }
-
-    /// Frequency of the stronger wave on the blade, negative when it runs backward there.
-    fn body_frequency(&self, mode: &Mode) -> f64 {
-        let omega = mode.frequency_rad_per_s();
-        if self.runs_forward() {
-            omega - self.carried
-        } else {
-            -(omega + self.carried)
-        }
-    }
-
-    /// Sign changes of the radial profile of the stronger wave.
-    fn circles(&self, plate: &Plate) -> usize {
-        let wave = if self.runs_forward() {
-            &self.forward
-        } else {
-            &self.backward
-        };
-        let turn: c64 = wave.iter().map(|c| c * c).sum::<c64>().sqrt();
-        let real: Vec<f64> = wave.iter().map(|c| (c * turn.conj()).re).collect();
-        let profile: Vec<f64> = plate
-            .sampled_functions(self.diameters)
-            .iter()
-            .map(|values| values.iter().zip(&real).map(|(v, c)| v * c).sum())
-            .collect();
-        let threshold = CIRCLE * profile.iter().fold(0.0_f64, |peak, w| peak.max(w.abs()));
-        let signs: Vec<bool> = profile
-            .iter()
-            .filter(|w| w.abs() > threshold)
-            .map(|w| *w > 0.0)
-            .collect();
-        signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
     }
 }
 

@@ -214,7 +214,7 @@ fn unresolved(
 ) -> Result<(), AnalysisError> {
     let last = plate.max_diameters();
     let all_pairs = critical.get(last_of_all_pairs(plate));
-    let most_diameters = critical.iter().find(|c| c.diameters == last);
+    let most_diameters = critical.iter().find(|c| c.name.diameters() == last);
     let highest = [all_pairs, most_diameters].into_iter().flatten();
     let highest = highest.min_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     match highest {

@@ -258,8 +258,8 @@ impl<'a> Heating<'a> {
                 let name = standing_name(plate, component.first, &critical.shape, speed_rad_per_s);
                 Named {
                     speed_rad_per_s,
-                    diameters: name.diameters,
-                    circles: name.circles,
+                    diameters: name.diameters(),
+                    circles: name.circles(),
                 }
             }));
         }

@@ -5,8 +5,8 @@ use std::fmt::{Result, Write};
 use super::{ROWS, more, shortened};
 use crate::report::{InstabilityEntry, InstabilityKind, Report};
 
-/// Room for the names of the modes at the end of a line.
-const MODES: usize = 29;
+/// Room for the waves at the end of a line.
+const WAVES: usize = 29;
 
 /// Every band of instability, and whether it counts.
 pub fn bands(text: &mut String, report: &Report) -> Result {
@@ -19,7 +19,7 @@ pub fn bands(text: &mut String, report: &Report) -> Result {
     }
     writeln!(
         text,
-        "\n{:<14} {:>8} {:>8} {:>8} {:>7}  modes",
+        "\n{:<14} {:>8} {:>8} {:>8} {:>7}  waves",
         "Bands", "from", "to", "growth", "at"
     )?;
     writeln!(
@@ -64,12 +64,17 @@ fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
         true => format!("{:.0e}", band.peak_growth_per_s),
         false => format!("{:.2}", band.peak_growth_per_s),
     };
+    let waves = band.name.as_deref().unwrap_or_default();
+    let is_long = waves.chars().count() > WAVES;
     writeln!(
         text,
         "  {kind:<12} {from:>8} {to:>8} {growth:>8} {:>7.2}  {}",
         band.frequency_hz,
-        shortened(&modes(band), MODES)
+        if is_long { "as follows" } else { waves }
     )?;
+    if is_long {
+        writeln!(text, "    {}", shortened(waves, super::WIDTH - 4))?;
+    }
     partly(text, band)
 }
 
@@ -86,21 +91,4 @@ fn partly(text: &mut String, band: &InstabilityEntry) -> Result {
     let counted: Vec<String> = band.counted_rpm.iter().map(words).collect();
     let line = format!("    counts from {} rpm", counted.join(", and from "));
     writeln!(text, "{}", shortened(&line, super::WIDTH))
-}
-
-/// "1: 2 diameters + 4: 3 diameters", or the numbers of the branches where names are too long.
-fn modes(band: &InstabilityEntry) -> String {
-    let named = band.branches.iter().zip(&band.modes);
-    let named: Vec<String> = named
-        .map(|(number, name)| format!("{number}: {name}"))
-        .collect();
-    let named = named.join(" + ");
-    if named.chars().count() <= MODES {
-        return named;
-    }
-    let numbers: Vec<String> = band.branches.iter().map(usize::to_string).collect();
-    match numbers.as_slice() {
-        [_] => named,
-        _ => format!("branches {}", numbers.join(" + ")),
-    }
 }

@@ -114,8 +114,10 @@ fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
         false => writeln!(text, "\nCritical speeds [rpm]")?,
     }
     for critical in speeds.iter().take(ROWS) {
-        let name = numbered(critical.branch, &critical.name);
-        writeln!(text, "  {:>9.1}  {name}", critical.rpm)?;
+        let branch = critical
+            .branch
+            .map_or(String::new(), |number| format!("  (branch {number})"));
+        writeln!(text, "  {:>9.1}  {}{branch}", critical.rpm, critical.name)?;
     }
     more(text, speeds.len())
 }

@@ -137,7 +137,7 @@ fn critical_rpm(model: &SpectralModel, diameters: usize) -> Vec<f64> {
     model
         .critical
         .iter()
-        .filter(|c| (c.diameters, c.circles) == (diameters, 0))
+        .filter(|c| (c.name.diameters(), c.name.circles()) == (diameters, 0))
         .map(|c| rpm(c.speed_rad_per_s))
         .collect()
 }
@@ -172,7 +172,7 @@ fn critical_speeds_of_the_blade_held_in_its_plane() {
     assert_eq!(expected.len(), 5);
     compare_critical(InPlane::Fixed, &expected).assert_at_most("collar saw, fixed", 1e-5);
     let model = reference_model(&saw(InPlane::Fixed), rad_per_s(4000.0));
-    assert!(model.critical.iter().all(|c| c.diameters >= 2));
+    assert!(model.critical.iter().all(|c| c.name.diameters() >= 2));
 }
 
 /// Free in its plane the same blade is critical 15 % higher.

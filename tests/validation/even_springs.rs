@@ -301,7 +301,7 @@ fn compared(strategy: Strategy) -> Compared {
     let critical = SpectralModel::critical_speeds(&free).unwrap();
     let mut critical: Vec<(usize, f64)> = critical
         .iter()
-        .map(|c| (c.diameters, c.speed_rad_per_s))
+        .map(|c| (c.name.diameters(), c.speed_rad_per_s))
         .filter(|(_, speed)| *speed < top)
         .collect();
     // Each stands there for both waves.

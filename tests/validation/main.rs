@@ -9,6 +9,7 @@ mod collar_saw;
 mod damping;
 mod edge_load;
 mod even_springs;
+mod event_names;
 mod excitation;
 mod floquet;
 mod follower;

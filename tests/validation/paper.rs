@@ -62,7 +62,7 @@ fn guided_critical_speeds() {
     let expected = [1530.7, 1551.5, 2091.0, 2129.6, 2560.3, 2607.5];
     for (k, expected) in expected.into_iter().enumerate() {
         let actual = rpm(critical[k].speed_rad_per_s);
-        assert_eq!(critical[k].diameters, 2 + k / 2);
+        assert_eq!(critical[k].name.diameters(), 2 + k / 2);
         worst.add(relative_error(actual, expected), || {
             format!("{actual:.3} instead of {expected} rpm")
         });

@@ -19,7 +19,7 @@ fn free_critical_rpm(model: &SpectralModel, diameters: usize) -> f64 {
     let speeds: Vec<f64> = model
         .critical
         .iter()
-        .filter(|c| (c.diameters, c.circles) == (diameters, 0))
+        .filter(|c| (c.name.diameters(), c.name.circles()) == (diameters, 0))
         .map(|c| rpm(c.speed_rad_per_s))
         .collect();
     assert_eq!(speeds.len(), 2, "{diameters} diameters: {speeds:?}");
@@ -40,7 +40,7 @@ fn free_critical_speeds() {
         });
     }
     worst.assert_at_most("free blade, critical speeds", 1e-5);
-    assert!(model.critical.iter().all(|c| c.diameters >= 2));
+    assert!(model.critical.iter().all(|c| c.name.diameters() >= 2));
 }
 
 #[derive(Deserialize)]

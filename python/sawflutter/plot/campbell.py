@@ -77,7 +77,7 @@ def highest_shown_hz(r: CampbellReport) -> float:
 
 def _uprights(r: CampbellReport) -> list[Upright]:
     quiet = colours()["divergence"]
-    lines = [Upright(c.rpm, quiet, name=f"critical {c.rpm:.0f} rpm") for c in r.critical_speeds]
+    lines = [Upright(c.rpm, quiet, name=f"critical {c.rpm:.0f} rpm, {c.name}") for c in r.critical_speeds]
     if r.operating is not None:
         rpm = r.operating.rpm
         lines.append(Upright(rpm, colours()["ink"], dashed=False, name=f"operating {rpm:.0f} rpm"))
@@ -214,7 +214,7 @@ def _growth(r: CampbellReport) -> tuple[list[Item], tuple[float, float]]:
         if not damped:
             items.append(Line(x, y, colour, band.kind, hover=hover))
         peak = (
-            f"{band.kind} of {' and '.join(band.modes)}<br>largest growth "
+            f"{band.kind} of {band.name}<br>largest growth "
             f"{band.peak_growth_per_s:.3g} 1/s<br>{band.peak_rpm:.1f} rpm<br>{band.frequency_hz:.2f} Hz"
         )
         at = (np.array([band.peak_rpm]), np.array([band.peak_growth_per_s]))

@@ -59,10 +59,10 @@ function table(caption, heads, rows) {
 
 // The chart for those who do not see it, and for who wants the numbers.
 export function tables(place, report) {
-  const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), numbered(c.branch, c.name)]);
+  const speeds = report.critical_speeds.map((c) => [c.rpm.toFixed(1), c.name, c.branch ?? "–"]);
   const bands = report.instabilities.map((band) => [
     band.kind, band.from_rpm.toFixed(1), `${band.to_rpm.toFixed(1)}${band.closed || band.to_rpm < report.campbell.to_rpm ? "" : " …"}`,
-    band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.modes.map((name, k) => numbered(band.branches[k], name)).join(" and "),
+    band.peak_growth_per_s.toPrecision(3), band.frequency_hz.toFixed(2), band.name ?? "–", band.branches.join(", "),
   ]);
   const overdamped = report.overdamped_modes_at_rest;
   const damped = report.modes_at_rest.some((m) => typeof m.damping_ratio === "number");
@@ -70,8 +70,8 @@ export function tables(place, report) {
     m.frequency_hz.toFixed(2), ...(damped ? [shown(m.damping_ratio, 3)] : []), numbered(m.branch, m.name),
   ]);
   const both = [
-    table(`Critical speeds${report.critical_speeds_without_damping ? " of the saw without its damping" : ""}`, ["rpm", "mode"], speeds),
-    table("Bands of instability", ["kind", "from rpm", "to rpm", "growth 1/s", "Hz", "modes"], bands),
+    table(`Critical speeds${report.critical_speeds_without_damping ? " of the saw without its damping" : ""}`, ["rpm", "wave", "branch"], speeds),
+    table("Bands of instability", ["kind", "from rpm", "to rpm", "growth 1/s", "Hz", "waves", "branches"], bands),
     table(`Modes at rest${overdamped ? `; ${overdamped} others decay without oscillating` : ""}`, ["Hz", ...(damped ? ["ζ"] : []), "mode"], rest),
   ];
   place.replaceChildren(...both);

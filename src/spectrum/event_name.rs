@@ -1,0 +1,285 @@
+//! What to call an event of the chart, a critical speed or a band: the waves that make it, at its own
+//! speed. No other place names one.
+//!
+//! - A shape that stands in space (λ real) is made by the waves that rotation softens: the waves of n nodal
+//!   diameters lose qᴴ(N − K_σ)q Ω² of their stiffness, K_σ the stiffening by the centrifugal stress. Of n = 0 and 1
+//!   that is never above zero, so that they have no critical speed.
+//! - Flutter is made by waves of both signs of the energy. With amplitudes f of e^{i(ωt − nθ)}, forward in space, and b
+//!   of e^{i(ωt + nθ)}, backward, the action (ω − nΩ)|f|² + (ω + nΩ)|b|² summed over n has the Krein sign, and is zero of
+//!   two modes that have coalesced. A free wave has the energy 2ω times its action; both are negative of a reflected one.
+//!   What a guide forces on the blade has either less energy than its action says (the rigid motions, which cost none)
+//!   or more (short waves, which are stiff). A wave counts with the smaller of the two, and where they agree in sign.
+
+use faer::{Col, c64};
+
+use super::mode::{Mode, ModeKind};
+use super::mode_name::{Direction, HarmonicShare, STANDING, in_words, mixed, short};
+use super::wave::{Wave, circles};
+use crate::plate::Plate;
+
+/// Waves that a name has at most, where none dominates.
+const MOST_NAMED: usize = 2;
+/// Waves with a smaller share are left out.
+const LEAST: f64 = 1e-3;
+/// A damped wave that grows by itself has met no other: the action of the others is less than this share of its own.
+const LEAST_PARTNER: f64 = 1.0 / 3.0;
+
+/// Waves of one direction that make an event together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EventWaves {
+    /// How they run in space.
+    pub direction: Direction,
+    /// Their shares in what they have together, largest first.
+    pub shares: Vec<HarmonicShare>,
+}
+
+/// The waves that make an event: of a critical speed or a divergence the shape that stands; of flutter the
+/// reflected waves, and those that they coalesce with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EventName {
+    /// One or two, reflected ones first.
+    pub waves: Vec<EventWaves>,
+}
+
+impl EventName {
+    /// Of a shape that stands in space, in the basis of the plate.
+    pub fn standing(plate: &Plate, shape: &Col<c64>, speed_rad_per_s: f64) -> Self {
+        let waves = waves(plate, c64::new(0.0, 0.0), shape, speed_rad_per_s);
+        let softened = |wave: &Wave| {
+            let spin = &plate.harmonics[wave.diameters].spin;
+            let both = [&wave.forward, &wave.backward];
+            let lost: f64 = both.map(|c| -form(c, |i, k| spin[(i, k)])).iter().sum();
+            lost.max(0.0)
+        };
+        let amplitude = |wave: &Wave| square(&wave.forward) + square(&wave.backward);
+        // At rest nothing is softened by rotation, and a load that follows the blade needs no softening.
+        let is_softened = speed_rad_per_s > 0.0 && waves.iter().any(|wave| softened(wave) > 0.0);
+        let weight = |wave: &Wave| match is_softened {
+            true => softened(wave),
+            false => amplitude(wave),
+        };
+        let weighed = waves.iter().map(|wave| (wave, weight(wave))).collect();
+        let named = |wave: &Wave| (wave.diameters, wave.circles(plate));
+        let made_by = EventWaves::new(Direction::Standing, weighed, named);
+        EventName {
+            waves: made_by.into_iter().collect(),
+        }
+    }
+
+    /// Of the mode that grows in a band, with its shape in the basis of the plate.
+    pub fn growing(plate: &Plate, mode: &Mode, shape: &Col<c64>, speed_rad_per_s: f64) -> Self {
+        if mode.kind == ModeKind::Divergent || mode.lambda.im == 0.0 {
+            return Self::standing(plate, shape, speed_rad_per_s);
+        }
+        let omega = mode.frequency_rad_per_s();
+        let waves = waves(plate, mode.lambda, shape, speed_rad_per_s);
+        let parts = waves
+            .iter()
+            .flat_map(|wave| parts(plate, mode.lambda, wave, speed_rad_per_s));
+        let parts: Vec<Part<'_>> = parts.collect();
+        let of_sign = |sign: f64| -> Vec<&Part> {
+            let agree = |part: &&Part| sign * part.weight(omega) > 0.0;
+            parts.iter().filter(agree).collect()
+        };
+        let (reflected, others) = (of_sign(-1.0), of_sign(1.0));
+        let sum = |of: &[&Part]| of.iter().map(|part| part.weight(omega).abs()).sum::<f64>();
+        let sums = [sum(&reflected), sum(&others)];
+        let least = match mode.kind {
+            ModeKind::Damped => LEAST_PARTNER * sums[0].max(sums[1]),
+            _ => 0.0,
+        };
+        let direction = direction(&others, omega);
+        let groups = [(reflected, Direction::Reflected), (others, direction)];
+        let named = groups
+            .into_iter()
+            .zip(sums)
+            .filter(|(_, sum)| *sum >= least);
+        let named = named.filter_map(|((parts, direction), _)| {
+            let weighed = |part| (part, Part::weight(part, omega).abs());
+            let weighed = parts.into_iter().map(weighed).collect();
+            EventWaves::new(direction, weighed, |part| part.named(plate))
+        });
+        EventName {
+            waves: named.collect(),
+        }
+    }
+
+    /// Nodal diameters of the first wave.
+    pub fn diameters(&self) -> usize {
+        self.first().map_or(0, |wave| wave.diameters)
+    }
+
+    /// Its nodal circles.
+    pub fn circles(&self) -> usize {
+        self.first().map_or(0, |wave| wave.circles)
+    }
+
+    fn first(&self) -> Option<&HarmonicShare> {
+        self.waves.first()?.shares.first()
+    }
+
+    /// "2 diameters", "4 reflected with 2 forward".
+    pub fn in_words(&self) -> String {
+        match self.waves.as_slice() {
+            [waves] => waves.in_words(),
+            both => {
+                let named: Vec<String> = both.iter().map(EventWaves::in_short).collect();
+                named.join(" with ")
+            }
+        }
+    }
+}
+
+impl EventWaves {
+    /// Waves with their weights, and what gives nodal diameters and circles; `None` where no wave has weight.
+    fn new<W>(
+        direction: Direction,
+        mut weighed: Vec<(&W, f64)>,
+        named: impl Fn(&W) -> (usize, usize),
+    ) -> Option<Self> {
+        let total: f64 = weighed.iter().map(|(_, weight)| weight).sum();
+        weighed.sort_by(|(_, x), (_, y)| y.total_cmp(x));
+        let counted = weighed
+            .iter()
+            .filter(|(_, weight)| *weight >= LEAST * total);
+        let shares = counted.map(|(wave, weight)| {
+            let (diameters, circles) = named(wave);
+            HarmonicShare {
+                diameters,
+                circles,
+                share: weight / total,
+            }
+        });
+        (total > 0.0).then(|| EventWaves {
+            direction,
+            shares: shares.collect(),
+        })
+    }
+
+    /// "2 diameters, forward", or the shares where no wave dominates: "3 (52 %) + 2 (41 %), reflected".
+    pub fn in_words(&self) -> String {
+        let (diameters, circles) = self.first();
+        let dominant = || in_words(diameters, circles, self.direction);
+        let ending = self
+            .word()
+            .map_or(String::new(), |word| format!(", {word}"));
+        mixed(&self.shares, MOST_NAMED).map_or_else(dominant, |shares| shares + &ending)
+    }
+
+    /// "2 forward", "3 (52 %) + 2 (41 %) reflected".
+    fn in_short(&self) -> String {
+        let (diameters, circles) = self.first();
+        let dominant = || short(diameters, circles);
+        let ending = self.word().map_or(String::new(), |word| format!(" {word}"));
+        mixed(&self.shares, MOST_NAMED).unwrap_or_else(dominant) + &ending
+    }
+
+    /// Nodal diameters and circles of the wave with the largest share.
+    fn first(&self) -> (usize, usize) {
+        let first = self.shares.first();
+        first.map_or((0, 0), |wave| (wave.diameters, wave.circles))
+    }
+
+    fn word(&self) -> Option<&'static str> {
+        match self.direction {
+            Direction::Forward => Some("forward"),
+            Direction::Backward => Some("backward"),
+            Direction::Reflected => Some("reflected"),
+            Direction::Standing => None,
+        }
+    }
+}
+
+fn waves(plate: &Plate, lambda: c64, shape: &Col<c64>, speed_rad_per_s: f64) -> Vec<Wave> {
+    let wave = |n| Wave::new(plate, lambda, shape, n, speed_rad_per_s);
+    (0..=plate.max_diameters()).map(wave).collect()
+}
+
+/// One of the two waves of a harmonic, or both where their energies agree in sign: what stands of them has next to
+/// no action.
+struct Part<'a> {
+    wave: &'a Wave,
+    forward: &'a [c64],
+    backward: &'a [c64],
+    /// Twice the kinetic and the potential energy seen from space.
+    energy: f64,
+}
+
+fn parts<'a>(plate: &Plate, lambda: c64, wave: &'a Wave, speed_rad_per_s: f64) -> Vec<Part<'a>> {
+    let block = &plate.harmonics[wave.diameters];
+    let stiffness = |i: usize, k: usize| {
+        let membrane = block.membrane.as_ref().map_or(0.0, |m| m[(i, k)]);
+        block.bending[(i, k)] + membrane + speed_rad_per_s.powi(2) * block.spin[(i, k)]
+    };
+    let energy = |c: &[c64]| lambda.norm_sqr() * square(c) + form(c, stiffness);
+    let (forward, backward) = (wave.forward.as_slice(), wave.backward.as_slice());
+    let part = |forward, backward, energy| Part {
+        wave,
+        forward,
+        backward,
+        energy,
+    };
+    match [energy(forward), energy(backward)] {
+        [ahead, behind] if (ahead < 0.0) == (behind < 0.0) => {
+            vec![part(forward, backward, ahead + behind)]
+        }
+        [ahead, behind] => vec![part(forward, &[], ahead), part(&[], backward, behind)],
+    }
+}
+
+impl Part<'_> {
+    fn action(&self, omega: f64) -> f64 {
+        let carried = self.wave.carried;
+        (omega - carried) * square(self.forward) + (omega + carried) * square(self.backward)
+    }
+
+    /// The smaller of the energy and of 2ω times the action, zero where they differ in sign.
+    fn weight(&self, omega: f64) -> f64 {
+        let by_action = 2.0 * omega * self.action(omega);
+        match by_action * self.energy > 0.0 {
+            true => by_action.abs().min(self.energy.abs()).copysign(self.energy),
+            false => 0.0,
+        }
+    }
+
+    /// Nodal diameters, and the circles of the stronger wave.
+    fn named(&self, plate: &Plate) -> (usize, usize) {
+        let stronger = match square(self.forward) >= square(self.backward) {
+            true => self.forward,
+            false => self.backward,
+        };
+        let diameters = self.wave.diameters;
+        (diameters, circles(plate, diameters, stronger))
+    }
+}
+
+/// How waves run in space together, each with its weight. Those without nodal diameters do not run.
+fn direction(parts: &[&Part<'_>], omega: f64) -> Direction {
+    let [mut forward, mut backward, mut all] = [0.0; 3];
+    for part in parts {
+        let squares = [square(part.forward), square(part.backward)];
+        let weight = part.weight(omega) / (squares[0] + squares[1]);
+        all += part.weight(omega);
+        if part.wave.diameters > 0 {
+            forward += weight * squares[0];
+            backward += weight * squares[1];
+        }
+    }
+    if (forward - backward).abs() < STANDING * all {
+        Direction::Standing
+    } else if forward > backward {
+        Direction::Forward
+    } else {
+        Direction::Backward
+    }
+}
+
+fn square(wave: &[c64]) -> f64 {
+    wave.iter().map(|c| c.norm_sqr()).sum()
+}
+
+/// cᴴAc of a symmetric matrix.
+fn form(c: &[c64], entry: impl Fn(usize, usize) -> f64) -> f64 {
+    let row = |i: usize| -> c64 { (0..c.len()).map(|k| c[k] * entry(i, k)).sum() };
+    (0..c.len()).map(|i| (c[i].conj() * row(i)).re).sum()
+}
