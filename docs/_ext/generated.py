@@ -1,7 +1,10 @@
-"""Writes `_generated/`: the reference pages that are made of what the program says.
+"""Writes `_generated/`: the tables of the reference, which are made of what the program says.
 
 Commands and options come from `--help`, keys from the JSON schemas and the classes of reports.
-`SAWFLUTTER_PROGRAM` names the program.
+They are kept in the repository, so that a checkout has a reference to read. A build of the pages
+writes those that are out of date, and fails. By hand:
+
+    SAWFLUTTER_PROGRAM=target/release/sawflutter python3 docs/_ext/generated.py
 """
 
 from __future__ import annotations
@@ -53,7 +56,8 @@ def rust_example() -> str:
     return "```rust\n" + "\n".join(line for line in bare if not line.startswith("#")) + "\n```\n"
 
 
-def generate(app: Any) -> None:
+def generate() -> list[str]:
+    """Names of the tables that were out of date, and are not any more."""
     pages = {
         "reports.md": report_tables(),
         "rust-example.md": rust_example(),
@@ -62,10 +66,23 @@ def generate(app: Any) -> None:
         "study.md": tables(json.loads(said("schema", "--study")), ranges=False),
     }
     OUT.mkdir(exist_ok=True)
+    stale = []
     for name, text in pages.items():
         path = OUT / name
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
+            stale.append(f"docs/_generated/{name}")
+    return stale
+
+
+def keep_up_to_date(app: Any) -> None:
+    """A warning is an error of the gate."""
+    from sphinx.util import logging
+
+    stale = generate()
+    if stale:
+        told = "%s: out of date, written anew; commit them"
+        logging.getLogger(__name__).warning(told, ", ".join(stale))
 
 
 def escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
@@ -74,6 +91,10 @@ def escape(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[s
 
 
 def setup(app: Any) -> dict[str, Any]:
-    app.connect("builder-inited", generate)
+    app.connect("builder-inited", keep_up_to_date)
     app.connect("autodoc-process-docstring", escape)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+if __name__ == "__main__":
+    print("\n".join(generate()) or "up to date")

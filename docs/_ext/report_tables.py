@@ -6,13 +6,12 @@ import ast
 import re
 from pathlib import Path
 
-import sawflutter as sf
+TYPES = Path(__file__).parents[2] / "python/sawflutter/_report_types.py"
 
 
 def report_tables() -> str:
     """Keys of every report and of its parts, from the classes made of the library's schema."""
-    source = Path(sf.__file__).with_name("_report_types.py").read_text(encoding="utf-8")
-    tree = ast.parse(source).body
+    tree = ast.parse(TYPES.read_text(encoding="utf-8")).body
     classes = [node for node in tree if isinstance(node, ast.ClassDef)]
     words = {node.name: f"[{node.name}](#{anchor(node.name)})" for node in classes}
     for node in tree:

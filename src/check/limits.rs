@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s, unusual_number};
 use crate::stability::OPERATING_LIMIT;
+use crate::text::shown;
 
 /// What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -91,7 +92,7 @@ impl Limits {
                 ..self
             });
         }
-        let allowed = format!("above 0 and at most {MAX_RIM_M_PER_S}");
+        let allowed = format!("above 0 and at most {}", shown(MAX_RIM_M_PER_S));
         let remedy = "saws for wood are run with at most 100";
         let key = "max_rim_m_per_s";
         Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))

@@ -8,7 +8,7 @@ use crate::stability::Analysis;
 use anyhow::Context;
 use clap::Args;
 
-use super::common::{Finely, NamedFile, Output, read_scene};
+use super::common::{Finely, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
@@ -16,14 +16,14 @@ use super::several;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter analyze                                  the built-in saw
-  sawflutter analyze my-saw.json --out my-saw         your own saw
-  sawflutter analyze saws/*.json --out saws-out       a folder each, and a table
-  make-scene | sawflutter analyze -                   a scene from a program
-  sawflutter analyze my-saw.json --accuracy reference slower, for comparisons
-  sawflutter analyze --at-rpm 1800                    the modes of one speed
-  sawflutter analyze --in-cut 2800                    under the forces of a cut
-  sawflutter analyze --json | jq .flutter_speed_rpm   for scripts";
+  sawflutter analyze                                  # the built-in saw
+  sawflutter analyze my-saw.json --out my-saw         # your own saw
+  sawflutter analyze saws/*.json --out saws-out       # a folder each, and a table
+  cat my-saw.json | sawflutter analyze -              # a scene from a program
+  sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
+  sawflutter analyze --at-rpm 1800                    # the modes of one speed
+  sawflutter analyze --in-cut 2800                    # under the forces of a cut
+  sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
 
 #[derive(Args, Default)]
 pub struct Arguments {
@@ -34,16 +34,19 @@ pub struct Arguments {
     finely: Finely,
     #[command(flatten)]
     output: Output,
+    /// Of several scenes chart those that can be, where one is refused
+    #[arg(long)]
+    keep_going: bool,
     /// Also say how critical speeds and onsets move with thickness, density, modulus and
     /// the guides
     #[arg(long)]
     sensitivity: bool,
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     at_rpm: Option<f64>,
     /// Chart the saw under the forces of its cut at this speed, beside the idling saw; by default
     /// the operating speed
-    #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true, value_parser = number)]
     in_cut: Option<Option<f64>>,
 }
 
@@ -61,11 +64,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         [] => one(arguments, &asked(Scene::paper())?),
         [path] => one(arguments, &read(path)?),
         paths => {
-            let scenes = paths
-                .iter()
-                .map(read)
-                .collect::<anyhow::Result<Vec<Scene>>>()?;
-            several::run(&arguments.output, paths, &scenes, |scene, folder| {
+            let scenes = paths.iter().map(read);
+            let scenes: Vec<anyhow::Result<Scene>> = match arguments.keep_going {
+                true => scenes.collect(),
+                // Nothing is computed where one is refused.
+                false => scenes
+                    .map(|scene| scene.map(Ok))
+                    .collect::<anyhow::Result<_>>()?,
+            };
+            several::run(&arguments.output, paths, scenes, |scene, folder| {
                 into_folder(arguments, scene, folder)
             })
         }

@@ -7,7 +7,7 @@ use crate::report::CheckReport;
 use crate::scene::Scene;
 use clap::Args;
 
-use super::common::{Input, of_option, say};
+use super::common::{Input, number, of_option, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
 use super::progress::watched;
@@ -17,7 +17,7 @@ Examples:
   sawflutter check my-saw.json --operating-rpm 2400
   sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
   sawflutter check --operating-rpm 1250 --json | jq .passed
-  sawflutter check my-saw.json --out checked      with a picture
+  sawflutter check my-saw.json --out checked # with a picture
 
 Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
 
@@ -26,29 +26,27 @@ pub struct Arguments {
     #[command(flatten)]
     input: Input,
     /// Speed at which the saw is run; the scene's by default
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     operating_rpm: Option<f64>,
     /// Largest share of the lowest critical speed that the operating speed may be
     #[arg(
         long,
         value_name = "SHARE",
         default_value_t = 0.85,
-        allow_negative_numbers = true
-    )]
+        allow_negative_numbers = true, value_parser = number)]
     margin: f64,
     /// Least flutter speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_flutter_rpm: Option<f64>,
     /// Least first critical speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
     /// Largest speed of the rim
     #[arg(
         long,
         value_name = "M/S",
         default_value_t = RIM_LIMIT_M_PER_S,
-        allow_negative_numbers = true
-    )]
+        allow_negative_numbers = true, value_parser = number)]
     max_rim_m_per_s: f64,
     /// Let a saw pass that has numbers no saw has
     #[arg(long)]

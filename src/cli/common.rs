@@ -27,7 +27,7 @@ pub struct Finely {
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
     /// Relative error allowed of critical speeds and onsets, 1e-7 to 0.1, instead of a name
-    #[arg(long, value_name = "SHARE", conflicts_with = "accuracy")]
+    #[arg(long, value_name = "SHARE", conflicts_with = "accuracy", value_parser = number)]
     tolerance: Option<f64>,
 }
 
@@ -105,6 +105,22 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
 pub fn of_option(refused: RefusedValue) -> anyhow::Error {
     let key = format!("--{}", refused.key.replace('_', "-"));
     RefusedValue { key, ..refused }.into()
+}
+
+/// The number of an option.
+pub fn number(text: &str) -> Result<f64, String> {
+    let point = match text.contains(',') {
+        true => "; write it with a decimal point",
+        false => "",
+    };
+    let refused = |_| format!("it must be a number, like 1250 or 0.85{point}");
+    text.trim().parse().map_err(refused)
+}
+
+/// The whole number of an option.
+pub fn count<T: std::str::FromStr>(text: &str) -> Result<T, String> {
+    let refused = |_| "it must be a whole number, 0 or more".to_owned();
+    text.trim().parse().map_err(refused)
 }
 
 /// Writes to standard output what a terminal may be sent.

@@ -4,16 +4,16 @@ use crate::report::CutReport;
 use crate::transient::Cutting;
 use clap::Args;
 
-use super::common::Common;
+use super::common::{Common, number};
 use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter cut                                 the built-in saw, two speeds
-  sawflutter cut my-saw.json --rpm 2400          your own saw at another speed
-  sawflutter cut --json | jq '.runs[].verdict'   for scripts
+  sawflutter cut                               # the built-in saw, two speeds
+  sawflutter cut my-saw.json --rpm 2400        # your own saw at another speed
+  sawflutter cut --json | jq '.runs[].verdict' # for scripts
 
 The forces are the scene's `cut`; `sawflutter schema` says what it may contain.";
 
@@ -22,7 +22,7 @@ pub struct Arguments {
     #[command(flatten)]
     common: Common,
     /// Speed to cut at, in place of the scene's; may be given more than once
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Vec<f64>,
 }
 

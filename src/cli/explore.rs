@@ -9,9 +9,9 @@ use super::common::Input;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter explore --open          the built-in saw, in your browser
-  sawflutter explore my-saw.json     your own; open the address that is printed
-  sawflutter explore --port 8080     at an address that stays the same
+  sawflutter explore --open      # the built-in saw, in your browser
+  sawflutter explore my-saw.json # your own; open the address that is printed
+  sawflutter explore --port 8080 # at an address that stays the same
 
 The page comes from the program itself, to this computer alone (127.0.0.1);
 nothing is fetched from the net, nothing is written but what you save. Closing a

@@ -12,7 +12,7 @@ use super::common::{Common, NamedFile};
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter export --matrices                      the built-in saw
+  sawflutter export --matrices # the built-in saw
   sawflutter export --matrices saw.json --basis 16,8 --out matrices
   python3 -c 'import numpy; numpy.load(\"sawflutter-out/stiffness.npy\")'";
 

@@ -8,17 +8,17 @@ use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
 use clap::Args;
 
-use super::common::{Common, of_option, read_text, refused};
+use super::common::{Common, count, number, of_option, read_text, refused};
 use super::free::named_bounds;
 use super::pictures::drawn;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter fit --to-rpm 1250            the built-in saw to its own table
-  sawflutter fit my-saw.json measured.csv radius and stiffness of every guide
+  sawflutter fit --to-rpm 1250            # the built-in saw to its own table
+  sawflutter fit my-saw.json measured.csv # radius and stiffness of every guide
   sawflutter fit my-saw.json measured.csv \\
-    --free guides[0].radius_m=0.15..0.3 --free blade.material.density_kg_per_m3
+    --free \"guides[0].radius_m=0.15..0.3\" --free blade.material.density_kg_per_m3
 
 measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
 mode was not seen. They are held against the lowest computed ones. A first line
@@ -37,21 +37,20 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH[=FROM..TO]")]
     free: Vec<String>,
     /// Leave out measurements above this speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     to_rpm: Option<f64>,
     /// Probability with which the intervals cover the truth
     #[arg(
         long,
         value_name = "SHARE",
         default_value_t = 0.95,
-        allow_negative_numbers = true
-    )]
+        allow_negative_numbers = true, value_parser = number)]
     confidence: f64,
     /// Starts: the scene's numbers, and others spread between the bounds
-    #[arg(long, value_name = "COUNT", default_value_t = 12)]
+    #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>)]
     starts: usize,
     /// Spreads the starts in another way
-    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = count::<u64>)]
     seed: u64,
 }
 

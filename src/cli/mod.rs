@@ -9,6 +9,7 @@ mod explore;
 mod export;
 mod fit;
 mod free;
+mod keys;
 mod output;
 mod paint;
 mod paste;
@@ -74,20 +75,23 @@ enum Command {
     /// Write the matrices of a saw as NumPy files
     #[command(after_help = export::EXAMPLES)]
     Export(export::Arguments),
+    /// Print the keys of a scene, or of a study: units, defaults, what saws have
+    #[command(after_help = keys::EXAMPLES)]
+    Keys(keys::Arguments),
     /// Print the JSON schema of a scene, or of a study
     Schema(schema::Arguments),
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  sawflutter                              chart the built-in guided spline saw
-  sawflutter my-saw.json                  chart your own saw
-  sawflutter saws/*.json                  chart many, and put them in a table
-  sawflutter cut                          is it stable in the wood?
-  sawflutter check --operating-rpm 1250   does it keep the 85 % rule?
-  sawflutter explore --open               drag the guides in your browser
-  sawflutter runup                        what does it do on the way up?
-  sawflutter schema > scene.schema.json   let your editor complete scene keys
+  sawflutter                            # chart the built-in guided spline saw
+  sawflutter my-saw.json                # chart your own saw
+  sawflutter saws/*.json                # chart many, and put them in a table
+  sawflutter cut                        # is it stable in the wood?
+  sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
+  sawflutter explore --open             # drag the guides in your browser
+  sawflutter runup                      # what does it do on the way up?
+  sawflutter schema > scene.schema.json # let your editor complete scene keys
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
 
@@ -152,6 +156,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Place(arguments)) => return place::run(&arguments),
         Some(Command::Check(arguments)) => return check::run(&arguments),
         Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Keys(arguments)) => keys::run(&arguments),
         Some(Command::Schema(arguments)) => schema::run(&arguments),
     }
     .map(|()| true)
@@ -176,4 +181,72 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
         .chain()
         .filter_map(|cause| cause.downcast_ref::<std::io::Error>())
         .any(|cause| cause.kind() == std::io::ErrorKind::BrokenPipe)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines of examples as a shell takes them: continued lines joined, comments left out, each side
+    /// of a pipe by itself, up to where its output goes.
+    fn commands(examples: &str) -> Vec<Vec<String>> {
+        let joined = examples.replace("\\\n", "");
+        let lines = joined.lines().filter(|line| line.starts_with("  "));
+        let bare = lines.filter_map(|line| line.split(" # ").next());
+        let parts = bare.flat_map(|line| line.split('|'));
+        let called = parts.filter_map(|part| part.split('>').next().map(str::trim));
+        let ours = called.filter(|part| part.split(' ').next() == Some("sawflutter"));
+        let words = |part: &str| {
+            let words = part.split_whitespace().map(|word| word.replace('"', ""));
+            words
+                .map(|word| word.replace("$SLURM_ARRAY_TASK_ID", "3"))
+                .collect()
+        };
+        ours.map(words).collect()
+    }
+
+    /// Whoever copies a line of `--help` gets what it promises, and no error about its words.
+    #[test]
+    fn every_example_of_help_is_a_command() {
+        let program = Arguments::command();
+        let mut helps = vec![program.get_after_help().map(ToString::to_string)];
+        helps.extend(
+            program
+                .get_subcommands()
+                .map(|c| c.get_after_help().map(ToString::to_string)),
+        );
+        let found: Vec<Vec<String>> = helps
+            .iter()
+            .flatten()
+            .flat_map(|help| commands(help))
+            .collect();
+        assert!(found.len() > 35, "{}", found.len());
+        for words in found {
+            let asked = with_command(words.iter().map(OsString::from));
+            let parsed = Arguments::try_parse_from(asked);
+            assert!(parsed.is_ok(), "{words:?}: {}", parsed.err().unwrap());
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_told_in_plain_words() {
+        let refused = |words: &[&str]| {
+            let words = std::iter::once(&"sawflutter")
+                .chain(words)
+                .map(OsString::from);
+            Arguments::try_parse_from(words).err().unwrap().to_string()
+        };
+        let fast = refused(&["check", "--operating-rpm", "fast"]);
+        assert!(fast.contains("it must be a number, like 1250"), "{fast}");
+        let comma = refused(&["check", "--margin", "0,85"]);
+        assert!(comma.contains("a decimal point"), "{comma}");
+        let count = refused(&["place", "--samples", "2.5"]);
+        assert!(count.contains("a whole number"), "{count}");
+        for said in [fast, comma, count] {
+            assert!(
+                !said.contains("literal") && !said.contains("digit"),
+                "{said}"
+            );
+        }
+    }
 }

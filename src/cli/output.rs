@@ -11,6 +11,8 @@ const STAGED: &str = ".sawflutter-";
 /// A folder that has been seen to take files.
 pub struct OutputFolder {
     path: PathBuf,
+    /// The folders that were made for it, the innermost first.
+    made: Vec<PathBuf>,
 }
 
 impl OutputFolder {
@@ -23,11 +25,16 @@ impl OutputFolder {
                 path.display()
             )
         };
+        let missing = path
+            .ancestors()
+            .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        let folder = OutputFolder {
+            path: path.to_owned(),
+            made: missing.map(Path::to_owned).collect(),
+        };
         std::fs::create_dir_all(path).with_context(refused)?;
         tempfile::NamedTempFile::new_in(path).with_context(refused)?;
-        Ok(OutputFolder {
-            path: path.to_owned(),
-        })
+        Ok(folder)
     }
 
     /// Writes the files of one run together, see [`Writing`].
@@ -102,6 +109,18 @@ impl OutputFolder {
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.path
+    }
+}
+
+/// A run that was refused or failed leaves no folder behind that was not there before.
+impl Drop for OutputFolder {
+    fn drop(&mut self) {
+        for folder in &self.made {
+            // One with files in it is no empty one, and stays.
+            if std::fs::remove_dir(folder).is_err() {
+                break;
+            }
+        }
     }
 }
 

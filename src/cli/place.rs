@@ -5,17 +5,17 @@ use crate::report::PlaceReport;
 use crate::scene::{Freed, Scene};
 use clap::{Args, ValueEnum};
 
-use super::common::{Common, of_option};
+use super::common::{Common, count, number, of_option};
 use super::free::named_bounds;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter place my-saw.json            radius, angle, stiffness of guides[0]
-  sawflutter place my-saw.json --free guides[0].radius_m=0.2..0.3 \\
-    --free guides[0].angle_deg=-90..-20 --min-critical-rpm 1500
-  sawflutter place --goal window          widest window around operating_rpm
+  sawflutter place my-saw.json   # radius, angle, stiffness of guides[0]
+  sawflutter place my-saw.json --free \"guides[0].radius_m=0.2..0.3\" \\
+    --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
+  sawflutter place --goal window # widest window around operating_rpm
 The best saw is placed-scene.json; hold it against `check` and `cut`.
 
 Every saw counts as the worst of those whose numbers are off by tolerances of
@@ -37,16 +37,16 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = "flutter")]
     goal: GoalName,
     /// Least lowest critical speed
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
     /// Saws spread over the bounds at first
-    #[arg(long, value_name = "COUNT", default_value_t = 64)]
+    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>)]
     samples: usize,
     /// Steps that the refinement of each of the best places may take, each a saw and those around it
-    #[arg(long, value_name = "COUNT", default_value_t = 60)]
+    #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>)]
     refine: u64,
     /// Points of the map along each axis; 0 for none
-    #[arg(long, value_name = "COUNT", default_value_t = 17)]
+    #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>)]
     map: usize,
 }
 

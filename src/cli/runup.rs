@@ -11,9 +11,9 @@ use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter runup                           the built-in saw, 0 to 4000 rpm
-  sawflutter runup my-saw.json --out runup   your own saw
-  sawflutter runup --json | jq '.bands[]'    for scripts
+  sawflutter runup                         # the built-in saw, 0 to 4000 rpm
+  sawflutter runup my-saw.json --out runup # your own saw
+  sawflutter runup --json | jq '.bands[]'  # for scripts
 
 Speeds, duration and force are the scene's `runup`, the probe its `probe`.";
 

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::report::Report;
+use crate::report::{OperatingEntry, Report, StabilityState};
 use crate::scene::Scene;
 use anyhow::bail;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::common::{Output, is_standard_input};
 use super::in_words;
 
-use crate::summary::shortened;
+use crate::summary::{shortened, wrapped};
 
 /// What is written beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
@@ -21,27 +21,35 @@ pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
 struct Row {
     /// Where its files are, below the folder of all.
     folder: String,
-    name: String,
+    /// Of the scene, where it could be read.
+    name: Option<String>,
     lowest_critical_rpm: Option<f64>,
     flutter_speed_rpm: Option<f64>,
+    operating_rpm: Option<f64>,
+    /// Operating speed over lowest critical speed.
+    of_lowest_critical: Option<f64>,
+    /// Whether it can run at its operating speed, in words.
+    verdict: Option<&'static str>,
     instabilities: usize,
     warnings: usize,
     /// Why there is nothing, where the scene could not be charted.
     error: Option<String>,
 }
 
-/// Charts every scene that can be into a folder of its own, and prints and writes the table.
+/// Charts every scene that can be into a folder of its own, and prints and writes the table; a scene
+/// that was refused is an error in it.
 pub fn run(
     output: &Output,
     paths: &[PathBuf],
-    scenes: &[Scene],
+    scenes: Vec<anyhow::Result<Scene>>,
     chart_into: impl Fn(&Scene, &Path) -> anyhow::Result<Report>,
 ) -> anyhow::Result<()> {
     let all = output.folder()?;
     let mut rows = Vec::new();
     for (folder, scene) in folders(paths).into_iter().zip(scenes) {
-        let found = chart_into(scene, &all.path().join(&folder));
-        rows.push(Row::new(folder, scene, found));
+        let name = scene.as_ref().ok().map(|scene| scene.file().name.clone());
+        let found = scene.and_then(|scene| chart_into(&scene, &all.path().join(&folder)));
+        rows.push(Row::new(folder, name, found));
     }
     let json = serde_json::to_string_pretty(&rows)?;
     let files = [
@@ -73,21 +81,37 @@ fn folders(paths: &[PathBuf]) -> Vec<String> {
 }
 
 impl Row {
-    fn new(folder: String, scene: &Scene, found: anyhow::Result<Report>) -> Self {
+    fn new(folder: String, name: Option<String>, found: anyhow::Result<Report>) -> Self {
         let (report, error) = match found {
             Ok(report) => (Some(report), None),
             Err(error) => (None, Some(in_words(&error))),
         };
         let of = report.as_ref();
+        let operating = of.and_then(|r| r.operating.as_ref());
         Row {
             folder,
-            name: scene.file().name.clone(),
+            name,
             lowest_critical_rpm: of.and_then(|r| r.critical_speeds.first()).map(|c| c.rpm),
             flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
+            operating_rpm: operating.map(|o| o.rpm),
+            of_lowest_critical: operating.and_then(|o| o.of_lowest_critical),
+            verdict: operating.map(verdict),
             instabilities: of.map_or(0, |r| r.instabilities.len()),
             warnings: of.map_or(0, |r| r.unusual_numbers.len() + r.warnings.len()),
             error,
         }
+    }
+}
+
+/// Whether a saw can run at its operating speed, as its summary says.
+fn verdict(operating: &OperatingEntry) -> &'static str {
+    match operating.verdict {
+        StabilityState::Stable if operating.at_critical_rpm.is_some() => "at critical",
+        StabilityState::Stable if operating.within_limit == Some(false) => "past the limit",
+        StabilityState::Stable => "stable",
+        StabilityState::Divergence => "divergence",
+        StabilityState::Flutter => "flutter",
+        StabilityState::OutsideSweep => "outside sweep",
     }
 }
 
@@ -101,24 +125,35 @@ fn csv(rows: &[Row]) -> anyhow::Result<Vec<u8>> {
 
 fn table(rows: &[Row]) -> String {
     let mut text = String::from(
-        "                          lowest critical    flutter      bands   warnings\n\
-         scene                               [rpm]      [rpm]\n",
+        "                        critical   flutter   runs at      of\n\
+         scene                      [rpm]     [rpm]     [rpm]  crit.  verdict\n",
     );
     let speed = |rpm: Option<f64>| rpm.map_or("-".to_owned(), |rpm| format!("{rpm:.1}"));
+    let percent =
+        |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.0} %", 1e2 * share));
     for row in rows {
-        let folder = shortened(&row.folder, 26);
+        let folder = shortened(&row.folder, 23);
         // Writing to a string cannot fail.
         let _ = match &row.error {
-            Some(error) => writeln!(text, "{folder:<26} failed: {error}"),
+            Some(error) => writeln!(
+                text,
+                "{}",
+                wrapped(&format!("{folder:<23} failed: {error}"))
+            ),
             None => writeln!(
                 text,
-                "{folder:<26} {:>14} {:>10} {:>10} {:>10}",
+                "{folder:<23} {:>8} {:>9} {:>9} {:>6}  {}{}",
                 speed(row.lowest_critical_rpm),
                 speed(row.flutter_speed_rpm),
-                row.instabilities,
-                row.warnings
+                speed(row.operating_rpm),
+                percent(row.of_lowest_critical),
+                row.verdict.unwrap_or("-"),
+                if row.warnings > 0 { " *" } else { "" }
             ),
         };
+    }
+    if rows.iter().any(|row| row.warnings > 0) {
+        text += "* with warnings: see its report.json\n";
     }
     text
 }

@@ -2,7 +2,7 @@
 
 use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
@@ -19,16 +19,14 @@ use super::scheduler;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter study saw.json study.json --out runs   all saws; run it again to go
-                                                    on after a stop
+  # All saws; the same line again goes on after a stop
+  sawflutter study saw.json study.json --out runs
+  # One of eight parts, for the third of eight machines
   sawflutter study saw.json study.json --out runs --shard 3/8
-                                                    one of eight parts, for the
-                                                    third of eight machines
-  sawflutter study merge runs --out result          the parts together, the same
-                                                    bytes as from one machine
-
+  # The parts together, the same bytes as from one machine
+  sawflutter study merge runs --out result
+  # On a cluster of Dask
   sawflutter study saw.json study.json --out runs --scheduler tcp://host:8786
-                                                    on a cluster of Dask
 
 In a job array of 8:
   sawflutter study saw.json study.json --out runs --shard $SLURM_ARRAY_TASK_ID/8
@@ -143,7 +141,9 @@ fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result
     let missing = log.finished().clone().into_missing();
     let missing = missing.filter(|index| shard.holds(*index));
     let bar = progress_bar(done, of);
-    let log = Mutex::new(log);
+    let log = Arc::new(Mutex::new(log));
+    #[cfg(feature = "explore")]
+    tell_when_interrupted(Arc::clone(&log), of);
     study.run(None, missing, &|saw| {
         let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
         log.append(study, &saw)?;
@@ -153,6 +153,32 @@ fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result
     bar.finish_and_clear();
     Ok(())
 }
+
+/// Ends the program at Ctrl-C between two rows of the log, and says how it goes on.
+#[cfg(feature = "explore")]
+fn tell_when_interrupted(log: Arc<Mutex<Log>>, of: usize) {
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_io()
+        .build();
+    // Where the signal cannot be waited for, it ends the program without a word.
+    let Ok(runtime) = runtime else {
+        return;
+    };
+    std::thread::spawn(move || {
+        if runtime.block_on(tokio::signal::ctrl_c()).is_ok() {
+            let log = log.lock().unwrap_or_else(PoisonError::into_inner);
+            let done = log.finished().done();
+            eprintln!(
+                "\nStopped: {done} of {of} saws are in the log; the same command goes on with the others."
+            );
+            std::process::exit(INTERRUPTED);
+        }
+    });
+}
+
+/// Exit code of a program that Ctrl-C has ended, as shells give it: 128 and the number of the signal.
+#[cfg(feature = "explore")]
+const INTERRUPTED: i32 = 130;
 
 /// The time left is judged by the saws of this run.
 fn progress_bar(done: usize, of: usize) -> ProgressBar {

@@ -11,8 +11,8 @@ use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter tradeoff                            the built-in saw
-  sawflutter tradeoff my-saw.json --out digits   your own saw";
+  sawflutter tradeoff                          # the built-in saw
+  sawflutter tradeoff my-saw.json --out digits # your own saw";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -4,16 +4,16 @@ use crate::report::WashboardReport;
 use crate::washboarding::Washboard;
 use clap::Args;
 
-use super::common::Common;
+use super::common::{Common, number};
 use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter washboard my-saw.json                        is the board smooth?
-  sawflutter washboard my-saw.json --rpm 2400             at another speed
-  sawflutter washboard my-saw.json --json | jq .verdict   for scripts
+  sawflutter washboard my-saw.json                      # is the board smooth?
+  sawflutter washboard my-saw.json --rpm 2400           # at another speed
+  sawflutter washboard my-saw.json --json | jq .verdict # for scripts
 
 The cutting stiffness is the scene's `cut.washboarding`; `sawflutter schema`
 says what that may contain.";
@@ -23,7 +23,7 @@ pub struct Arguments {
     #[command(flatten)]
     common: Common,
     /// Speed to cut at; the scene's operating speed by default
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Option<f64>,
 }
 

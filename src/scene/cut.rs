@@ -8,6 +8,7 @@ use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
 use super::wood::Wood;
 use super::{Blade, RefusedValue, SceneError, SceneFile, rad_per_s};
+use crate::text::shown;
 
 /// A validated cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -217,7 +218,10 @@ fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneErr
     };
     let diameter_m = 2.0 * blade.outer_radius_m;
     if !(depth_m > 0.0 && depth_m <= diameter_m) {
-        let allowed = format!("above 0 and at most the blade's diameter ({diameter_m})");
+        let allowed = format!(
+            "above 0 and at most the blade's diameter ({})",
+            shown(diameter_m)
+        );
         let remedy = "give the depth of cut in metres";
         return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
     }

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Parameter, RefusedValue, Scene, SceneError, SceneFile};
+use crate::text::shown;
 
 /// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] see it as a share
 /// between 0 and 1, of the distance between the bounds or of its logarithm.
@@ -37,7 +38,13 @@ impl Freed {
             let key = format!("the range of {path}");
             let allowed = "from a number to a larger one";
             let remedy = "write it like 0.15..0.3";
-            return Err(RefusedValue::new(key, format!("{from}..{to}"), allowed, remedy).into());
+            return Err(RefusedValue::new(
+                key,
+                format!("{}..{}", shown(from), shown(to)),
+                allowed,
+                remedy,
+            )
+            .into());
         }
         for bound in [from, to] {
             scene.with(&[(&parameter, bound)])?;

@@ -2,6 +2,7 @@
 
 use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
 use super::{Blade, GuideFile, SceneError};
+use crate::text::shown;
 
 /// A guide pad on the blade, in radians.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +75,8 @@ pub fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, Scene
     if !touches {
         let allowed = format!(
             "such that the pad lies on the blade, which reaches from r = {} to {} m",
-            blade.inner_radius_m, blade.outer_radius_m
+            shown(blade.inner_radius_m),
+            shown(blade.outer_radius_m)
         );
         let remedy = "this pad is wholly off the blade; move it, or leave it out";
         return Err(refuse(&of("radius_m"), pad.radius_m, allowed, remedy));

@@ -8,6 +8,7 @@ use super::check::{ascending, few, positive, refuse, within};
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
 use super::{Blade, SceneError};
+use crate::text::shown;
 
 /// Stress in the plane of the blade, the same all around. What is not named is not there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -198,7 +199,10 @@ fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape,
     let outer = blade.outer_radius_m;
     // Closer to the rim the rise is a jump at a point.
     if !(0.0..=0.999 * outer).contains(&from_radius_m) {
-        let allowed = format!("from 0 to 0.999 of the radius of the rim ({outer})");
+        let allowed = format!(
+            "from 0 to 0.999 of the radius of the rim ({})",
+            shown(outer)
+        );
         let remedy = "the rise begins there and ends at the rim";
         let key = "membrane.temperature.from_radius_m";
         return Err(refuse(key, from_radius_m, allowed, remedy));
@@ -249,7 +253,11 @@ impl RollBand {
         let (from_radius_m, to_radius_m) = (radius - 0.5 * width, radius + 0.5 * width);
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         if from_radius_m < inner || to_radius_m > outer {
-            let allowed = format!("such that its band lies on the blade, from {inner} to {outer}");
+            let allowed = format!(
+                "such that its band lies on the blade, from {} to {}",
+                shown(inner),
+                shown(outer)
+            );
             let remedy = "roll the moving part of the blade; is width_m the whole width?";
             return Err(refuse(&key("radius_m"), radius, allowed, remedy));
         }

@@ -52,11 +52,14 @@ pub use membrane::{MembraneFile, RollBandFile, TemperatureFile, TemperatureRow};
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
-#[cfg(feature = "explore")]
-pub(crate) use quantity::{QUANTITIES, Quantity};
+#[cfg(any(test, feature = "explore"))]
+pub(crate) use quantity::QUANTITIES;
+#[cfg(feature = "cli")]
+pub(crate) use quantity::Quantity;
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub(crate) use refused::Given;
 pub use refused::RefusedValue;
 pub(crate) use residual::ResidualStress;
 pub use residual::ResidualStressRow;

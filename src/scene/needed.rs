@@ -5,6 +5,7 @@ use super::{
     Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, SpeedRange, Washboarding,
     rad_per_s, rpm,
 };
+use crate::text::shown;
 
 impl Scene {
     /// The cut, for a command that cannot do without.
@@ -121,8 +122,11 @@ impl SpeedRange {
         if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
             return Ok(speed);
         }
-        let (from, to) = (told(from), told(to));
-        let allowed = format!("from {from} to {to}, the speeds of the sweep");
+        let allowed = format!(
+            "from {} to {}, the speeds of the sweep",
+            shown(told(from)),
+            shown(told(to))
+        );
         let remedy = "name one of these, or widen `sweep` in the scene";
         Err(RefusedValue::new(key, rpm, allowed, remedy))
     }
@@ -133,7 +137,7 @@ pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> 
     if rpm > 0.0 && rpm <= MAX_RPM {
         return Ok(rad_per_s(rpm));
     }
-    let allowed = format!("above 0 and at most {MAX_RPM:e}");
+    let allowed = format!("above 0 and at most {}", shown(MAX_RPM));
     let remedy = "give it in revolutions per minute";
     Err(RefusedValue::new(key, rpm, allowed, remedy))
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_RPM, refuse, within};
 use super::{Blade, SceneError, SpeedRange, rad_per_s};
+use crate::text::shown;
 
 /// Run-up at a constant rate, under a constant lateral force fixed in space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,7 +68,7 @@ impl RunUp {
         let from = within("runup.from_rpm", typed.from_rpm, (0.0, MAX_RPM))?;
         let to = within("runup.to_rpm", typed.to_rpm, (0.0, MAX_RPM))?;
         if to <= from {
-            let allowed = format!("more than runup.from_rpm ({from})");
+            let allowed = format!("more than runup.from_rpm ({})", shown(from));
             let remedy = "a run-up goes from a lower to a higher speed";
             return Err(refuse("runup.to_rpm", to, allowed, remedy));
         }
@@ -104,7 +105,7 @@ impl Probe {
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         let radius_m = typed.and_then(|probe| probe.radius_m).unwrap_or(outer);
         if !(inner..=outer).contains(&radius_m) {
-            let allowed = format!("on the blade, from {inner} to {outer}");
+            let allowed = format!("on the blade, from {} to {}", shown(inner), shown(outer));
             let remedy = "put the probe over the moving part of the blade";
             return Err(refuse("probe.radius_m", radius_m, allowed, remedy));
         }

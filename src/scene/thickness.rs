@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{positive, refuse, within};
 use super::{Blade, BladeFile, RefusedValue, SceneError, SceneFile};
+use crate::text::shown;
 
 /// Thickness at one radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -139,8 +140,9 @@ fn check_radius(
         return Ok(());
     }
     let allowed = format!(
-        "from {least} to the radius of the rim ({}), and each radius at most twice",
-        blade.outer_radius_m
+        "from {} to the radius of the rim ({}), and each radius at most twice",
+        shown(least),
+        shown(blade.outer_radius_m)
     );
     let remedy = "list the rows from the bore to the rim; two rows of one radius make a step";
     Err(refuse(key, radius, allowed, remedy))
@@ -154,8 +156,10 @@ fn check_thickness(key: &str, thickness_m: f64, blade: &Blade) -> Result<(), Sce
         return Ok(());
     }
     let allowed = format!(
-        "from {low:e} to {high:e}: a tenth to ten times blade.thickness_m, and not more than the \
-         width of the moving ring"
+        "from {} to {}: a tenth to ten times blade.thickness_m, and not more than the width of the \
+         moving ring",
+        shown(low),
+        shown(high)
     );
     let remedy = "give the thickness of the plate at this radius in metres";
     Err(refuse(key, thickness_m, allowed, remedy))
@@ -180,7 +184,11 @@ impl RimMass {
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         let radius_m = typed.radius_m.unwrap_or(outer);
         if !(radius_m > inner && radius_m <= outer) {
-            let allowed = format!("on the moving blade, above {inner} and at most {outer}");
+            let allowed = format!(
+                "on the moving blade, above {} and at most {}",
+                shown(inner),
+                shown(outer)
+            );
             let remedy = "what stands out beyond the rim counts at the rim";
             return Err(refuse("blade.rim.radius_m", radius_m, allowed, remedy));
         }

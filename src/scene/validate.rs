@@ -12,6 +12,7 @@ use super::{
     DampingFile, ExcitationLine, Material, Mount, SceneError, SceneFile, Spline, SweepFile,
     rad_per_s,
 };
+use crate::text::shown;
 
 /// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-8.
 const TOLERANCES: (f64, f64) = (1e-7, 0.1);
@@ -79,7 +80,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
     let bore = positive("blade.inner_diameter_m", typed.inner_diameter_m)?;
     let thickness_m = positive("blade.thickness_m", typed.thickness_m)?;
     if bore >= outer {
-        let allowed = format!("less than blade.outer_diameter_m ({outer})");
+        let allowed = format!("less than blade.outer_diameter_m ({})", shown(outer));
         let remedy = "a bore is smaller than its blade; were the two exchanged?";
         return Err(refuse("blade.inner_diameter_m", bore, allowed, remedy));
     }
@@ -91,7 +92,11 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
             in_plane,
         } => {
             if !(bore..outer).contains(&diameter_m) {
-                let allowed = format!("from the bore ({bore}) to below the rim ({outer})");
+                let allowed = format!(
+                    "from the bore ({}) to below the rim ({})",
+                    shown(bore),
+                    shown(outer)
+                );
                 let remedy = "give the outer diameter of the collar";
                 return Err(refuse("mount.diameter_m", diameter_m, allowed, remedy));
             }
@@ -99,7 +104,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         }
     };
     if inner > 0.999 * outer {
-        let allowed = format!("at most 0.999 of blade.outer_diameter_m ({outer})");
+        let allowed = format!("at most 0.999 of blade.outer_diameter_m ({})", shown(outer));
         let remedy = "a narrower ring is a wire, which plate theory does not describe";
         let key = match bore {
             Bore::Free => "blade.inner_diameter_m",
@@ -109,7 +114,7 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
     }
     let width = 0.5 * (outer - inner);
     if thickness_m > width {
-        let allowed = format!("at most the width of the moving ring ({width} m)");
+        let allowed = format!("at most the width of the moving ring ({} m)", shown(width));
         let remedy = "a body thicker than wide is no plate; is the thickness in metres?";
         return Err(refuse("blade.thickness_m", thickness_m, allowed, remedy));
     }
@@ -169,7 +174,7 @@ fn sweep(typed: &SweepFile) -> Result<SpeedRange, SceneError> {
     let from = within("sweep.from_rpm", typed.from_rpm, (0.0, MAX_RPM))?;
     let to = within("sweep.to_rpm", typed.to_rpm, (0.0, MAX_RPM))?;
     if to <= from {
-        let allowed = format!("more than sweep.from_rpm ({from})");
+        let allowed = format!("more than sweep.from_rpm ({})", shown(from));
         let remedy = "a sweep runs from a lower to a higher speed";
         return Err(refuse("sweep.to_rpm", to, allowed, remedy));
     }

@@ -9,6 +9,7 @@ use super::check::{MAX_GUIDES, refuse, within};
 use super::teeth_in_cut::TeethInCut;
 use super::wood::Wood;
 use super::{RefusedValue, SceneError};
+use crate::text::shown;
 
 /// The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the surface
 /// that the tooth before it has left at the same place in space, one tooth period τ ago.
@@ -62,7 +63,7 @@ impl Washboarding {
         let key = |name: &str| format!("cut.washboarding.{name}");
         let stiffness = typed.stiffness_n_per_m;
         if !(stiffness > 0.0 && stiffness <= MAX_CUTTING_STIFFNESS) {
-            let allowed = format!("above 0 and at most {MAX_CUTTING_STIFFNESS:e}");
+            let allowed = format!("above 0 and at most {}", shown(MAX_CUTTING_STIFFNESS));
             let remedy = "give it in N/m, or take washboarding out";
             return Err(refuse(
                 &key("stiffness_n_per_m"),

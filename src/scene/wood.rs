@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::check::{MAX_GUIDE, refuse, within};
 use super::teeth_in_cut::TeethInCut;
 use super::{Blade, SceneError};
+use crate::text::shown;
 
 /// Wood in the kerf, a spring and a damper that stand in space around the middle of the cut.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,7 +56,7 @@ impl Wood {
             None => teeth.arc_rad(),
         };
         if !(0.0..=width).contains(&typed.depth_m) {
-            let allowed = format!("from 0 to the width of the moving ring ({width})");
+            let allowed = format!("from 0 to the width of the moving ring ({})", shown(width));
             let remedy = "say how far from the rim the wood touches the blade";
             return Err(refuse(&key("depth_m"), typed.depth_m, allowed, remedy));
         }

@@ -4,6 +4,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::file::{DistributionFile, StudyError};
 use crate::scene::RefusedValue;
+use crate::text::shown;
 
 /// Beyond these a normal distribution is a uniform one, or none that is cut off.
 const TRUNCATION: (f64, f64) = (0.1, 8.0);
@@ -38,8 +39,8 @@ impl Distribution {
             }
             DistributionFile::Uniform { from, to } => Err(StudyError::Value(RefusedValue {
                 key: format!("{key}.to"),
-                value: to.to_string(),
-                allowed: format!("above from, {from}"),
+                value: shown(*to),
+                allowed: format!("above from, {}", shown(*from)),
                 remedy: "exchange them, or leave a number that does not vary out of the study",
             })),
             DistributionFile::Normal {
@@ -110,7 +111,7 @@ fn grid(values: &[f64], key: &str) -> Result<Distribution, StudyError> {
     }
     match repeated {
         Some(k) => {
-            let twice = format!("a list with {} twice", values[k]);
+            let twice = format!("a list with {} twice", shown(values[k]));
             Err(refuse(twice, "of different values".into()))
         }
         None => Ok(Distribution::Grid(values.to_vec())),

@@ -13,7 +13,7 @@ use super::file::{StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
 use crate::check::{Criterion, Limits, LimitsFile};
 use crate::plate::Resolution;
-use crate::scene::{Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
+use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
 use crate::spectrum::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis};
 
@@ -184,7 +184,7 @@ impl Study {
 
 fn refuse(
     key: impl Into<String>,
-    value: impl ToString,
+    value: impl Given,
     allowed: impl Into<String>,
     remedy: &'static str,
 ) -> StudyError {

@@ -5,6 +5,7 @@ use std::fmt::{Result, Write};
 use super::wrapped;
 use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
+use crate::text::shown_to;
 
 /// Whether the saw can run at its speed, and at which others.
 pub fn answer(text: &mut String, report: &Report) -> Result {
@@ -226,8 +227,8 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
     if let Some(error) = report.accuracy.estimated_relative_error {
         writeln!(
             text,
-            "Estimated error of the critical speeds: {:.3} % ({} functions)",
-            100.0 * error,
+            "Estimated error of the critical speeds: {} % ({} functions)",
+            shown_to(2, 100.0 * error),
             report.accuracy.degrees_of_freedom
         )?;
     }

@@ -207,10 +207,12 @@ fn scene_in(folder: &TempDir, name: &str, file: &SceneFile) -> PathBuf {
 #[test]
 fn several_scenes_make_a_folder_each_and_a_table() {
     let folder = TempDir::new().unwrap();
-    let mut thick = quick_scene();
+    let mut thin = quick_scene();
+    thin.operating_rpm = Some(1250.0);
+    let mut thick = thin.clone();
     thick.blade.thickness_m *= 1.5;
     let scenes = [
-        scene_in(&folder, "one/thin.json", &quick_scene()),
+        scene_in(&folder, "one/thin.json", &thin),
         scene_in(&folder, "two/thin.json", &thick),
     ];
     let paths = scenes.each_ref().map(|path| path.to_str().unwrap());
@@ -221,7 +223,7 @@ fn several_scenes_make_a_folder_each_and_a_table() {
         names_in(&out),
         ["scenes.csv", "scenes.json", "thin", "thin-2"]
     );
-    assert_eq!(reported(&out.join("thin")), quick_scene());
+    assert_eq!(reported(&out.join("thin")), thin);
     assert_eq!(reported(&out.join("thin-2")), thick);
     // The table says what the reports say.
     let rows: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -231,6 +233,13 @@ fn several_scenes_make_a_folder_each_and_a_table() {
         assert_eq!(row["folder"], name);
         assert_eq!(row["lowest_critical_rpm"], report.critical_speeds[0].rpm);
         assert_eq!(row["instabilities"], report.instabilities.len());
+        assert_eq!(row["operating_rpm"], 1250.0);
+        let operating = report.operating.unwrap();
+        assert_eq!(
+            row["of_lowest_critical"],
+            operating.of_lowest_critical.unwrap()
+        );
+        assert_eq!(row["verdict"], "stable");
     }
     let table = run(&[paths[0], paths[1]], &folder);
     for line in text(&table.stdout).lines() {
@@ -257,6 +266,34 @@ fn several_scenes_are_read_before_the_first_is_computed() {
         "{message}"
     );
     assert!(!out(&folder).exists());
+    // Where the others are wanted all the same, it is an error of the table.
+    let output = run(&[&paths[..], &["--keep-going"]].concat(), &folder);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("1 of 2 scenes"));
+    let table = text(&output.stdout);
+    assert!(
+        table.contains("failed: ") && table.contains("blade.thickness_m"),
+        "{table}"
+    );
+    assert_eq!(
+        names_in(&out(&folder)),
+        ["good", "scenes.csv", "scenes.json"]
+    );
+}
+
+/// A refused run leaves no folder that was not there before.
+#[test]
+fn a_refused_run_leaves_no_empty_folder() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    file.sweep.as_mut().unwrap().to_rpm = 4e5;
+    let scene = write_scene(&folder, &file);
+    let inside = folder.path().join("results/of/today");
+    let mut command = sawflutter();
+    let arguments = ["analyze", scene.to_str().unwrap(), "--out"];
+    let output = command.args(arguments).arg(&inside).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
+    assert!(!folder.path().join("results").exists());
 }
 
 #[test]

@@ -195,6 +195,41 @@ fn a_killed_run_goes_on_and_computes_nothing_twice() {
     bench.assert_same_result("whole", "killed");
 }
 
+/// Ctrl-C: a closing line says what is there, and the exit code that it was stopped.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_says_how_it_goes_on() {
+    let bench = Bench::new();
+    bench.write_study(LONG);
+    let child = bench
+        .command("stopped", &[])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begun = Instant::now();
+    while bench.rows("stopped/study.log").len() < 3 {
+        assert!(
+            begun.elapsed() < Duration::from_secs(60),
+            "no saw in a minute"
+        );
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let id = child.id().to_string();
+    let sent = std::process::Command::new("kill")
+        .args(["-INT", &id])
+        .status();
+    assert!(sent.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let done = bench.rows("stopped/study.log").len();
+    let said = text(&output.stderr);
+    assert!(
+        said.contains(&format!("Stopped: {done} of {LONG} saws")),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_torn_last_line_costs_one_saw_and_a_finished_study_none() {
     let bench = Bench::new();

@@ -141,6 +141,7 @@ fn examples_of_every_help_fit_80_columns() {
         "study",
         "tradeoff",
         "export",
+        "keys",
         "schema",
         "washboard",
     ];

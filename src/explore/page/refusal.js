@@ -2,8 +2,6 @@
 
 import { shown, tidy, unitOf, whichOf } from "./words.js";
 
-// Bounds so far apart only keep numbers from overflowing: what is usual says more.
-const FAR = 1e9;
 // Units whose fields have names that need the rest of the form around them, such as "from" and "idle".
 const SHORT = ["rpm", "s", "1/s", "N per tooth"];
 const NUMBER = "[-−]?\\d+(?:\\.\\d+)?(?:e[-+]?\\d+)?";
@@ -31,13 +29,16 @@ export class Refusals {
     if (typeof typed !== "number") return `${subject} must be a number${unit && `, in ${unit}`}`;
     if (allowed === null) return null;
     const between = new RegExp(`^between (${NUMBER}) and (${NUMBER})$`).exec(allowed);
-    if (!between) return `${subject} must be ${this.#converted(path, allowed, { unit, scale, inUnit })}`;
-    const [from, to] = between.slice(1).map(numberOf);
-    const isNarrow = from === 0 || Math.sign(from) !== Math.sign(to) ? to - from < FAR : to / from < FAR;
-    if (isNarrow) return `${subject} must be between ${inUnit(from)} and ${inUnit(to)}${of}`;
-    const usual = quantity ? `; usual: ${quantity.usual.map((value) => inUnit(value, 3)).join(" to ")}${of}` : "";
-    if (typed <= from && from >= 0) return `${subject} must be ${from > 0 ? "above" : "at least"} 0${of}${usual}`;
-    return `${subject} is too ${typed < 0 ? "small" : "large"}${usual}`;
+    if (between) {
+      const [from, to] = between.slice(1).map((value) => inUnit(numberOf(value)));
+      return `${subject} must be between ${from} and ${to}${of}`;
+    }
+    // A bound that only keeps numbers from overflowing, and what saws have.
+    const bound = new RegExp(`^(above|at least|at most) (${NUMBER})(?:;|$)`).exec(allowed);
+    if (!bound || !quantity) return `${subject} must be ${this.#converted(path, allowed, { unit, scale, inUnit })}`;
+    const usual = `; usual: ${quantity.usual.map((value) => inUnit(value, 3)).join(" to ")}${of}`;
+    if (numberOf(bound[2]) === 0) return `${subject} must be ${bound[1]} 0${of}${usual}`;
+    return `${subject} is too ${bound[1] === "at most" ? "large" : "small"}${usual}`;
   }
 
   // Numbers in the unit of the field, paths by their names.
