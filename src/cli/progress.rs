@@ -33,8 +33,9 @@ fn show(bar: &ProgressBar, stage: Stage) {
 }
 
 fn in_words(stage: Stage) -> String {
-    match stage.eigenproblems {
-        0 => stage.what.to_owned(),
-        count => format!("{}, {count} eigenproblems", stage.what),
+    match (stage.what, stage.eigenproblems) {
+        (what, 0) => what.to_owned(),
+        ("", count) => format!("{count} eigenproblems"),
+        (what, count) => format!("{what}, {count} eigenproblems"),
     }
 }

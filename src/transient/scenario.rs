@@ -3,7 +3,7 @@
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Cut, CutRun, RunUp, Scene, SceneError, SpeedRange};
-use crate::spectrum::Mode;
+use crate::spectrum::{Mode, Work};
 use crate::stability::{Analysis, ChosenBasis};
 
 use super::{
@@ -52,6 +52,9 @@ const MAP_TURN_DEG: (f64, f64) = (30.0, 2.5);
 /// Highest load level of the map, and its steps.
 const MAP_LOAD: (f64, f64) = (1.5, 0.1);
 
+/// The saw under the forces, time history, teeth and map.
+const PARTS: usize = 4;
+
 impl Cutting {
     /// Computes speeds of the scene's cut, see [`Cut::runs_at`].
     ///
@@ -73,17 +76,26 @@ impl Cutting {
         };
         let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
         let points = turns.len() * levels.len();
+        let parts = Work::of("parts of the cut", PARTS * runs.len());
         let runs = runs
             .iter()
             .enumerate()
             .map(|(index, run)| {
                 let of = |done: usize, _| progress(index * points + done, runs.len() * points);
                 let saw = SawInCut::new(&plate, cut, run)?;
+                parts.advance();
+                let history = cut_history(&saw, scene.probe())?;
+                parts.advance();
+                let passing = tooth_passing(&saw, scene.probe(), stages(cut))?;
+                parts.advance();
+                let spline = on_spline(scene, &plate, cut, run)?;
+                let map = verdict_map(&saw, (&turns, &levels), &of)?;
+                parts.advance();
                 Ok(CuttingRun {
-                    history: cut_history(&saw, scene.probe())?,
-                    passing: tooth_passing(&saw, scene.probe(), stages(cut))?,
-                    spline: on_spline(scene, &plate, cut, run)?,
-                    map: verdict_map(&saw, (&turns, &levels), &of)?,
+                    history,
+                    passing,
+                    map,
+                    spline,
                 })
             })
             .collect::<Result<Vec<_>, TransientError>>()?;

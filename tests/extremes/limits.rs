@@ -2,7 +2,7 @@
 
 use sawflutter::campbell::{CampbellError, even_speeds, sample};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s};
+use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
 
@@ -84,4 +84,32 @@ fn what_would_not_fit_is_refused_with_the_number() {
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
     assert!(message.contains("more than 1024 MB"), "{message}");
+}
+
+/// A sweep whose chart would not fit is told where it may end: at a critical speed, for each beyond it takes three speeds.
+#[test]
+fn a_chart_that_would_not_fit_is_told_where_its_sweep_may_end() {
+    let plate = Plate::new(&scene(&paper()), SMALL);
+    let range = (0.0, rad_per_s(3000.0));
+    let model = SpectralModel::new(plate.clone(), range, Strategy::Reduced).unwrap();
+    let refusal = |speeds: usize| match sample(&model, &even_speeds(range, speeds), &|_, _| ()) {
+        Err(error) => error,
+        Ok(_) => panic!("{speeds} speeds fit"),
+    };
+    let hopeless = refusal(10_000_000);
+    let CampbellError::TooLarge { needed_mb, .. } = &hopeless else {
+        panic!("{hopeless}");
+    };
+    assert!(
+        !hopeless.to_string().contains("end the sweep"),
+        "{hopeless}"
+    );
+    let most = 1024.0 * 1e7 / *needed_mb as f64;
+    let message = refusal(most as usize + 4).to_string();
+    let critical = SpectralModel::critical_speeds(&plate).unwrap();
+    let critical = critical.iter().map(|c| c.speed_rad_per_s);
+    let within: Vec<f64> = critical.filter(|speed| *speed < range.1).collect();
+    let last = rpm(within[within.len() - 2]);
+    let expected = format!("end the sweep at {last:.0} rpm or earlier");
+    assert!(message.contains(&expected), "{expected}: {message}");
 }
