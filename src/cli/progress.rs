@@ -9,8 +9,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// Seen as movement.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Does work with a bar on the terminal's error stream, and without one where that is not a terminal. Loops that are
-/// no steps of an analysis are told by [`Progress::show`].
+/// Does work with a bar on the terminal's error stream, and without one where that is not a terminal. The loops
+/// of a command itself are shown by [`Progress::show`].
 pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Result<T> {
     if !std::io::stderr().is_terminal() {
         return Ok(work(&Progress::default()));

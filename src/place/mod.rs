@@ -322,10 +322,7 @@ fn look_everywhere(
     };
     let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
     let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
-    let cheapest = candidates.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
-    let best = cheapest
-        .cloned()
-        .ok_or(PlaceError::NoSaw { tried: samples })?;
+    let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
     let map = (options.map > 1).then(|| {
         let through_best = Map::unknown(search, options.map).through(&best.shares);
         grower.drawn(through_best, search, progress)
@@ -342,6 +339,11 @@ fn look_everywhere(
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
     Ok((candidates, map))
+}
+
+fn cheapest(tried: &[Tried]) -> Option<Tried> {
+    let least = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    least.cloned()
 }
 
 /// Parts the freed numbers into those that move a critical speed or a band, and the others.

@@ -9,10 +9,10 @@ use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, SpeedRange, scene_at};
 use crate::stability::ChosenBasis;
 
-use super::neighbours::Neighbours;
+use super::neighbours::{Neighbours, worst_cost};
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
-use super::{IDLE, PlaceError, Progress};
+use super::{IDLE, PlaceError, Progress, cheapest};
 
 /// First and last steps of the refinement on that basis, as shares of the bounds.
 const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
@@ -107,7 +107,8 @@ pub fn basis_of_all(
         .unwrap_or(own))
 }
 
-/// Holds the candidates against each other on the basis asked for, at the worst of their tolerances, and refines the best.
+/// Holds the candidates against each other on the basis asked for, at the worst of their tolerances, and refines the best, and
+/// besides it the one that is best by itself: a place that is wide enough may lie next to it.
 pub fn settle(
     search: &Search<'_>,
     candidates: &[Tried],
@@ -122,13 +123,22 @@ pub fn settle(
         })
         .collect();
     by_itself.sort_by(|x, y| x.cost.total_cmp(&y.cost));
-    let start = search.most_robust(&by_itself, 1, 0.0).pop()?;
-    let done = AtomicUsize::new(0);
+    let mut starts = search.most_robust(&by_itself, 1, 0.0);
+    let peak = by_itself.into_iter().next()?.shares;
+    if starts.iter().all(|start| start.shares != peak) {
+        let cost = worst_cost(search, &peak, f64::INFINITY);
+        starts.push(Tried { shares: peak, cost });
+    }
+    let (done, of) = (AtomicUsize::new(0), budget as usize * starts.len());
     let see = || {
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        progress("refinement", done.min(budget as usize), budget as usize);
+        progress("refinement", done.min(of), of);
     };
-    Some(search.refine(&start, FINE_STEPS, budget, &see))
+    let refined = starts.par_iter();
+    let refined: Vec<Tried> = refined
+        .map(|start| search.refine(start, FINE_STEPS, budget, &see))
+        .collect();
+    cheapest(&refined)
 }
 
 /// The scene with what was found and a note of where it comes from.

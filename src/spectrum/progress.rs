@@ -1,6 +1,6 @@
-//! How far a computation has come, told to whoever waits for it.
+//! How far a computation has come, for a progress callback.
 //!
-//! A loop over work of a known amount is a [`Work`]. Loops lie within loops: the one that was begun first is told, and in
+//! A loop over work of a known amount is a [`Work`]. Loops lie within loops: the one that was begun first is shown, and in
 //! between the number of eigenproblems moves, which counts wherever the cancellation flag is looked at.
 
 use std::cell::RefCell;
@@ -23,15 +23,15 @@ pub struct Stage {
     pub eigenproblems: usize,
 }
 
-/// Whoever is told how far a computation has come; nobody by default.
+/// The progress callback of a computation; none by default.
 #[derive(Clone, Default)]
-pub struct Progress(Option<Arc<Told>>);
+pub struct Progress(Option<Arc<Shared>>);
 
-struct Told {
-    tell: Box<dyn Fn(Stage) + Send + Sync>,
+struct Shared {
+    callback: Box<dyn Fn(Stage) + Send + Sync>,
     stage: Mutex<Stage>,
     eigenproblems: AtomicUsize,
-    /// Whether a step is being told.
+    /// Whether a loop is being shown.
     is_busy: AtomicBool,
 }
 
@@ -42,16 +42,16 @@ thread_local! {
 
 impl Progress {
     /// Calls a function whenever a computation has come further.
-    pub fn new(tell: impl Fn(Stage) + Send + Sync + 'static) -> Self {
-        Progress(Some(Arc::new(Told {
-            tell: Box::new(tell),
+    pub fn new(callback: impl Fn(Stage) + Send + Sync + 'static) -> Self {
+        Progress(Some(Arc::new(Shared {
+            callback: Box::new(callback),
             stage: Mutex::default(),
             eigenproblems: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
         })))
     }
 
-    /// Does work that tells how far it has come: on threads of its own, as many as the current pool has.
+    /// Does work with this progress callback: on threads of its own, as many as the current pool has.
     ///
     /// # Errors
     /// When the system gives no more threads.
@@ -59,7 +59,7 @@ impl Progress {
         &self,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, rayon::ThreadPoolBuildError> {
-        let pool = Cancellation::current().told_pool(self, rayon::current_num_threads())?;
+        let pool = Cancellation::current().pool_with(self, rayon::current_num_threads())?;
         Ok(pool.install(work))
     }
 
@@ -73,16 +73,16 @@ impl Progress {
         CURRENT.set(self.clone());
     }
 
-    /// Tells of a loop that is not a step: until it is done no step within it is told.
+    /// Shows a loop that is no [`Work`]: until it is done nothing within it is shown.
     pub fn show(&self, what: &'static str, done: usize, of: usize) {
-        if let Some(told) = &self.0 {
-            told.is_busy.store(done < of, Ordering::Relaxed);
-            told.at(what, done, of);
+        if let Some(shared) = &self.0 {
+            shared.is_busy.store(done < of, Ordering::Relaxed);
+            shared.at(what, done, of);
         }
     }
 }
 
-impl Told {
+impl Shared {
     fn stage(&self) -> MutexGuard<'_, Stage> {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -96,26 +96,26 @@ impl Told {
             of,
             eigenproblems,
         };
-        (self.tell)(*stage);
+        (self.callback)(*stage);
     }
 }
 
 /// One more eigenproblem is about to be solved for the computation of this thread.
 pub(super) fn count_eigenproblem() {
     CURRENT.with_borrow(|progress| {
-        if let Some(told) = &progress.0 {
-            let mut stage = told.stage();
-            stage.eigenproblems = 1 + told.eigenproblems.fetch_add(1, Ordering::Relaxed);
-            (told.tell)(*stage);
+        if let Some(shared) = &progress.0 {
+            let mut stage = shared.stage();
+            stage.eigenproblems = 1 + shared.eigenproblems.fetch_add(1, Ordering::Relaxed);
+            (shared.callback)(*stage);
         }
     });
 }
 
 /// A loop over work of a known amount.
 pub(crate) struct Work {
-    told: Option<Arc<Told>>,
-    /// Whether it is this step that is told.
-    is_told: AtomicBool,
+    shared: Option<Arc<Shared>>,
+    /// Whether it is this one that is shown.
+    is_shown: AtomicBool,
     what: &'static str,
     done: AtomicUsize,
     of: AtomicUsize,
@@ -125,20 +125,20 @@ impl Work {
     /// Begins a step of so many parts.
     pub fn of(what: &'static str, parts: usize) -> Self {
         let step = Work {
-            told: Progress::current().0,
-            is_told: AtomicBool::new(false),
+            shared: Progress::current().0,
+            is_shown: AtomicBool::new(false),
             what,
             done: AtomicUsize::new(0),
             of: AtomicUsize::new(parts),
         };
-        step.tell();
+        step.show();
         step
     }
 
     /// One more part is done.
     pub fn advance(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
-        self.tell();
+        self.show();
     }
 
     /// It has so many parts more than it seemed.
@@ -146,22 +146,22 @@ impl Work {
         self.of.fetch_add(parts, Ordering::Relaxed);
     }
 
-    fn tell(&self) {
-        let Some(told) = &self.told else { return };
-        let is_next = || !told.is_busy.swap(true, Ordering::Relaxed);
-        if self.is_told.load(Ordering::Relaxed) || is_next() {
-            self.is_told.store(true, Ordering::Relaxed);
+    fn show(&self) {
+        let Some(shared) = &self.shared else { return };
+        let is_next = || !shared.is_busy.swap(true, Ordering::Relaxed);
+        if self.is_shown.load(Ordering::Relaxed) || is_next() {
+            self.is_shown.store(true, Ordering::Relaxed);
             let [done, of] = [&self.done, &self.of].map(|n| n.load(Ordering::Relaxed));
-            told.at(self.what, done.min(of), of);
+            shared.at(self.what, done.min(of), of);
         }
     }
 }
 
 impl Drop for Work {
     fn drop(&mut self) {
-        if let (Some(told), true) = (&self.told, *self.is_told.get_mut()) {
-            told.at("", 0, 0);
-            told.is_busy.store(false, Ordering::Relaxed);
+        if let (Some(shared), true) = (&self.shared, *self.is_shown.get_mut()) {
+            shared.at("", 0, 0);
+            shared.is_busy.store(false, Ordering::Relaxed);
         }
     }
 }
@@ -174,7 +174,7 @@ mod tests {
 
     /// What is told is the outer of two loops, part by part, and every eigenproblem.
     #[test]
-    fn the_outer_loop_is_told_and_every_eigenproblem_counts() {
+    fn the_outer_loop_is_shown_and_every_eigenproblem_counts() {
         let told = Arc::new(Mutex::new(Vec::new()));
         let seen = told.clone();
         let progress = Progress::new(move |stage| seen.lock().unwrap().push(stage));

@@ -55,7 +55,7 @@ impl Cancellation {
         Ok(self.pool(rayon::current_num_threads())?.install(work))
     }
 
-    /// Threads of which this is the current flag; who is told of progress is told of theirs too.
+    /// Threads of which this is the current flag, with the progress callback of this thread.
     ///
     /// # Errors
     /// When the system gives no more threads.
@@ -63,11 +63,11 @@ impl Cancellation {
         &self,
         threads: usize,
     ) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-        self.told_pool(&Progress::current(), threads)
+        self.pool_with(&Progress::current(), threads)
     }
 
-    /// The same with others to be told.
-    pub(super) fn told_pool(
+    /// The same with another progress callback.
+    pub(super) fn pool_with(
         &self,
         progress: &Progress,
         threads: usize,
