@@ -1,46 +1,63 @@
-//! Root loci: the two eigenvalues that meet at the flutter onset, in the complex
-//! plane, and beside it over rotation speed.
+//! Root loci: the two eigenvalues that coalesce at the flutter onset in the complex plane, and their frequency over
+//! rotation speed. Drawn is what was computed: dots, joined by straight lines in the order of the speeds.
 
-mod labels;
-mod plane;
-mod tracks;
-
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::declutter::{Wish, push_apart};
+use super::heading;
 use super::style::{
-    AXIS_SIZE, BACKWARD, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID,
-    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, tint,
+    BACKWARD, BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, FORWARD, GRID, HAIRLINE,
+    LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, shorten, tint,
 };
-use super::{heading, is_damped};
-use crate::report::Report;
-use tracks::{Loci, Look, Sample, Track};
+use crate::report::{Report, RootLociEntry, RootPathEntry};
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 800;
-const PLOT_TOP: f64 = 110.0;
-const PLOT_BOTTOM: f64 = 706.0;
-const PLANE: [f64; 2] = [92.0, 772.0];
-const SPEED: [f64; 2] = [812.0, 1152.0];
-const SIGN_SIZE: f64 = 15.0;
-/// Smaller growth rates are taken for rounding errors of the eigenvalues.
-const NEGLIGIBLE_PER_S: f64 = 1e-3;
+const PLANE: Frame = Frame {
+    left: 92.0,
+    top: 110.0,
+    right: 772.0,
+    bottom: 706.0,
+};
+const SPEED: Frame = Frame {
+    left: 812.0,
+    right: 1152.0,
+    ..PLANE
+};
+/// Purely imaginary eigenvalues of the two signs stand this far left and right of the axis that they share.
+const ASIDE: f64 = 3.5;
+/// Height of a line of a label.
+const LINE: f64 = 15.0;
+/// From the imaginary axis, and from a growing eigenvalue, to a label.
+const GAP: f64 = 14.0;
+const LONGEST: f64 = 210.0;
+/// A saw has no larger numbers; labels have no room for them.
+const LARGEST: f64 = 1e9;
+
+/// A computed eigenvalue.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sample {
+    rpm: f64,
+    growth: f64,
+    hz: f64,
+    /// Krein sign, 0 where the two have coalesced.
+    sign: i8,
+}
 
 /// What the parts of the figure share.
 struct Chart {
-    loci: Loci,
+    paths: [Vec<Sample>; 2],
     growth: Axis,
     frequency: Axis,
     speed: Axis,
-    plane: Frame,
-    over_speed: Frame,
     /// Decimals that tell the speeds apart.
     decimals: usize,
 }
 
+/// `None` where the report does not hold two paths.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
-    let chart = Chart::new(Loci::new(entry, is_damped(report))?);
+    let chart = Chart::new(entry)?;
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let title = format!(
         "Root loci around the flutter onset at {:.0} rpm",
@@ -48,45 +65,74 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     );
     heading::draw(&mut sheet, &title, &report.scene.name);
     draw_axes(&mut sheet, &chart);
-    draw_over_speed(&mut sheet, &chart);
-    plane::draw(&mut sheet, &chart);
-    labels::draw(&mut sheet, &chart);
-    draw_notes(&mut sheet, &chart);
+    draw_band(&mut sheet, &chart, entry);
+    for path in &chart.paths {
+        draw_path(&mut sheet, path, |s| chart.in_plane(s));
+        draw_path(&mut sheet, path, |s| chart.over_speed(s));
+    }
+    draw_labels(&mut sheet, &chart, entry);
+    let notes = [
+        "dots: computed eigenvalues",
+        "(+) and (−): Krein signs",
+        "where Re λ = 0 the dots stand beside the axis, not on each other",
+    ];
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let at = [PLANE.left, f64::from(HEIGHT) - 16.0];
+    sheet.text(at, letters, &notes.join(BETWEEN_FACTS));
     Some(sheet)
 }
 
+/// The eigenvalues of a path of which all numbers are known, and such as a saw may have.
+fn samples(entry: &RootLociEntry, path: &RootPathEntry) -> Vec<Sample> {
+    let numbers = path.growth_per_s.iter().zip(&path.frequency_hz);
+    let all = entry.rpm.iter().zip(numbers).zip(&path.krein_sign);
+    let all = all.map(|((rpm, (growth, hz)), sign)| Sample {
+        rpm: *rpm,
+        growth: *growth,
+        hz: *hz,
+        sign: *sign,
+    });
+    all.filter(|s| [s.rpm, s.growth, s.hz].iter().all(|v| v.abs() < LARGEST))
+        .collect()
+}
+
 impl Chart {
-    fn new(loci: Loci) -> Self {
+    fn new(entry: &RootLociEntry) -> Option<Self> {
+        let [first, second] = entry.paths.first_chunk()?;
+        let paths = [first, second].map(|path| samples(entry, path));
+        let ends_are_sound = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.abs() < LARGEST);
+        if paths.iter().any(|path| path.len() < 2) || ends_are_sound != [true; 2] {
+            return None;
+        }
         let range = |of: fn(&Sample) -> f64| {
-            let values = loci.samples().map(of);
+            let values = paths.iter().flatten().map(of);
             values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
                 [low.min(v), high.max(v)]
             })
         };
-        let [low, high] = range(|s| s.growth).map(|v| if v.is_finite() { v } else { 0.0 });
-        let (low, high) = (low.min(0.0), high.max(0.0));
+        let reach = range(|s| s.growth.abs())[1];
         // Room for the labels at the outermost points.
-        let room = 0.62 * high.max(-low).max(NEGLIGIBLE_PER_S);
+        let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
-        let speeds = range(|s| s.rpm);
-        let panel = |[left, right]: [f64; 2]| Frame {
-            left,
-            top: PLOT_TOP,
-            right,
-            bottom: PLOT_BOTTOM,
-        };
-        let upwards = [PLOT_BOTTOM, PLOT_TOP];
-        let band = loci.end.rpm - loci.onset.rpm;
-        Self {
-            growth: Axis::new([low - room, high + room], PLANE, Spread::Linear),
-            frequency: Axis::new([bottom - air, top + air], upwards, Spread::Linear),
-            speed: Axis::new(speeds, SPEED, Spread::Linear),
-            plane: panel(PLANE),
-            over_speed: panel(SPEED),
-            decimals: (5.0 / band).log10().ceil().clamp(0.0, 3.0) as usize,
-            loci,
-        }
+        let ends = range(|s| s.rpm);
+        let axis = |values, places| Axis::new(values, places, Spread::Linear);
+        Some(Self {
+            growth: axis([-reach, reach], [PLANE.left, PLANE.right]),
+            frequency: axis([bottom - air, top + air], [PLANE.bottom, PLANE.top]),
+            speed: axis(ends, [SPEED.left, SPEED.right]),
+            decimals: (15.0 / (ends[1] - ends[0])).log10().ceil().clamp(0.0, 3.0) as usize,
+            paths,
+        })
+    }
+
+    fn in_plane(&self, s: &Sample) -> [f64; 2] {
+        let aside = -ASIDE * f64::from(s.sign);
+        [self.growth.at(s.growth) + aside, self.frequency.at(s.hz)]
+    }
+
+    fn over_speed(&self, s: &Sample) -> [f64; 2] {
+        [self.speed.at(s.rpm), self.frequency.at(s.hz)]
     }
 
     fn rpm(&self, rpm: f64) -> String {
@@ -94,147 +140,174 @@ impl Chart {
     }
 }
 
-fn colour(look: Look) -> Colour {
-    match look {
-        Look::Plus => FORWARD,
-        Look::Minus => BACKWARD,
-        Look::Damped(0) => INK,
-        Look::Damped(_) => STANDING,
-        Look::Growing => FLUTTER,
-        Look::Decaying => tint(FLUTTER, 0.5),
+fn colour(s: &Sample) -> Colour {
+    match s.sign {
+        1 => FORWARD,
+        -1 => BACKWARD,
+        _ if s.growth > 0.0 => FLUTTER,
+        _ => tint(FLUTTER, 0.5),
     }
 }
 
 fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
-    draw_vertical(
-        sheet,
-        &chart.frequency,
-        &chart.plane,
-        "Im λ / 2π\u{2003}[Hz]",
+    let name = "Im λ / 2π\u{2003}[Hz]";
+    draw_vertical(sheet, &chart.frequency, &PLANE, name);
+    for y in chart
+        .frequency
+        .ticks(40.0)
+        .into_iter()
+        .map(|hz| chart.frequency.at(hz))
+    {
+        let line = [[SPEED.left, y], [SPEED.right, y]];
+        sheet.line(line, Stroke::solid(GRID, HAIRLINE));
+    }
+    for x in [PLANE.left, chart.growth.at(0.0), SPEED.left] {
+        let upright = [[x, PLANE.top], [x, PLANE.bottom]];
+        sheet.line(upright, Stroke::solid(QUIET, HAIRLINE));
+    }
+    draw_named(sheet, &chart.growth, PLANE.bottom, "Re λ\u{2003}[1/s]");
+    let name = "rotation speed Ω\u{2003}[rpm]";
+    draw_named(sheet, &chart.speed, SPEED.bottom, name);
+}
+
+/// The band as a shade over the speeds, with its ends.
+fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
+    let [first, last] = chart.speed.values();
+    let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
+    let [left, right] = ends.map(|rpm| chart.speed.at(rpm));
+    sheet.fill(
+        Frame {
+            left,
+            right,
+            ..SPEED
+        },
+        FLUTTER_SHADE,
     );
-    let Frame { left, right, .. } = chart.over_speed;
-    for tick in chart.frequency.ticks(40.0) {
-        let y = chart.frequency.at(tick);
-        sheet.line([[left, y], [right, y]], Stroke::solid(GRID, HAIRLINE));
-    }
-    for panel in [&chart.plane, &chart.over_speed] {
-        let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
-        sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
-    }
-    draw_horizontal(sheet, &chart.growth, PLOT_BOTTOM, true);
-    draw_horizontal(sheet, &chart.speed, PLOT_BOTTOM, true);
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let names = [
-        (PLANE, "Re λ\u{2003}[1/s]"),
-        (SPEED, "rotation speed Ω\u{2003}[rpm]"),
-    ];
-    for ([left, right], name) in names {
-        sheet.text([(left + right) / 2.0, PLOT_BOTTOM + 42.0], letters, name);
-    }
-}
-
-/// The same two modes over speed, on the same frequency axis.
-fn draw_over_speed(sheet: &mut Sheet, chart: &Chart) {
-    let Loci {
-        onset, end, peak, ..
-    } = chart.loci;
-    let [left, right] = [onset, end].map(|sample| chart.speed.at(sample.rpm));
-    let band = Frame {
-        left,
-        right,
-        ..chart.over_speed
-    };
-    sheet.fill(band, FLUTTER_SHADE);
-    let name = format!("flutter {}–{}", chart.rpm(onset.rpm), chart.rpm(end.rpm));
+    let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
+    let name = format!("flutter {from}–{to}");
     let letters = Lettering::regular(LABEL_SIZE, FLUTTER, Anchor::Middle);
-    let length = text_frame([0.0, 0.0], &letters, &name).right * 2.0;
-    let ends = [
-        SPEED[0] + length / 2.0,
-        f64::from(WIDTH) - MARGIN - length / 2.0,
-    ];
-    let middle = ((left + right) / 2.0).min(ends[1]).max(ends[0]);
-    sheet.text([middle, PLOT_TOP - 8.0], letters, &name);
-
-    // From panel to panel, so that the eye finds the same event in both.
-    let leader = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(tint(QUIET, 0.6), HAIRLINE)
-    };
-    for sample in [onset, end] {
-        let [x, y] = [chart.speed.at(sample.rpm), chart.frequency.at(sample.hz)];
-        sheet.line([[chart.plane.right, y], [x, y]], leader);
-    }
-    let place = |s: &Sample| [chart.speed.at(s.rpm), chart.frequency.at(s.hz)];
-    for track in &chart.loci.tracks {
-        let width = plane::width(track.look);
-        let line: Vec<_> = track.samples.iter().map(place).collect();
-        sheet.line(line, Stroke::solid(colour(track.look), width));
-    }
-    for sample in [onset, end] {
-        sheet.disc(place(&sample), 4.0, INK);
-    }
-    sheet.disc(place(&peak), 4.0, FLUTTER);
-    draw_signs(sheet, chart);
+    let half = text_frame([0.0, 0.0], &letters, &name).right;
+    let room = [SPEED.left + half, f64::from(WIDTH) - MARGIN - half];
+    let middle = (0.5 * (left + right)).min(room[1]).max(room[0]);
+    sheet.text([middle, SPEED.top - 8.0], letters, &name);
 }
 
-/// The Krein signs at the outer ends of the lines over speed.
-fn draw_signs(sheet: &mut Sheet, chart: &Chart) {
-    let [left, right] = SPEED;
-    let first = |track: &Track| track.samples.first().copied();
-    let last = |track: &Track| track.samples.last().copied();
-    draw_signs_at(sheet, chart, &first, left, (left - 8.0, Anchor::End));
-    draw_signs_at(sheet, chart, &last, right, (right + 8.0, Anchor::Start));
+/// Straight lines from one computed eigenvalue to the next, and a dot at each.
+fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64; 2]) {
+    for pair in path.windows(2) {
+        // A line that leads into the band is the band's.
+        let inside = pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0]);
+        let line = [place(&pair[0]), place(&pair[1])];
+        sheet.line(line, Stroke::solid(colour(inside), CURVE));
+    }
+    for sample in path {
+        sheet.disc(place(sample), 2.2, colour(sample));
+    }
 }
 
-/// The signs of the tracks of which one end lies at the given edge.
-fn draw_signs_at(
-    sheet: &mut Sheet,
-    chart: &Chart,
-    end: &dyn Fn(&Track) -> Option<Sample>,
-    edge: f64,
-    (x, anchor): (f64, Anchor),
-) {
-    let signed = chart.loci.tracks.iter().filter_map(|track| {
-        let (sign, sample) = (labels::sign(track.look)?, end(track)?);
-        let at_edge = (chart.speed.at(sample.rpm) - edge).abs() < 0.5;
-        let wish = Wish {
-            centre: chart.frequency.at(sample.hz),
-            length: SIGN_SIZE,
-        };
-        at_edge.then_some((sign, colour(track.look), wish))
-    });
-    let signed: Vec<_> = signed.collect();
-    let wishes: Vec<_> = signed.iter().map(|(_, _, wish)| *wish).collect();
-    let centres = push_apart(&wishes, PLOT_TOP, PLOT_BOTTOM);
-    for ((sign, colour, _), centre) in signed.into_iter().zip(centres) {
-        let letters = Lettering {
-            weight: Weight::SemiBold,
-            ..Lettering::regular(SIGN_SIZE, colour, anchor)
-        };
-        if let Some(centre) = centre {
-            sheet.text([x, centre + 0.36 * SIGN_SIZE], letters, sign);
+/// Lines of text beside an eigenvalue.
+struct Label {
+    lines: Vec<String>,
+    colour: Colour,
+    /// Where its text begins, or ends.
+    x: f64,
+    /// Where its middle wants to be.
+    y: f64,
+}
+
+/// Names and speeds at the ends of the paths, and the fastest growth: of the first path, which decays within the
+/// band if the second grows, on the left, of the other on the right.
+fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
+    for (text, x, anchor) in [
+        ("← decaying", PLANE.left, Anchor::Start),
+        ("growing →", PLANE.right, Anchor::End),
+    ] {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, anchor);
+        sheet.text([x, PLANE.top - 8.0], letters, text);
+    }
+    let [mut left, mut right] = [Vec::new(), Vec::new()];
+    for (path, own) in chart.paths.iter().zip(&entry.paths) {
+        for (at, sample) in [path.first(), path.last()].into_iter().enumerate() {
+            let Some(sample) = sample.filter(|s| s.sign != 0) else {
+                continue;
+            };
+            let name = (at == 0).then_some(own.name.as_str());
+            match sample.sign > 0 {
+                true => left.push(label_of_end(chart, sample, name, -1.0)),
+                false => right.push(label_of_end(chart, sample, name, 1.0)),
+            }
         }
     }
+    let all = chart.paths.iter().flatten();
+    if let Some(peak) = all
+        .max_by(|a, b| a.growth.total_cmp(&b.growth))
+        .filter(|s| s.growth > 0.0)
+    {
+        let mirrored = Sample {
+            growth: -peak.growth,
+            ..*peak
+        };
+        right.push(label_of_peak(chart, peak));
+        left.push(Label {
+            lines: vec!["decaying".to_owned(), "(mirror image)".to_owned()],
+            colour: tint(FLUTTER, 0.75),
+            x: chart.in_plane(&mirrored)[0] - GAP,
+            y: chart.frequency.at(peak.hz),
+        });
+    }
+    write(sheet, &left, Anchor::End);
+    write(sheet, &right, Anchor::Start);
 }
 
-fn draw_notes(sheet: &mut Sheet, chart: &Chart) {
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let baseline = f64::from(HEIGHT) - 16.0;
-    let arrows = "arrows: rising rotation speed";
-    let notes = match chart.loci.merge {
-        true => [
-            arrows,
-            "+ and − are Krein signs",
-            "where Re λ = 0 the two paths are drawn beside the axis, not on each other",
-        ]
-        .join(BETWEEN_FACTS),
-        false => [
-            arrows,
-            "with damping the modes pass each other without merging",
-        ]
-        .join(BETWEEN_FACTS),
-    };
-    sheet.text([PLANE[0], baseline], letters, &notes);
+fn label_of_end(chart: &Chart, sample: &Sample, name: Option<&str>, way: f64) -> Label {
+    let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
+    let name = name.map_or(String::new(), |name| format!(" {name}"));
+    let name = shorten(
+        &format!("({sign}){name}"),
+        LABEL_SIZE,
+        Weight::Regular,
+        LONGEST,
+    );
+    Label {
+        lines: vec![name, format!("{} rpm", chart.rpm(sample.rpm))],
+        colour: colour(sample),
+        x: chart.growth.at(0.0) + way * GAP,
+        y: chart.frequency.at(sample.hz),
+    }
+}
+
+fn label_of_peak(chart: &Chart, peak: &Sample) -> Label {
+    let [x, y] = chart.in_plane(peak);
+    Label {
+        lines: vec![
+            "growing".to_owned(),
+            format!("peak {} rpm", chart.rpm(peak.rpm)),
+            format!("{} 1/s", two_digits(peak.growth)),
+        ],
+        colour: FLUTTER,
+        x: x + GAP,
+        y,
+    }
+}
+
+/// Writes labels of one side, apart from each other, on paper: lines may pass behind them.
+fn write(sheet: &mut Sheet, labels: &[Label], anchor: Anchor) {
+    let wishes = labels.iter().map(|label| Wish {
+        centre: label.y,
+        length: LINE * label.lines.len() as f64 + 2.0,
+    });
+    let wishes: Vec<Wish> = wishes.collect();
+    let centres = push_apart(&wishes, PLANE.top, PLANE.bottom);
+    for (label, centre) in labels.iter().zip(centres) {
+        let Some(centre) = centre else { continue };
+        let letters = Lettering::regular(LABEL_SIZE, label.colour, anchor);
+        for (k, line) in label.lines.iter().enumerate() {
+            let above = k as f64 - 0.5 * (label.lines.len() as f64 - 1.0);
+            let at = [label.x, centre + above * LINE + 0.36 * LABEL_SIZE];
+            sheet.fill(text_frame(at, &letters, line), PAPER);
+            sheet.text(at, letters, line);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -48,7 +48,10 @@ impl RootLoci {
             return Ok(None);
         };
         let outwards = |edge: f64, end: f64| {
-            denser_at_ends(band.peak_rad_per_s, edge).chain(denser_at_ends(edge, end))
+            let inside = denser_at_ends(band.peak_rad_per_s, edge);
+            // Of a band that reaches the end of the range, growth there is not zero.
+            let last = (end != band.peak_rad_per_s).then_some(end);
+            inside.chain(denser_at_ends(edge, end)).chain(last)
         };
         let mut rows = peak.followed(&low, band, outwards(band.from_rad_per_s, from))?;
         rows.reverse();
@@ -121,7 +124,7 @@ impl Pair {
     }
 
     /// Rows of the pair at one speed after another, as far as it stays a pair: merged within
-    /// the band, two waves beside it.
+    /// the band, two waves beside it, that of sign +1 first.
     fn followed(
         &self,
         low: &ReflectedModel<'_>,
@@ -132,9 +135,12 @@ impl Pair {
         let mut known: Option<Pair> = None;
         for speed in speeds {
             let last = known.as_ref().unwrap_or(self);
-            let Some(next) = last.to(low, speed)? else {
+            let Some(mut next) = last.to(low, speed)? else {
                 break;
             };
+            if next.row().1[0].1 < 0 {
+                next.chosen.reverse();
+            }
             let inside = (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
             let signs = next.row().1.map(|(_, sign)| sign);
             if signs != if inside { [0, 0] } else { [1, -1] } {
@@ -160,5 +166,42 @@ impl Pair {
             modes,
             chosen: [first, second],
         }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Accuracy, Scene, rad_per_s};
+    use crate::spectrum::{Strategy, companion_eigenpairs};
+    use crate::stability::{InstabilityKind, chart};
+
+    /// A band that the end of the range cuts short, against a dense solve with the whole matrix there.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn paths_go_on_to_the_end_of_a_range_that_cuts_their_band_short() {
+        let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Draft));
+        let range = (0.0, rad_per_s(2300.0));
+        let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+        let bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
+        let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter;
+        let whole = bands.iter().rfind(flutter).unwrap();
+        let end = 0.5 * (whole.peak_rad_per_s + whole.to_rad_per_s);
+        let cut = Instability {
+            to_rad_per_s: end,
+            ..whole.clone()
+        };
+        let loci = RootLoci::new(&model, &cut, (0.0, end)).unwrap().unwrap();
+        assert_eq!(loci.speeds.last(), Some(&end));
+        assert!(loci.speeds.windows(2).all(|pair| pair[0] < pair[1]));
+        let dense = companion_eigenpairs(&model.components[0].full, end).unwrap();
+        for (path, sign) in loci.paths.iter().zip([1.0, -1.0]) {
+            let (lambda, _) = path[path.len() - 1];
+            assert!(sign * lambda.re > 0.5 * whole.peak_growth_per_s, "{lambda}");
+            let off = dense.iter().map(|(exact, _)| (exact - lambda).norm());
+            let off = off.fold(f64::INFINITY, f64::min) / lambda.norm();
+            assert!(off < 1e-7, "{lambda}: {off:e}");
+        }
     }
 }
