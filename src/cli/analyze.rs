@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::figure::CampbellView;
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, SpeedRange};
 use crate::stability::Analysis;
@@ -10,7 +11,7 @@ use clap::Args;
 
 use super::common::{Finely, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
-use super::pictures::{drawn, figure_names};
+use super::pictures::{self, figure_names};
 use super::progress::watched;
 use super::several;
 
@@ -22,6 +23,7 @@ Examples:
   cat my-saw.json | sawflutter analyze -              # a scene from a program
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
   sawflutter analyze --at-rpm 1800                    # the modes of one speed
+  sawflutter analyze --draw-to-rpm 2000               # a picture of a part of the sweep
   sawflutter analyze --in-cut 2800                    # under the forces of a cut
   sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
 
@@ -48,6 +50,45 @@ pub struct Arguments {
     /// the operating speed
     #[arg(long, value_name = "RPM", num_args = 0..=1, allow_negative_numbers = true, value_parser = number)]
     in_cut: Option<Option<f64>>,
+    #[command(flatten)]
+    drawn: Drawn,
+}
+
+/// What part of the sweep the picture of the Campbell diagram shows; what is computed stays the same.
+#[derive(Args, Default)]
+struct Drawn {
+    /// Draw the Campbell diagram from this speed on
+    #[arg(long, value_name = "RPM", value_parser = number)]
+    draw_from_rpm: Option<f64>,
+    /// Draw it up to this speed; by default the whole sweep, or its first 40 bands
+    #[arg(long, value_name = "RPM", value_parser = number)]
+    draw_to_rpm: Option<f64>,
+    /// Draw it up to this frequency; by default as high as bands, reflected waves and the lowest modes reach
+    #[arg(long, value_name = "HZ", value_parser = number)]
+    draw_to_hz: Option<f64>,
+}
+
+impl Drawn {
+    /// The part of the diagram to draw of a chart over these speeds.
+    fn view(&self, [first, last]: [f64; 2]) -> anyhow::Result<CampbellView> {
+        let from = self.draw_from_rpm.unwrap_or(first);
+        let to = self.draw_to_rpm.unwrap_or(last);
+        anyhow::ensure!(
+            first <= from && from < to && to <= last,
+            "--draw-from-rpm {from} and --draw-to-rpm {to} do not name a part of the sweep, which goes from {first} to {last} rpm"
+        );
+        if let Some(hz) = self.draw_to_hz {
+            anyhow::ensure!(
+                hz > 0.0 && hz.is_finite(),
+                "--draw-to-hz is {hz}, but the picture needs a frequency above 0 Hz"
+            );
+        }
+        Ok(CampbellView {
+            from_rpm: self.draw_from_rpm,
+            to_rpm: self.draw_to_rpm,
+            to_hz: self.draw_to_hz,
+        })
+    }
 }
 
 /// Charts saws, writes their files and prints the summary, or a table of several.
@@ -101,7 +142,7 @@ fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
 fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let folder = arguments.output.folder()?;
     let report = report(arguments, scene)?;
-    let (files, json) = files(&report)?;
+    let (files, json) = files(arguments, &report)?;
     // The table of several scenes is not this run's.
     let optional = [&figure_names::<Report>()[..], &several::FILES].concat();
     let words = || report.summary();
@@ -114,7 +155,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
 fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
     let folder = OutputFolder::open(path)?;
     let report = report(arguments, scene)?;
-    folder.write_together(&files(&report)?.0, &figure_names::<Report>())?;
+    folder.write_together(&files(arguments, &report)?.0, &figure_names::<Report>())?;
     Ok(report)
 }
 
@@ -136,9 +177,11 @@ fn watched_report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report
 }
 
 /// The files of a report, and the last one as text.
-fn files(report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
+fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
     let json = serde_json::to_string_pretty(report)?;
-    let mut files = drawn(report)?;
+    let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];
+    let view = arguments.drawn.view(sweep)?;
+    let mut files = pictures::files(&report.figures_within(view))?;
     files.push(("campbell.csv", report.campbell_csv()?));
     files.push(("report.json", json.clone().into_bytes()));
     Ok((files, json))

@@ -3,12 +3,15 @@
 use rayon::prelude::*;
 
 use super::common::NamedFile;
-use crate::figure::{FigureError, Figures};
+use crate::figure::{Figure, FigureError, Figures};
 
-/// Every figure of a report as PNG and SVG, drawn side by side: a picture takes as long as a
-/// hundred spectra.
+/// Every figure of a report as PNG and SVG.
 pub fn drawn(report: &impl Figures) -> Result<Vec<NamedFile>, FigureError> {
-    let figures = report.figures();
+    files(&report.figures())
+}
+
+/// Figures as PNG and SVG, drawn side by side: a picture takes as long as a hundred spectra.
+pub fn files(figures: &[Figure]) -> Result<Vec<NamedFile>, FigureError> {
     let files: Vec<[Result<NamedFile, FigureError>; 2]> = figures
         .par_iter()
         .map(|figure| {

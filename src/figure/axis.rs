@@ -11,6 +11,8 @@ pub enum Spread {
     /// By the signed square root, which keeps zero and the sign, and shows small
     /// values beside large ones. Unlike a logarithm it needs no cut-off near zero.
     SignedRoot,
+    /// By the logarithm, for positive values over decades.
+    Logarithmic,
 }
 
 impl Spread {
@@ -18,6 +20,7 @@ impl Spread {
         match self {
             Spread::Linear => value,
             Spread::SignedRoot => value.signum() * value.abs().sqrt(),
+            Spread::Logarithmic => value.max(f64::MIN_POSITIVE).log10(),
         }
     }
 }
@@ -74,6 +77,15 @@ impl Axis {
         match self.spread {
             Spread::Linear => self.even_ticks(apart),
             Spread::SignedRoot => self.root_ticks(apart),
+            Spread::Logarithmic => self.decades(apart),
+        }
+    }
+
+    /// What is written at a tick.
+    pub fn label(&self, tick: f64) -> String {
+        match self.spread {
+            Spread::Logarithmic if !(1e-3..1e5).contains(&tick) => power_of_ten(tick),
+            _ => tick_label(tick),
         }
     }
 
@@ -90,6 +102,22 @@ impl Axis {
         };
         let count = (last - first).clamp(0.0, 1000.0) as usize;
         (0..=count).map(|i| (first + i as f64) * step).collect()
+    }
+
+    /// 1, 2, 5, 10, … where there is room, else powers of ten.
+    fn decades(&self, apart: f64) -> Vec<f64> {
+        let [from, to] = self.values.map(|value| self.spread.of(value));
+        let decade = (self.places[1] - self.places[0]).abs() / (to - from);
+        let digits: &[f64] = match decade * 2f64.log10() >= apart {
+            true => &[1.0, 2.0, 5.0],
+            false => &[1.0],
+        };
+        let stride = (apart / decade).ceil().max(1.0) as usize;
+        let exponents = (from.floor() as i32..=to.ceil() as i32).step_by(stride);
+        let all = exponents.flat_map(|k| digits.iter().map(move |d| d * 10f64.powi(k)));
+        let slip = 1e-9 * (to - from);
+        all.filter(|tick| (from - slip..=to + slip).contains(&tick.log10()))
+            .collect()
     }
 
     /// 1, 3, 10, 30, … of either sign, as far as there is room, the largest first.
@@ -167,13 +195,40 @@ pub fn two_digits(value: f64) -> String {
     format!("{value:.decimals$}").replace('-', "\u{2212}")
 }
 
+/// One digit and a power of ten: "2·10⁻⁷", "10⁵".
+fn power_of_ten(value: f64) -> String {
+    let text = format!("{value:.0e}");
+    let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    match digit {
+        "1" => format!("10{}", raised(exponent)),
+        _ => format!("{digit}·10{}", raised(exponent)),
+    }
+}
+
+/// An exponent as it is written above a ten: "⁻⁷".
+pub fn raised(exponent: &str) -> String {
+    exponent.chars().map(superscript).collect()
+}
+
+fn superscript(letter: char) -> char {
+    match letter {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '0' => '⁰',
+        '4'..='9' => char::from_u32('⁴' as u32 + (letter as u32 - '4' as u32)).unwrap_or(letter),
+        other => other,
+    }
+}
+
 /// Draws grid lines, ticks and numbers of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
     let apart = match axis.spread() {
         Spread::Linear => 40.0,
         // Closer, so that small values have a tick too.
-        Spread::SignedRoot => 21.0,
+        Spread::SignedRoot | Spread::Logarithmic => 21.0,
     };
     for tick in axis.ticks(apart) {
         let y = axis.at(tick);
@@ -184,7 +239,7 @@ pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) 
         let short = Stroke::solid(QUIET, HAIRLINE);
         sheet.line([[panel.left - 5.0, y], [panel.left, y]], short);
         let at = [panel.left - 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, letters, &tick_label(tick));
+        sheet.text(at, letters, &axis.label(tick));
     }
     let middle = (panel.top + panel.bottom) / 2.0;
     let upright = Lettering {
@@ -203,7 +258,7 @@ pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
         sheet.line([[x, y], [x, y + 5.0]], Stroke::solid(QUIET, HAIRLINE));
         if numbered {
             let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Middle);
-            sheet.text([x, y + 20.0], letters, &tick_label(tick));
+            sheet.text([x, y + 20.0], letters, &axis.label(tick));
         }
     }
 }
@@ -235,6 +290,27 @@ mod tests {
         for pair in ticks.windows(2) {
             assert!(axis.at(pair[0]) - axis.at(pair[1]) >= 25.0, "{pair:?}");
         }
+    }
+
+    #[test]
+    fn decades_have_ticks_between_where_there_is_room() {
+        let ticks = |values: [f64; 2], apart: f64| {
+            let axis = Axis::new(values, [0.0, 400.0], Spread::Logarithmic);
+            let labels = axis.ticks(apart).into_iter().map(|tick| axis.label(tick));
+            labels.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(
+            ticks([1e3, 1e5], 40.0),
+            "1000 2000 5000 10000 20000 50000 10⁵"
+        );
+        assert_eq!(
+            ticks([0.5, 5e8], 40.0),
+            "1 10 100 1000 10000 10⁵ 10⁶ 10⁷ 10⁸"
+        );
+        assert_eq!(
+            ticks([1e-10, 1e10], 40.0),
+            "10⁻¹⁰ 10⁻⁸ 10⁻⁶ 10⁻⁴ 0.01 1 100 10000 10⁶ 10⁸ 10¹⁰"
+        );
     }
 
     #[test]

@@ -33,6 +33,12 @@ pub fn places(speed: &Axis, band: &InstabilityEntry) -> Option<[f64; 2]> {
 /// Wider bands than this share of the axis that do not count have no shade.
 const WIDEST_WEAK: f64 = 0.03;
 
+/// Whether any of a band is shaded on an axis of these speeds.
+pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
+    let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
+    !(is_wide && band.counted_rpm.is_empty())
+}
+
 /// The stretches of a band that are shaded: where it counts. One that does not is shaded as a
 /// whole, unless it grows weakly over a wide range, as damping alone makes it.
 fn stretches(speed: &Axis, band: &InstabilityEntry) -> Vec<InstabilityEntry> {
@@ -41,10 +47,10 @@ fn stretches(speed: &Axis, band: &InstabilityEntry) -> Vec<InstabilityEntry> {
         to_rpm,
         ..band.clone()
     };
-    let [first, last] = speed.values();
-    let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
+    if !is_shaded(speed.values(), band) {
+        return Vec::new();
+    }
     match band.counted_rpm.is_empty() {
-        true if is_wide => Vec::new(),
         true => vec![band.clone()],
         false => band.counted_rpm.iter().copied().map(stretch).collect(),
     }

@@ -6,10 +6,12 @@ mod excitation;
 mod growth;
 mod legend;
 mod speeds;
+mod view;
 mod waves;
 
 #[cfg(test)]
 pub(super) use growth::curve;
+pub use view::CampbellView;
 pub(super) use waves::draw_measured_mark;
 
 use band_labels::BandLabels;
@@ -48,9 +50,9 @@ struct Chart<'a> {
     lower: Frame,
 }
 
-pub fn sheet(report: &Report) -> Sheet {
+pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    let chart = Chart::new(report);
+    let chart = Chart::new(report, view);
     heading::draw(&mut sheet, &report.scene.name, &key_facts(report));
 
     let labels = BandLabels::new(&chart);
@@ -78,7 +80,8 @@ pub fn sheet(report: &Report) -> Sheet {
 }
 
 impl<'a> Chart<'a> {
-    fn new(report: &'a Report) -> Self {
+    fn new(report: &'a Report, view: CampbellView) -> Self {
+        let shown = view.of(report);
         let right = f64::from(WIDTH) - MARGIN - waves::end_label_room(report);
         let growth_height = match growth::is_worth_showing(report) {
             true => GROWTH_HEIGHT,
@@ -94,12 +97,10 @@ impl<'a> Chart<'a> {
         let upper = panel(PLOT_TOP, between - BETWEEN_PANELS);
         let lower = panel(between, PLOT_BOTTOM);
 
-        let speeds = [report.campbell.from_rpm, report.campbell.to_rpm];
-        let frequencies = [0.0, waves::highest_shown_hz(report)];
         Self {
             report,
-            speed: Axis::new(speeds, [PLOT_LEFT, right], Spread::Linear),
-            frequency: Axis::new(frequencies, [upper.bottom, upper.top], Spread::Linear),
+            speed: Axis::new(shown.rpm, [PLOT_LEFT, right], Spread::Linear),
+            frequency: Axis::new([0.0, shown.hz], [upper.bottom, upper.top], Spread::Linear),
             upper,
             lower,
         }

@@ -1,5 +1,6 @@
 //! Which figures a report has, and their names.
 
+use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::{
     FigureError, campbell, check, cut, cut_map, fit, in_cut, membrane, place, render, response_map,
@@ -82,26 +83,28 @@ impl Figures for Report {
     ];
 
     fn figures(&self) -> Vec<Figure> {
-        let campbell = Some(campbell::sheet(self));
-        named(
-            Self::NAMES,
-            [
-                campbell,
-                root_loci::sheet(self),
-                membrane::sheet(self),
-                in_cut::sheet(self),
-            ],
-        )
+        self.figures_within(CampbellView::default())
     }
 }
 
 impl Report {
+    /// The figures for which this report has data, the Campbell diagram over a part of its sweep.
+    pub fn figures_within(&self, view: CampbellView) -> Vec<Figure> {
+        let sheets = [
+            Some(campbell::sheet(self, view)),
+            root_loci::sheet(self),
+            membrane::sheet(self),
+            in_cut::sheet(self),
+        ];
+        named(Self::NAMES, sheets)
+    }
+
     /// The Campbell diagram as SVG.
     ///
     /// # Errors
     /// [`FigureError`].
     pub fn campbell_svg(&self) -> Result<String, FigureError> {
-        render::svg(&campbell::sheet(self))
+        render::svg(&campbell::sheet(self, CampbellView::default()))
     }
 
     /// The Campbell diagram as PNG, 1200 × 900 pixels.
@@ -109,7 +112,7 @@ impl Report {
     /// # Errors
     /// [`FigureError`].
     pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
-        render::png(&campbell::sheet(self))
+        render::png(&campbell::sheet(self, CampbellView::default()))
     }
 }
 

@@ -50,7 +50,9 @@ mod style;
 mod tidy;
 mod tradeoff;
 mod washboard;
+mod written;
 
+pub use campbell::CampbellView;
 #[cfg(feature = "explore")]
 pub(crate) use drawn::growing_map;
 pub use drawn::{Figure, Figures, tradeoff};

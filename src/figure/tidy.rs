@@ -1,6 +1,7 @@
 //! What the tests ask of every figure.
 
 use super::canvas::{Frame, Mark, Sheet, text_frame};
+use super::style::PAPER;
 
 /// No text is cut off or lies on another.
 pub fn assert_tidy(sheet: &Sheet) {
@@ -15,6 +16,50 @@ pub fn assert_tidy(sheet: &Sheet) {
         for (other, second) in &texts[..i] {
             assert!(!frame.overlaps(other), "'{text}' lies on '{second}'");
         }
+    }
+}
+
+/// No upright line runs through a text, unless there is paper between them.
+pub fn assert_unstruck(sheet: &Sheet) {
+    let marks = sheet.marks();
+    for (above, mark) in marks.iter().enumerate() {
+        let Mark::Text(at, letters, text) = mark else {
+            continue;
+        };
+        let frame = text_frame(*at, letters, text);
+        for (below, line) in marks.iter().enumerate() {
+            let Some([x, top, bottom]) = upright(line) else {
+                continue;
+            };
+            let meets = frame.left + 1.0 < x && x < frame.right - 1.0;
+            if !meets || bottom < frame.top + 2.0 || frame.bottom - 2.0 < top {
+                continue;
+            }
+            let is_paper = |mark: &Mark| match mark {
+                Mark::Fill(paper, colour) => {
+                    let across = paper.left <= x && x <= paper.right;
+                    let upwards = paper.top < frame.top + 1.0 && frame.bottom - 1.0 < paper.bottom;
+                    *colour == PAPER && across && upwards
+                }
+                _ => false,
+            };
+            let papered = below < above && marks[below..above].iter().any(is_paper);
+            assert!(
+                papered,
+                "'{text}' at {frame:?} is struck through by {line:?}"
+            );
+        }
+    }
+}
+
+/// Place, upper and lower end of an upright line of two points.
+fn upright(mark: &Mark) -> Option<[f64; 3]> {
+    match mark {
+        Mark::Line(points, _) => match points[..] {
+            [[x, a], [other, b]] if x == other => Some([x, a.min(b), a.max(b)]),
+            _ => None,
+        },
+        _ => None,
     }
 }
 

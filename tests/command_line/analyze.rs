@@ -224,6 +224,29 @@ fn a_second_run_replaces_the_files_of_the_first() {
     serde_json::from_slice::<Report>(&read(out.join("report.json"))).unwrap();
 }
 
+/// The picture alone changes; a part that is none of the sweep is refused.
+#[test]
+fn a_part_of_the_sweep_can_be_drawn() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let drawn = |arguments: &[&str]| {
+        let mut command = sawflutter();
+        let command = command.arg("analyze").arg(&scene).args(arguments);
+        let output = command.current_dir(&folder).output().unwrap();
+        let out = folder.path().join("sawflutter-out");
+        let files = ["report.json", "campbell.svg"].map(|name| read(out.join(name)));
+        (output, files)
+    };
+    let (_, [report, whole]) = drawn(&[]);
+    let (output, [same, part]) = drawn(&["--draw-from-rpm", "100", "--draw-to-hz", "77"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(same == report && part != whole);
+    assert!(text(&part).contains("shown: 100 to "));
+    let (refused, _) = drawn(&["--draw-from-rpm", "1e7"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("do not name a part of the sweep"));
+}
+
 #[test]
 fn schema_prints_the_schema_of_a_scene() {
     let output = sawflutter().arg("schema").output().unwrap();

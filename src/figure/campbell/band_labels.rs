@@ -1,6 +1,6 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
-use super::super::bands::{NARROW, places};
+use super::super::bands::{NARROW, is_shaded, places};
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
 use super::speeds::{line_colour, operating_place};
@@ -31,11 +31,12 @@ pub struct BandLabels {
 }
 
 impl BandLabels {
-    /// Finds a place for each label, the fastest growing band first; a label for
-    /// which there is no room is left out.
+    /// Finds a place for the label of each band that is shaded, the fastest growing band first; a label
+    /// for which there is no room is left out.
     pub fn new(chart: &Chart) -> Self {
         let bands = &chart.report.instabilities;
-        let mut order: Vec<&InstabilityEntry> = bands.iter().collect();
+        let shaded = |band: &&InstabilityEntry| is_shaded(chart.speed.values(), band);
+        let mut order: Vec<&InstabilityEntry> = bands.iter().filter(shaded).collect();
         order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
         let places = bands.iter().filter_map(|band| places(&chart.speed, band));
         let mut thin: Vec<_> = places

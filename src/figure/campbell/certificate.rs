@@ -1,6 +1,6 @@
 //! The lines at the foot that say how far the figure can be trusted.
 
-use super::super::axis::two_digits;
+use super::super::axis::{raised, two_digits};
 use super::super::canvas::{Anchor, Lettering, Sheet};
 use super::super::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
 use super::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
@@ -57,23 +57,11 @@ fn power_of_ten_above(value: f64) -> Option<String> {
         true => (1.0, exponent + 1.0),
         false => (digit.max(1.0), exponent),
     };
-    let raised: String = format!("{exponent}").chars().map(superscript).collect();
+    let raised = raised(&exponent.to_string());
     Some(match digit == 1.0 {
         true => format!("10{raised}"),
         false => format!("{digit}·10{raised}"),
     })
-}
-
-fn superscript(letter: char) -> char {
-    match letter {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '0' => '⁰',
-        '4'..='9' => char::from_u32('⁴' as u32 + (letter as u32 - '4' as u32)).unwrap_or(letter),
-        other => other,
-    }
 }
 
 fn percent(share: f64) -> String {

@@ -1,33 +1,49 @@
 //! The lower panel: growth rates.
 
 use super::super::axis::{Axis, Spread};
-use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
 use super::super::clip::clip;
 use super::super::is_damped;
 use super::super::meeting::Meeting;
-use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, QUIET, tint};
+use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, tint};
 use super::speeds::line_colour;
 use super::waves::{direction_at, direction_colour};
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, Report};
 
-const STABLE: &str = "no growth: stable at every speed shown";
+/// Said where nothing grows: at a critical speed the blade is not stable all the same.
+fn no_growth(chart: &Chart) -> &'static str {
+    let mut critical = chart.report.critical_speeds.iter();
+    match critical.any(|entry| chart.speed.shows(entry.rpm)) {
+        true => {
+            "no motion grows by itself; at a critical speed (dashed) a constant force bends the blade ever further"
+        }
+        false => "no growth: stable at every speed shown",
+    }
+}
 
-fn greatest_growth(report: &Report) -> f64 {
-    let peaks = report
-        .instabilities
-        .iter()
-        .map(|band| band.peak_growth_per_s);
-    let branches = &report.campbell.branches;
-    let values = branches
-        .iter()
-        .flat_map(|branch| branch.growth_per_s.iter().copied());
+fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
+    let shown = |rpm: f64| from <= rpm && rpm <= to;
+    let bands = report.instabilities.iter();
+    let bands = bands.filter(|band| band.from_rpm <= to && from <= band.to_rpm);
+    let peaks = bands.map(|band| band.peak_growth_per_s);
+    let branches = report.campbell.branches.iter();
+    let values = branches.flat_map(|branch| {
+        let samples = branch.rpm.iter().zip(&branch.growth_per_s);
+        samples
+            .filter(|(rpm, _)| shown(**rpm))
+            .map(|(_, growth)| *growth)
+    });
     let all = peaks.chain(values).filter(|g| g.is_finite());
     all.fold(0.0, f64::max)
 }
 
+fn sweep(report: &Report) -> [f64; 2] {
+    [report.campbell.from_rpm, report.campbell.to_rpm]
+}
+
 fn grows(report: &Report) -> bool {
-    !report.instabilities.is_empty() || greatest_growth(report) > NEGLIGIBLE_PER_S
+    !report.instabilities.is_empty() || greatest_growth(report, sweep(report)) > NEGLIGIBLE_PER_S
 }
 
 /// How far down the axis goes. Without damping the decaying eigenvalues mirror
@@ -45,7 +61,7 @@ fn greatest_decay(report: &Report) -> f64 {
     let most = decays.iter().copied().fold(0.0, f64::max);
     let least = decays.iter().copied().filter(|d| *d > NEGLIGIBLE_PER_S);
     let least = least.fold(f64::INFINITY, f64::min);
-    most.min(4.0 * greatest_growth(report).max(least))
+    most.min(4.0 * greatest_growth(report, sweep(report)).max(least))
 }
 
 pub fn is_worth_showing(report: &Report) -> bool {
@@ -63,7 +79,8 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
     if !is_worth_showing(report) {
         return None;
     }
-    let (growth, decay) = (greatest_growth(report), greatest_decay(report));
+    let growth = greatest_growth(report, chart.speed.values());
+    let decay = greatest_decay(report);
     let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
     let growth = growth.max(least);
     let decay = match is_damped(report) {
@@ -88,7 +105,7 @@ fn spread(report: &Report, greatest: f64) -> Spread {
 
 pub fn axis_name(axis: &Axis) -> &'static str {
     match axis.spread() {
-        Spread::Linear => "Re λ\u{2003}[1/s]",
+        Spread::Linear | Spread::Logarithmic => "Re λ\u{2003}[1/s]",
         Spread::SignedRoot => "Re λ\u{2003}[1/s], square root scale",
     }
 }
@@ -105,21 +122,25 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
         draw_peak(sheet, chart, axis, band);
     }
     if !grows(chart.report) {
-        write_stable(sheet, [chart.lower.left + 10.0, zero - 7.0]);
+        write_stable(sheet, chart, [chart.lower.left + 10.0, zero - 7.0]);
     }
 }
 
 pub fn say_stable(sheet: &mut Sheet, chart: &Chart) {
     let middle = (chart.lower.top + chart.lower.bottom) / 2.0;
-    write_stable(sheet, [chart.lower.left + 10.0, middle + 0.36 * LABEL_SIZE]);
+    write_stable(
+        sheet,
+        chart,
+        [chart.lower.left + 10.0, middle + 0.36 * LABEL_SIZE],
+    );
 }
 
-fn write_stable(sheet: &mut Sheet, at: [f64; 2]) {
-    sheet.text(
-        at,
-        Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start),
-        STABLE,
-    );
+fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let text = no_growth(chart);
+    // The line of the operating speed may pass behind it.
+    sheet.fill(text_frame(at, &letters, text), PAPER);
+    sheet.text(at, letters, text);
 }
 
 /// Draws either the growing or the decaying stretches of a branch; where it

@@ -6,6 +6,7 @@ use super::super::style::{
     BETWEEN_FACTS, CURVE, DASH, LABEL_SIZE, MARGIN, QUIET, STANDING, STRONG_CURVE, Weight, shorten,
 };
 use super::band_labels::BandLabels;
+use super::view::left_out;
 use super::waves::{Stretch, direction_colour, draw_measured_mark, looks_shown, measured_source};
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 use crate::report::Direction;
@@ -76,6 +77,7 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
             "labels of {labelled} of {all} bands; all in report.json"
         ));
     }
+    notes.extend(left_out(chart.report, chart.speed.values()));
     if growth::hides_decay(chart.report) {
         notes.push("growing modes have decaying mirror images, not shown".to_owned());
     }

@@ -111,7 +111,7 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let Some((at, letters, frame)) = best else {
         return;
     };
-    if waves::is_crossed(chart, &frame) {
+    if waves::is_crossed(chart, &frame) || is_on_upright(chart, &frame) {
         sheet.fill(frame, PAPER);
     }
     sheet.text(at, letters, &label);
@@ -127,6 +127,7 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 
 /// Whether the frame meets a band, or the dashed line of a critical speed.
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
+    // The lines of critical speeds begin above the panel, the bands with it.
     let within = frame.bottom > chart.upper.top;
     let bands = chart.report.instabilities.iter().filter(|_| within);
     let bands = bands.filter_map(|band| places(&chart.speed, band));

@@ -1,6 +1,6 @@
 use super::super::canvas::Mark;
-use super::super::sample::{busy_report, empty_report};
-use super::super::tidy::assert_tidy;
+use super::super::sample::{band, busy_report, empty_report};
+use super::super::tidy::{assert_tidy, assert_unstruck, texts};
 use super::*;
 use crate::report::CriticalSpeedEntry;
 
@@ -17,7 +17,7 @@ fn every_critical_speed_is_labelled() {
 
 #[test]
 fn labels_neither_overlap_nor_leave_the_sheet() {
-    assert_tidy(&sheet(&busy_report()));
+    assert_tidy(&sheet(&busy_report(), CampbellView::default()));
     let mut crowded = busy_report();
     let extra = (0..60).map(|i| 1200.0 + 23.0 * f64::from(i));
     let entry = |rpm| CriticalSpeedEntry {
@@ -35,8 +35,74 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
         .branches
         .extend(copies.iter().cloned().chain(copies.clone()));
     crowded.scene.name = "Sägeblatt <&> ".repeat(40);
-    crowded.scene.operating_rpm = Some(3000.0);
-    assert_tidy(&sheet(&crowded));
+    for operating in [1200.0, 2500.0, 3000.0] {
+        crowded.scene.operating_rpm = Some(operating);
+        let drawn = sheet(&crowded, CampbellView::default());
+        assert_tidy(&drawn);
+        assert_unstruck(&drawn);
+    }
+}
+
+/// Texts of a figure that begin with a word.
+fn starting_with(drawn: &Sheet, word: &str) -> Vec<String> {
+    let texts = texts(drawn).into_iter();
+    let own = texts.filter(|(_, text)| text.starts_with(word));
+    own.map(|(_, text)| text.to_owned()).collect()
+}
+
+#[test]
+fn a_band_that_is_not_shaded_has_no_label_but_is_told() {
+    let mut report = busy_report();
+    let mut weak = band(InstabilityKind::Flutter, 1552.0, 3000.0, 0.1, 3.0);
+    weak.counted_rpm.clear();
+    report.instabilities = vec![weak];
+    let drawn = sheet(&report, CampbellView::default());
+    assert!(starting_with(&drawn, "flutter").is_empty());
+    let notes = starting_with(&drawn, "at the lines").join("");
+    assert!(notes.contains("1 wide band that grows by less than 0.25 1/s: not shaded"));
+}
+
+/// 193 bands over ten thousand rpm.
+#[test]
+fn very_many_bands_are_drawn_as_far_as_they_can_be_told_apart() {
+    let mut report = busy_report();
+    report.campbell.to_rpm = 10_000.0;
+    let from = |k: usize| 1500.0 + 44.0 * k as f64;
+    let new = |k: usize| band(InstabilityKind::Flutter, from(k), from(k) + 9.0, 1.0, 20.0);
+    report.instabilities = (0..193).map(new).collect();
+    let shown = |report: &Report, view| Chart::new(report, view).speed.values();
+    let all = CampbellView::default();
+    assert_eq!(shown(&report, all), [0.0, from(40)]);
+    let drawn = sheet(&report, all);
+    assert_tidy(&drawn);
+    let notes = starting_with(&drawn, "at the lines").join("");
+    assert!(
+        notes.contains("shown: 0 to 3260 of 0 to 10000 rpm"),
+        "{notes}"
+    );
+    report.scene.operating_rpm = Some(5000.0);
+    assert_eq!(shown(&report, all), [0.0, 5500.0]);
+    let asked = CampbellView {
+        from_rpm: Some(2000.0),
+        to_rpm: Some(12_000.0),
+        to_hz: Some(33.0),
+    };
+    assert_eq!(shown(&report, asked), [2000.0, 10_000.0]);
+    assert_eq!(Chart::new(&report, asked).frequency.values(), [0.0, 33.0]);
+    assert_tidy(&sheet(&report, asked));
+}
+
+#[test]
+fn a_saw_with_critical_speeds_is_not_called_stable_at_every_speed() {
+    let mut report = busy_report();
+    report.instabilities.clear();
+    for branch in &mut report.campbell.branches {
+        branch.growth_per_s.fill(0.0);
+    }
+    let drawn = sheet(&report, CampbellView::default());
+    assert!(starting_with(&drawn, "no growth").is_empty());
+    assert_eq!(starting_with(&drawn, "no motion grows by itself").len(), 1);
+    assert_unstruck(&drawn);
 }
 
 #[test]
@@ -66,7 +132,7 @@ fn png_has_the_promised_size_and_is_the_same_each_time() {
 #[test]
 fn an_empty_report_says_that_nothing_grows() {
     let report = empty_report("");
-    assert_tidy(&sheet(&report));
+    assert_tidy(&sheet(&report, CampbellView::default()));
     let svg = report.campbell_svg().unwrap();
     assert!(svg.contains("no growth: stable at every speed shown"));
     assert!(svg.contains("no critical speed"));
@@ -95,7 +161,7 @@ fn odd_input_is_drawn_without_complaint() {
         odd.campbell.from_rpm = from;
         odd.campbell.to_rpm = to;
         odd.campbell.complete_to_hz = complete;
-        assert_tidy(&sheet(&odd));
+        assert_tidy(&sheet(&odd, CampbellView::default()));
         assert!(!odd.campbell_svg().unwrap().contains("\"NaN"));
     }
 }
@@ -103,7 +169,7 @@ fn odd_input_is_drawn_without_complaint() {
 #[test]
 fn growth_is_drawn_within_the_bands_and_never_below_zero() {
     let report = busy_report();
-    let chart = Chart::new(&report);
+    let chart = Chart::new(&report, CampbellView::default());
     let axis = growth::axis(&chart, 50.0).unwrap();
     assert_eq!(axis.values()[0], 0.0);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
@@ -132,7 +198,7 @@ fn the_certificate_is_told_and_violations_are_red() {
     let wrong = "Krein index does not match at 2 of 567 speeds, 1200.0 to 1300.0 rpm";
     report.certificate.krein_violations = 2;
     report.certificate.statement = wrong.to_owned();
-    assert_tidy(&sheet(&report));
+    assert_tidy(&sheet(&report, CampbellView::default()));
     let svg = report.campbell_svg().unwrap();
     assert!(svg.contains(wrong));
     assert!(svg.contains("fill=\"#C8102E\""));

@@ -35,8 +35,10 @@ pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
     direction.copied().unwrap_or(Direction::Standing)
 }
 
-fn last_colour(branch: &BranchEntry) -> Colour {
-    direction_colour(direction_at(branch, branch.rpm.len().saturating_sub(1)))
+/// The colour of a branch at the last of its speeds that are shown.
+fn last_colour(branch: &BranchEntry, chart: &Chart) -> Colour {
+    let shown = branch.rpm.iter().rposition(|rpm| chart.speed.shows(*rpm));
+    direction_colour(direction_at(branch, shown.unwrap_or(0)))
 }
 
 fn short_label(branch: &BranchEntry) -> String {
@@ -53,26 +55,36 @@ pub fn end_label_room(report: &Report) -> f64 {
     LABEL_GAP + widths.fold(40.0, f64::max)
 }
 
-/// Upper end of the frequency axis: high enough for the lowest branches at rest, for
-/// reflected waves, bands and measured points, and not higher, since everything
-/// that matters happens near the axis.
-pub fn highest_shown_hz(report: &Report) -> f64 {
+/// Upper end of the frequency axis over a range of speeds: high enough for the lowest branches at its beginning, for
+/// reflected waves, bands and measured points, and not higher, since everything that matters happens near the axis.
+pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     const HEADROOM: f64 = 1.1;
     const LOWEST_BRANCHES: usize = 6;
+    let shown = |rpm: f64| from <= rpm && rpm <= to;
     let branches = &report.campbell.branches;
-    let from = report.campbell.from_rpm;
-    let at_rest = branches.iter().filter(|b| b.rpm.first() == Some(&from));
-    let mut at_rest: Vec<f64> = at_rest
-        .filter_map(|branch| branch.frequency_hz.first().copied())
+    let mut first: Vec<f64> = branches
+        .iter()
+        .filter_map(|branch| {
+            let at = branch.rpm.iter().rposition(|rpm| *rpm <= from)?;
+            // A branch that ends before does not begin here.
+            let goes_on = branch.rpm[at] == from || at + 1 < branch.rpm.len();
+            branch.frequency_hz.get(at).copied().filter(|_| goes_on)
+        })
         .collect();
-    at_rest.sort_by(f64::total_cmp);
-    let lowest = at_rest.into_iter().take(LOWEST_BRANCHES);
+    first.sort_by(f64::total_cmp);
+    let lowest = first.into_iter().take(LOWEST_BRANCHES);
     let reflected = branches.iter().flat_map(|branch| {
-        let samples = branch.frequency_hz.iter().zip(&branch.krein_sign);
-        samples.filter(|(_, sign)| **sign < 0).map(|(hz, _)| *hz)
+        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
+        let samples = samples.zip(&branch.krein_sign);
+        samples
+            .filter(|((rpm, _), sign)| **sign < 0 && shown(**rpm))
+            .map(|((_, hz), _)| *hz)
     });
-    let bands = report.instabilities.iter().map(|band| band.frequency_hz);
+    let bands = report.instabilities.iter();
+    let bands = bands.filter(|band| shown(band.peak_rpm));
+    let bands = bands.map(|band| band.frequency_hz);
     let measured = report.scene.measured.iter().flat_map(|m| &m.rows);
+    let measured = measured.filter(|row| shown(row.rpm));
     let measured = measured.flat_map(MeasuredRow::seen_hz);
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
@@ -144,7 +156,7 @@ pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
     // From the highest down, so that the lowest branches lie on top.
     for branch in chart.report.campbell.branches.iter().rev() {
         if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
-            dot(sheet, chart, *rpm, *hz, last_colour(branch));
+            dot(sheet, chart, *rpm, *hz, last_colour(branch, chart));
         }
         for ((look, direction), line) in stretches(branch, chart) {
             let colour = direction_colour(direction);
@@ -230,7 +242,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
         let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
             continue;
         };
-        let colour = last_colour(branch);
+        let colour = last_colour(branch, chart);
         let (right, label_left) = (chart.upper.right, chart.upper.right + LABEL_GAP);
         if (centre - end).abs() > 3.0 {
             let leader = [[right + 1.0, *end], [label_left - 2.0, centre]];
@@ -254,7 +266,7 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
         let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
             continue;
         };
-        let colour = last_colour(branch);
+        let colour = last_colour(branch, chart);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
         let at = [centre, chart.upper.top - 6.0];
         let label = short_label(branch);

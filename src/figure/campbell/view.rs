@@ -1,0 +1,85 @@
+//! Which part of a chart its figure shows.
+
+use super::super::bands::is_shaded;
+use super::waves;
+use crate::report::{InstabilityEntry, Report};
+
+/// Which part of the Campbell diagram its figure shows. An end that is `None` is chosen: the whole sweep, or as much
+/// of it as can be read where there are very many bands.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct CampbellView {
+    /// First rotation speed.
+    pub from_rpm: Option<f64>,
+    /// Last rotation speed.
+    pub to_rpm: Option<f64>,
+    /// Highest frequency.
+    pub to_hz: Option<f64>,
+}
+
+/// So many bands can be told apart: a few have a label, of all the curve of growth is seen.
+const MOST_BANDS: usize = 40;
+/// What matters most is not at the edge.
+const BEYOND: f64 = 1.1;
+
+/// First and last rotation speed, and the highest frequency.
+pub struct Shown {
+    pub rpm: [f64; 2],
+    pub hz: f64,
+}
+
+impl CampbellView {
+    pub(super) fn of(self, report: &Report) -> Shown {
+        let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];
+        let from = self.from_rpm.map_or(sweep[0], |rpm| rpm.max(sweep[0]));
+        let to = self
+            .to_rpm
+            .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
+        let hz = self.to_hz;
+        let hz = hz.unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
+        Shown {
+            rpm: [from, to],
+            hz,
+        }
+    }
+}
+
+/// The end of the sweep, or where the first band begins that would be one too many; beyond the operating speed and
+/// the flutter speed.
+fn last_readable(report: &Report, from_rpm: f64) -> f64 {
+    let end = report.campbell.to_rpm;
+    let later = report.instabilities.iter().filter(|b| b.to_rpm >= from_rpm);
+    let mut onsets: Vec<f64> = later.map(|band| band.from_rpm).collect();
+    onsets.sort_by(f64::total_cmp);
+    let Some(onset) = onsets.get(MOST_BANDS) else {
+        return end;
+    };
+    let marks = [report.scene.operating_rpm, report.flutter_speed_rpm];
+    let marks = marks.into_iter().flatten().map(|rpm| BEYOND * rpm);
+    marks.fold(*onset, f64::max).min(end)
+}
+
+/// What the figure leaves out, in words.
+pub fn left_out(report: &Report, [from, to]: [f64; 2]) -> Vec<String> {
+    let mut notes = Vec::new();
+    let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
+    if first < from || to < last {
+        notes.push(format!(
+            "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to-rpm shows another part)"
+        ));
+    }
+    let is_shown = |b: &&InstabilityEntry| b.from_rpm <= to && from <= b.to_rpm;
+    let shown = report.instabilities.iter().filter(is_shown);
+    let weak = shown.filter(|band| !is_shaded([from, to], band)).count();
+    if weak > 0 {
+        let (bands, grow) = if weak == 1 {
+            ("band", "grows")
+        } else {
+            ("bands", "grow")
+        };
+        let threshold = report.flutter_threshold_per_s;
+        notes.push(format!(
+            "{weak} wide {bands} that {grow} by less than {threshold} 1/s: not shaded"
+        ));
+    }
+    notes
+}
