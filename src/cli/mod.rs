@@ -69,7 +69,7 @@ enum Command {
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
-    /// Measure what digits cost: time against true error; tradeoff.png
+    /// Measure what digits cost: time against true error; tradeoff.json, a figure
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
     /// Write the matrices of a saw as NumPy files

@@ -7,6 +7,7 @@ use crate::stability::{Method, Setting, recommended, tradeoff};
 use clap::Args;
 
 use super::common::Common;
+use super::pictures;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -29,11 +30,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         tradeoff(&scene, &settings)
     })??;
     let json = serde_json::to_string_pretty(&settings)?;
-    let png = figure::tradeoff(&scene.file().name, &settings).png()?;
-    let files = [
-        ("tradeoff.png", png),
-        ("tradeoff.json", json.clone().into_bytes()),
-    ];
+    let mut files = pictures::files(&[figure::tradeoff(&scene.file().name, &settings)])?;
+    files.push(("tradeoff.json", json.clone().into_bytes()));
     arguments
         .common
         .print(&folder, &files, &[], &json, || summary(&settings))

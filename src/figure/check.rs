@@ -33,9 +33,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     }
     draw_stiffness(&mut sheet, report, &speed, row(rows - 1));
     draw_end_of_sweep(&mut sheet, report, &speed, bottom);
-    let operating = speed.at(report.operating_rpm);
-    let line = [[operating, TOP], [operating, bottom]];
-    sheet.line(line, Stroke::solid(INK, HAIRLINE));
+    draw_operating(&mut sheet, report, &speed, bottom);
     draw_named(&mut sheet, &speed, bottom, "rotation speed Ω\u{2003}[rpm]");
     draw_key(&mut sheet, bottom + BELOW - 22.0);
     sheet
@@ -50,6 +48,15 @@ fn last_shown_rpm(report: &CheckReport) -> f64 {
     report.to_rpm.max(1.03 * marks)
 }
 
+/// The operating speed through all rows, with its name.
+fn draw_operating(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
+    let x = speed.at(report.operating_rpm);
+    sheet.line([[x, TOP], [x, bottom]], Stroke::solid(INK, HAIRLINE));
+    let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
+    let text = format!("operating {:.0}", report.operating_rpm);
+    sheet.text([x, TOP - 6.0], letters, &text);
+}
+
 /// Where the sweep ends within the axis, beyond which no band is searched for.
 fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
     if report.to_rpm >= speed.values()[1] {
@@ -60,9 +67,14 @@ fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bott
         dash: Some(FINE_DASH),
         ..Stroke::solid(QUIET, HAIRLINE)
     };
-    sheet.line([[x, TOP], [x, bottom]], dashed);
+    sheet.line([[x, TOP - 16.0], [x, bottom]], dashed);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    sheet.text([x.max(LEFT + 90.0), TOP - 6.0], letters, "end of the sweep");
+    // Above the name of the operating speed.
+    sheet.text(
+        [x.max(LEFT + 90.0), TOP - 20.0],
+        letters,
+        "end of the sweep",
+    );
 }
 
 fn row(k: usize) -> Frame {
@@ -98,7 +110,14 @@ fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
         );
         sheet.disc([rpm, middle], 3.5, INK);
     }
-    name(sheet, frame, "the saw", "critical speeds and bands", QUIET);
+    let (critical, bands) = (report.critical_speeds_rpm.len(), report.instabilities.len());
+    let found = match (critical, bands) {
+        (0, 0) => format!("no critical speed, no band up to {:.0} rpm", report.to_rpm),
+        (_, 0) => "critical speeds, no band".to_owned(),
+        (0, _) => "bands, no critical speed".to_owned(),
+        _ => "critical speeds and bands".to_owned(),
+    };
+    name(sheet, frame, "the saw", &found, QUIET);
 }
 
 /// Name of a row and what is said of it.
@@ -142,6 +161,9 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     sheet.line(upright, Stroke::solid(INK, STRONG_CURVE));
     if found.is_some() {
         sheet.disc([end, middle], 6.0, colour);
+    } else if !is_limit {
+        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
+        sheet.text([asked + 9.0, middle + 4.0], letters, "none");
     }
 }
 
@@ -186,8 +208,7 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
         .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, PASS))
         .word("found, with what there is to spare")
         .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, ALARM))
-        .word("found, with what is wanting")
-        .word("thin upright: operating speed");
+        .word("found, with what is wanting");
 }
 
 #[cfg(test)]
@@ -213,6 +234,7 @@ mod tests {
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
         assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
+        assert_eq!((with("operating 1250"), with("none")), (1, 1), "{said:?}");
     }
 
     /// A saw whose lowest critical speed lies beyond its sweep.

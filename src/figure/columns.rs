@@ -11,8 +11,10 @@ pub struct Columns {
     pub lefts: [f64; 2],
     /// Upper edge of the first row.
     pub top: f64,
-    /// Width of a panel.
+    /// Width of a panel beside another.
     pub width: f64,
+    /// Width of a panel that is the only one.
+    pub alone: f64,
     /// Height of a panel.
     pub height: f64,
     /// From the upper edge of a row to that of the next.
@@ -21,20 +23,26 @@ pub struct Columns {
 
 /// Room below the last row.
 const FOOT: f64 = 60.0;
-/// Width of every sheet.
-const WIDTH: u32 = 1200;
+/// Width of a sheet of two columns.
+const WIDTH: f64 = 1200.0;
 
 impl Columns {
     /// A sheet with room for so many panels, under a title.
     pub fn sheet(&self, panels: usize, title: &str, subtitle: &str) -> Sheet {
         let rows = panels.div_ceil(2).max(1);
-        let mut sheet = Sheet::new(WIDTH, (FOOT + self.row * rows as f64) as u32);
+        let beside = WIDTH - self.lefts[1] - self.width;
+        let width = match panels {
+            1 => self.lefts[0] + self.alone + beside,
+            _ => WIDTH,
+        };
+        let mut sheet = Sheet::new(width as u32, (FOOT + self.row * rows as f64) as u32);
         heading::draw(&mut sheet, title, subtitle);
         sheet
     }
 
-    /// The panel of an index.
-    pub fn panel(&self, index: usize) -> Frame {
+    /// The panel of an index, of so many.
+    pub fn panel(&self, index: usize, panels: usize) -> Frame {
+        let width = if panels == 1 { self.alone } else { self.width };
         let (left, top) = (
             self.lefts[index % 2],
             self.top + self.row * (index / 2) as f64,
@@ -42,7 +50,7 @@ impl Columns {
         Frame {
             left,
             top,
-            right: left + self.width,
+            right: left + width,
             bottom: top + self.height,
         }
     }

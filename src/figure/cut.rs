@@ -1,7 +1,7 @@
 //! The deflection before, during and after the cut, one panel a speed, as in the paper's
 //! Figures 16 and 17.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
 use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
@@ -15,17 +15,55 @@ const PANELS: Columns = Columns {
     lefts: [92.0, 680.0],
     top: 136.0,
     width: 488.0,
+    alone: 1076.0,
     height: 330.0,
     row: 470.0,
 };
 
 pub fn sheet(report: &CutReport) -> Sheet {
     let title = "Deflection at the probe before, during and after the cut";
-    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
+    let panels = report.runs.len();
+    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let scale = Scale::of(&report.runs);
     for (index, run) in report.runs.iter().enumerate() {
-        draw_run(&mut sheet, index, run);
+        let name = name_of_row(index, &scale.name);
+        draw_run(
+            &mut sheet,
+            (&PANELS.panel(index, panels), name),
+            run,
+            &scale,
+        );
     }
     sheet
+}
+
+/// The scale of deflections that all panels share, so that they can be compared.
+struct Scale {
+    name: String,
+    per_metre: f64,
+    reach: f64,
+}
+
+impl Scale {
+    fn of(runs: &[CutRunEntry]) -> Self {
+        let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
+        let (unit, per_metre) = unit_of(largest_m);
+        let reach = match largest_m > 0.0 {
+            // Below a nanometre the curve is flat: smaller ticks have no room, nor a meaning.
+            true => 1.12 * per_metre * largest_m.max(1e-9),
+            false => 1.0,
+        };
+        Scale {
+            name: format!("deflection\u{2003}[{unit}]"),
+            per_metre,
+            reach,
+        }
+    }
+}
+
+fn largest_m(run: &CutRunEntry) -> f64 {
+    let sizes = run.deflection_m.iter().map(|w| w.abs());
+    sizes.fold(0.0, f64::max)
 }
 
 /// The unit of a record, so small that its ticks have few digits: its name, and how many
@@ -38,31 +76,17 @@ fn unit_of(largest_m: f64) -> (&'static str, f64) {
     }
 }
 
-fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
-    let panel = &PANELS.panel(index);
-    let sizes = run.deflection_m.iter().map(|w| w.abs());
-    let largest_m = sizes.fold(0.0_f64, f64::max);
-    let (unit, per_metre) = unit_of(largest_m);
-    let reach = match largest_m > 0.0 {
-        // Below a nanometre the curve is flat: smaller ticks have no room, nor a meaning.
-        true => 1.12 * per_metre * largest_m.max(1e-9),
-        false => 1.0,
-    };
+fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry, scale: &Scale) {
     let end_s = run.forces_to_s + run.forces_from_s;
     let time = Axis::new([0.0, end_s], [panel.left, panel.right], Spread::Linear);
-    let deflection = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
+    let reach = [-scale.reach, scale.reach];
+    let deflection = Axis::new(reach, [panel.bottom, panel.top], Spread::Linear);
     draw_ground(sheet, panel, run, &time);
-    // Where the unit differs from row to row, each panel has its own.
-    let name = format!("deflection\u{2003}[{unit}]");
-    draw_vertical(sheet, &deflection, panel, name_of_row(index, &name));
-    if index % 2 == 1 && unit != "mm" {
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-        sheet.text([panel.left - 9.0, panel.top - 6.0], letters, unit);
-    }
+    draw_vertical(sheet, &deflection, panel, name);
     let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
-    let place = |t: f64, w: f64| [time.at(t), deflection.at(per_metre * w)];
+    let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
     draw_envelope(sheet, panel, run, place);
     let record = run.time_s.iter().zip(&run.deflection_m);
     let places: Vec<[f64; 2]> = record.map(|(t, w)| place(*t, *w)).collect();
@@ -75,6 +99,15 @@ fn draw_run(sheet: &mut Sheet, index: usize, run: &CutRunEntry) {
         label_end_of_model(sheet, panel, x, "the linear model ends");
     }
     draw_verdict(sheet, panel, run);
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
+    let at = [panel.right, panel.top - 32.0];
+    sheet.text(at, letters, &format!("largest {}", length(largest_m(run))));
+}
+
+/// A length of any size in a unit in which it has few digits.
+fn length(metres: f64) -> String {
+    let (unit, per_metre) = unit_of(metres);
+    format!("{} {unit}", two_digits(per_metre * metres))
 }
 
 /// The time in the cut, in the colour of the verdict.

@@ -1,7 +1,7 @@
 //! The verdict over guide angle and load level, one panel a speed.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::clip::clip;
 use super::columns::{Columns, axis_over, name_of_row};
 use super::heat::{draw_grid, draw_scale, ramp};
@@ -15,6 +15,7 @@ const PANELS: Columns = Columns {
     lefts: [92.0, 610.0],
     top: 124.0,
     width: 438.0,
+    alone: 956.0,
     height: 320.0,
     row: 450.0,
 };
@@ -37,7 +38,8 @@ pub fn sheet(report: &CutReport) -> Sheet {
         return over_load(report);
     }
     let title = "Growth in the cut over the angle of the guides and the load";
-    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
+    let panels = report.runs.len();
+    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
     let fastest = fastest_growth(report);
     let shade = |growth: f64| {
         if growth < report.flutter_threshold_per_s {
@@ -47,12 +49,13 @@ pub fn sheet(report: &CutReport) -> Sheet {
         }
     };
     for (index, run) in report.runs.iter().enumerate() {
-        draw_map(&mut sheet, index, run, shade);
-        draw_own_point(&mut sheet, &PANELS.panel(index), report, run);
+        let panel = PANELS.panel(index, panels);
+        draw_map(&mut sheet, (&panel, name_of_row(index, LOAD)), run, shade);
+        draw_own_point(&mut sheet, &panel, report, run);
     }
     draw_scale(
         &mut sheet,
-        (&PANELS.panel(0), 10.0, SCALE),
+        (&PANELS.panel(0, panels), 10.0, SCALE),
         [0.0, fastest],
         "growth [1/s]",
         (shade, |v| Some(tick_label(v))),
@@ -67,6 +70,15 @@ fn fastest_growth(report: &CutReport) -> f64 {
     fastest.max(4.0 * report.flutter_threshold_per_s)
 }
 
+/// Beginning of an axis of growth: below zero where every motion decays.
+fn slowest_growth(report: &CutReport) -> f64 {
+    let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
+    let own = report.runs.iter().map(|run| run.growth_per_s);
+    let all = maps.flatten().flatten().copied().chain(own);
+    // Room for the mark of the saw.
+    1.2 * all.fold(0.0, f64::min)
+}
+
 /// Axes of a map: guide angle and load level.
 fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
     (
@@ -75,10 +87,14 @@ fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
     )
 }
 
-fn draw_map(sheet: &mut Sheet, index: usize, run: &CutRunEntry, shade: impl Fn(f64) -> Colour) {
-    let panel = &PANELS.panel(index);
+fn draw_map(
+    sheet: &mut Sheet,
+    (panel, load): (&Frame, &str),
+    run: &CutRunEntry,
+    shade: impl Fn(f64) -> Colour,
+) {
     let (angle, level) = axes(panel, run);
-    draw_vertical(sheet, &level, panel, name_of_row(index, LOAD));
+    draw_vertical(sheet, &level, panel, load);
     draw_grid(
         sheet,
         (&angle, &run.map.guide_angle_deg),
@@ -115,12 +131,14 @@ fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
 /// The same without guides, which leave the load alone to vary.
 fn over_load(report: &CutReport) -> Sheet {
     let title = "Growth in the cut over the load";
-    let mut sheet = PANELS.sheet(report.runs.len(), title, &report.scene.name);
+    let panels = report.runs.len();
+    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
     let fastest = fastest_growth(report);
     for (index, run) in report.runs.iter().enumerate() {
-        let panel = &PANELS.panel(index);
+        let panel = &PANELS.panel(index, panels);
         let level = axis_over(&run.map.load_level, [panel.left, panel.right]);
-        let growth = Axis::new([0.0, fastest], [panel.bottom, panel.top], Spread::Linear);
+        let ends = [slowest_growth(report), fastest];
+        let growth = Axis::new(ends, [panel.bottom, panel.top], Spread::Linear);
         draw_vertical(
             &mut sheet,
             &growth,
@@ -151,6 +169,10 @@ fn over_load(report: &CutReport) -> Sheet {
             own,
             PAPER,
         );
+        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
+        let beside = [level.at(1.0) + 11.0, growth.at(run.growth_per_s) + 4.0];
+        sheet.fill(text_frame(beside, &letters, "this saw"), PAPER);
+        sheet.text(beside, letters, "this saw");
         draw_forces(&mut sheet, panel, run);
     }
     sheet

@@ -1,5 +1,6 @@
 //! The figures of the cut and of the run-up, drawn from reports made up for it.
 
+use super::canvas::Mark;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
 use crate::report::{CutReport, RunUpReport, WashboardReport};
@@ -79,7 +80,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
         ..cut.at_rpm(2800.0).unwrap()
     };
     let cutting = Cutting::new(&scene, &[run], &|_, _| ()).unwrap();
-    let report = CutReport::new(&cutting);
+    let mut report = CutReport::new(&cutting);
     assert_eq!(report.runs[0].transient_verdict, None);
     assert!(
         report
@@ -87,7 +88,64 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
             .iter()
             .any(|w| w.contains("cut.lateral_n_per_tooth"))
     );
-    assert_tidy(&cut::sheet(&report));
+    let (width, _) = cut::sheet(&report).size();
+    for drawn in [cut::sheet(&report), cut_map::sheet(&report)] {
+        assert_tidy(&drawn);
+        let right = texts(&drawn)
+            .iter()
+            .map(|(frame, _)| frame.right)
+            .fold(0.0, f64::max);
+        assert!(
+            right > 0.9 * f64::from(width),
+            "half of the sheet is empty: {right}"
+        );
+    }
+    // A saw without guides of which every motion decays.
+    report.scene.guides.clear();
+    let run = &mut report.runs[0];
+    run.growth_per_s = -0.3;
+    run.map
+        .growth_per_s
+        .iter_mut()
+        .flatten()
+        .for_each(|growth| *growth = -0.3);
+    let drawn = cut_map::sheet(&report);
+    assert_tidy(&drawn);
+    let bottom = drawn.marks().iter().filter_map(|mark| match mark {
+        Mark::Line(points, _) if points[0][0] == points[1][0] => Some(points[1][1]),
+        _ => None,
+    });
+    let bottom = bottom.fold(0.0, f64::max);
+    let marks = drawn.marks().iter().filter_map(|mark| match mark {
+        Mark::Disc(centre, ..) => Some(centre[1]),
+        _ => None,
+    });
+    let marks: Vec<f64> = marks.collect();
+    assert!(
+        !marks.is_empty() && marks.iter().all(|y| *y < bottom),
+        "{marks:?}"
+    );
+}
+
+/// One scale for all, so that panels can be compared.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn deflections_have_one_common_scale() {
+    let report = cut_report(&draft().edited(|saw| saw.spline = None).unwrap());
+    let drawn = cut::sheet(&report);
+    let texts = texts(&drawn);
+    // Numbers left of the two columns, from the top down.
+    let ticks = |from: f64, to: f64| {
+        let own = texts.iter().filter(|(frame, text)| {
+            let number = text.replace('\u{2212}', "-").parse::<f64>().is_ok();
+            number && from < frame.left && frame.right < to && frame.bottom < 480.0
+        });
+        own.map(|(frame, text)| (text.to_string(), frame.top as i32))
+            .collect::<Vec<_>>()
+    };
+    let first = ticks(0.0, 92.0);
+    assert!(first.len() > 2);
+    assert_eq!(first, ticks(600.0, 680.0));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Measured points over the fitted curves, and what is left between them.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
+use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, round_up};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Frame, Sheet, Stroke};
 use super::clip::clip;
@@ -10,6 +10,7 @@ use super::style::{
     ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
 };
+use super::written::in_words;
 use crate::report::{FitReport, ResidualEntry};
 
 const WIDTH: u32 = 1200;
@@ -66,11 +67,9 @@ pub fn sheet(report: &FitReport) -> Sheet {
     );
     let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
     let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
-    let residual = Axis::new(
-        [-1.15 * largest, 1.15 * largest],
-        [LOWER.bottom, LOWER.top],
-        Spread::Linear,
-    );
+    // Up to a round number, so that a tick stands on either side of zero.
+    let reach = round_up(1.05 * largest);
+    let residual = Axis::new([-reach, reach], [LOWER.bottom, LOWER.top], Spread::Linear);
     draw_axes(&mut sheet, &speed, &frequency, &residual);
     let before = Stroke {
         dash: Some(DASH),
@@ -111,10 +110,8 @@ fn draw_axes(sheet: &mut Sheet, speed: &Axis, frequency: &Axis, residual: &Axis)
 }
 
 fn facts(report: &FitReport) -> String {
-    let found = report.parameters.iter().map(|p| {
-        let name = p.path.rsplit('.').next().unwrap_or(&p.path);
-        format!("{name} {}", four_digits(p.value))
-    });
+    let found = report.parameters.iter();
+    let found = found.map(|p| in_words(&p.path, p.value));
     let rms = format!(
         "{:.3} Hz rms over {} frequencies",
         report.rms_hz, report.measured_frequencies
@@ -123,16 +120,6 @@ fn facts(report: &FitReport) -> String {
         .chain(found)
         .collect::<Vec<_>>()
         .join(BETWEEN_FACTS)
-}
-
-/// A number of any size to four digits.
-pub(super) fn four_digits(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
-        return format!("{value:.3e}").replace('-', "\u{2212}");
-    }
-    let decimals = 3 - value.abs().max(1e-3).log10().floor() as i32;
-    let text = format!("{value:.*}", decimals.clamp(0, 6) as usize);
-    text.replace('-', "\u{2212}")
 }
 
 fn draw_curves(
@@ -273,13 +260,5 @@ mod tests {
             draw_shape(&mut sheet, *shape, [100.0, 100.0], INK);
             assert!(!sheet.marks().is_empty());
         }
-    }
-
-    #[test]
-    fn numbers_of_any_size_take_four_digits() {
-        assert_eq!(four_digits(0.194024), "0.1940");
-        assert_eq!(four_digits(-55.0), "\u{2212}55.00");
-        assert_eq!(four_digits(2.0e7), "2.000e7");
-        assert_eq!(four_digits(0.0), "0.000000");
     }
 }

@@ -53,7 +53,7 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
     let [first, last] = axis.places();
     let between = values
         .windows(2)
-        .map(|pair| axis.at(0.5 * (pair[0] + pair[1])));
+        .map(|pair| 0.5 * (axis.at(pair[0]) + axis.at(pair[1])));
     std::iter::once(first)
         .chain(between)
         .chain(std::iter::once(last))

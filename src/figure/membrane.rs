@@ -216,10 +216,23 @@ fn draw_limits(
         let text = format!("critical from {} on", kelvin(found.rise_k));
         limit(found.rise_k, rpm, FLUTTER, text);
     }
-    if let Some(found) = &heat.buckling {
-        let text = format!("buckles at rest from {} on", kelvin(found.rise_k));
+    let Some(found) = &heat.buckling else {
+        return;
+    };
+    let text = format!("buckles at rest from {} on", kelvin(found.rise_k));
+    if rise.shows(found.rise_k) {
         limit(found.rise_k, 0.0, ALARM, text);
+        return;
     }
+    // The curves end before it: told at the side where it lies.
+    let (anchor, x, text) = match found.rise_k > 0.0 {
+        true => (Anchor::End, SPEEDS.right, format!("{text} →")),
+        false => (Anchor::Start, SPEEDS.left + 8.0, format!("← {text}")),
+    };
+    let letters = Lettering::regular(LABEL_SIZE, ALARM, anchor);
+    let place = [x, SPEEDS.bottom - 9.0];
+    sheet.fill(text_frame(place, &letters, &text), PAPER);
+    sheet.text(place, letters, &text);
 }
 
 #[cfg(test)]
@@ -289,6 +302,21 @@ mod tests {
             let has = |text: &str| written.iter().any(|(_, own)| *own == text);
             assert!(has("critical from +25 K on") && has("buckles at rest from +51.9 K on"));
             assert_eq!(has(&format!("the scene, +{rise_k} K")), rise_k > 0.0);
+        }
+    }
+
+    #[test]
+    fn buckling_beyond_the_curves_is_named() {
+        for (rise_k, said) in [
+            (120.0, "buckles at rest from +120 K on →"),
+            (-80.0, "← buckles at rest from \u{2212}80 K on"),
+        ] {
+            let mut report = report(10.0);
+            let heat = report.membrane.as_mut().unwrap().heat.as_mut().unwrap();
+            heat.buckling.as_mut().unwrap().rise_k = rise_k;
+            let drawn = sheet(&report).unwrap();
+            assert_tidy(&drawn);
+            assert!(texts(&drawn).iter().any(|(_, own)| *own == said), "{said}");
         }
     }
 

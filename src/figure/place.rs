@@ -1,11 +1,11 @@
 //! The goal over two numbers of a guide; the best saw is marked, and the saw that is better by itself.
 
 use super::canvas::{Sheet, Stroke};
-use super::fit::four_digits;
 use super::heading;
 use super::key::Key;
 use super::place_map::{Along, BROKEN, HEIGHT, PANEL, Shades, draw_panel, empty, goals, title};
 use super::style::{ALARM, BETWEEN_FACTS, INK, PAPER, STRONG_CURVE};
+use super::written::in_words;
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
 
 pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
@@ -34,10 +34,8 @@ fn facts(report: &PlaceReport) -> String {
         "best: {goal} {beyond}{:.0} rpm (before {:.0} rpm)",
         report.best.goal_rpm, report.before.goal_rpm
     );
-    let values = report.parameters.iter().map(|p| {
-        let name = p.path.rsplit('.').next().unwrap_or(&p.path);
-        format!("{name} {}", four_digits(p.value))
-    });
+    let values = report.parameters.iter();
+    let values = values.map(|p| in_words(&p.path, p.value));
     let worst = format!(
         "{}worst within tolerances: {:.0} %",
         if report.fragile { "fragile, " } else { "" },
@@ -217,7 +215,7 @@ mod tests {
                 all.iter().any(|text| text.contains("below 1500 rpm")),
                 "{all:?}"
             );
-            assert!(all.iter().any(|text| text.contains("[m]")), "{all:?}");
+            assert!(all.iter().any(|text| text.contains("[mm]")), "{all:?}");
             assert!(all.iter().any(|text| text.contains("fragile")), "{all:?}");
         }
         let without = PlaceReport {

@@ -4,6 +4,7 @@ use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::Colour;
+use super::written;
 use crate::report::{GoalEntry, MapEntry};
 
 const WIDTH: u32 = 1100;
@@ -26,61 +27,46 @@ const LOW_TO_HIGH: [Colour; 5] = [
 /// Saws that break the limit, and places without a saw.
 pub const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
 
-/// An axis of a number that may be spread by decades.
+/// An axis of a number of the scene, by decades where its bounds are decades apart, half a cell longer on either side
+/// so that a saw at a bound lies within.
 pub struct Along {
     axis: Axis,
     values: Vec<f64>,
-    logarithmic: bool,
+    /// How many of the written unit make one of the scene's.
+    factor: f64,
+    name: String,
 }
 
 impl Along {
-    fn new(values: &[f64], places: [f64; 2]) -> Self {
-        let ends = [
-            values.first().copied().unwrap_or(0.0),
-            values.last().copied().unwrap_or(1.0),
-        ];
-        let logarithmic = ends[0] > 0.0 && ends[1] >= 10.0 * ends[0];
-        let of = |value: f64| if logarithmic { value.log10() } else { value };
+    fn new(path: &str, values: &[f64], places: [f64; 2]) -> Self {
+        let (unit, factor) = written::unit(path);
+        let name = match unit {
+            "" => written::name(path),
+            _ => format!("{}\u{2003}[{unit}]", written::name(path)),
+        };
+        let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
+        let first = values.first().copied().unwrap_or(0.0);
+        let last = values.last().copied().unwrap_or(1.0);
+        let cells = values.len().saturating_sub(1).max(1) as f64;
+        let (spread, ends) = if first > 0.0 && last >= 10.0 * first {
+            let half = (last / first).powf(0.5 / cells);
+            (Spread::Logarithmic, [first / half, last * half])
+        } else {
+            let half = 0.5 * (last - first) / cells;
+            (Spread::Linear, [first - half, last + half])
+        };
         Along {
-            axis: Axis::new(ends.map(of), places, Spread::Linear),
-            values: values.iter().map(|v| of(*v)).collect(),
-            logarithmic,
+            axis: Axis::new(ends, places, spread),
+            values,
+            factor,
+            name,
         }
     }
 
     pub fn at(&self, value: f64) -> f64 {
-        let value = if self.logarithmic {
-            value.log10()
-        } else {
-            value
-        };
-        self.axis.at(value)
-    }
-
-    fn name(&self, path: &str) -> String {
-        let (before, unit) = UNITS
-            .iter()
-            .find_map(|(suffix, unit)| Some((path.strip_suffix(suffix)?, *unit)))
-            .unwrap_or((path, ""));
-        let name = before.replace('_', " ");
-        match (self.logarithmic, unit) {
-            (true, unit) => format!("log₁₀ {name}\u{2003}[{unit}]"),
-            (false, "") => name,
-            (false, unit) => format!("{name}\u{2003}[{unit}]"),
-        }
+        self.axis.at(self.factor * value)
     }
 }
-
-const UNITS: [(&str, &str); 8] = [
-    ("_n_s_per_m", "N·s/m"),
-    ("_n_per_m", "N/m"),
-    ("_kg_per_m3", "kg/m³"),
-    ("_deg", "°"),
-    ("_pa", "Pa"),
-    ("_rpm", "rpm"),
-    ("_s", "s"),
-    ("_m", "m"),
-];
 
 /// Nothing yet.
 pub fn empty() -> Sheet {
@@ -140,13 +126,18 @@ pub fn draw_panel(
     shades: &Shades,
     colour: impl Fn(usize, usize) -> Colour,
 ) -> (Along, Along) {
-    let x = Along::new(&map.x, [PANEL.left, PANEL.right]);
-    let y = Along::new(&map.y, [PANEL.bottom, PANEL.top]);
-    if let Some(path) = &map.y_path {
-        draw_vertical(sheet, &y.axis, &PANEL, &y.name(path));
+    let x = Along::new(&map.x_path, &map.x, [PANEL.left, PANEL.right]);
+    let y_path = map.y_path.as_deref();
+    let y = Along::new(
+        y_path.unwrap_or_default(),
+        &map.y,
+        [PANEL.bottom, PANEL.top],
+    );
+    if y_path.is_some() {
+        draw_vertical(sheet, &y.axis, &PANEL, &y.name);
     }
     draw_grid(sheet, (&x.axis, &x.values), (&y.axis, &y.values), colour);
-    draw_named(sheet, &x.axis, PANEL.bottom, &x.name(&map.x_path));
+    draw_named(sheet, &x.axis, PANEL.bottom, &x.name);
     let label = |rpm: f64| Some(tick_label(rpm));
     let shade = |rpm: f64| shades.colour(rpm);
     let (place, ends) = ((&PANEL, 20.0, SCALE), [shades.low, shades.high]);

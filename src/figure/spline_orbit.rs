@@ -1,11 +1,12 @@
 //! The orbit of the centre of the blade on its arbor, one panel a speed.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical};
-use super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::clip::clip;
 use super::columns::{Columns, name_of_row};
 use super::style::{
-    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, Weight,
-    tint,
+    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, STANDING, SUBTITLE_SIZE,
+    Weight, tint,
 };
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
@@ -14,6 +15,7 @@ const PANELS: Columns = Columns {
     lefts: [120.0, 700.0],
     top: 140.0,
     width: 420.0,
+    alone: 420.0,
     height: 420.0,
     row: 560.0,
 };
@@ -28,41 +30,62 @@ pub fn sheet(report: &CutReport) -> Option<Sheet> {
         return None;
     }
     let title = "Orbit of the blade's centre on the splined arbor in the cut";
-    let mut sheet = PANELS.sheet(runs.len(), title, &report.scene.name);
+    let panels = runs.len();
+    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let scale = Scale::of(runs.iter().map(|(_, spline)| *spline));
     for (index, (run, spline)) in runs.into_iter().enumerate() {
-        draw_orbit(&mut sheet, index, run, spline);
+        let name = format!("a quarter turn further\u{2003}[{}]", scale.unit);
+        let panel = (&PANELS.panel(index, panels), name_of_row(index, &name));
+        draw_orbit(&mut sheet, panel, (run, spline), &scale);
     }
     Some(sheet)
 }
 
-fn draw_orbit(sheet: &mut Sheet, index: usize, run: &CutRunEntry, spline: &SplineEntry) {
-    let panel = &PANELS.panel(index);
-    let all = spline.x_m.iter().chain(&spline.y_m);
-    let largest_mm = 1e3 * all.fold(0.0_f64, |max, value| max.max(value.abs()));
-    let clearance_mm = 1e3 * spline.clearance_m;
-    let reach = 1.2 * largest_mm.max(clearance_mm).max(1e-6);
-    let x = Axis::new([-reach, reach], [panel.left, panel.right], Spread::Linear);
-    let y = Axis::new([-reach, reach], [panel.bottom, panel.top], Spread::Linear);
-    let name = "a quarter turn further\u{2003}[mm]";
-    draw_vertical(sheet, &y, panel, name_of_row(index, name));
-    draw_named(
-        sheet,
-        &x,
-        panel.bottom,
-        "centre towards the cut\u{2003}[mm]",
-    );
+/// The scale that all panels share: the arbor's centre and the whole of every orbit lie within.
+struct Scale {
+    unit: &'static str,
+    per_metre: f64,
+    reach: f64,
+}
+
+impl Scale {
+    fn of<'a>(splines: impl Iterator<Item = &'a SplineEntry>) -> Self {
+        let all = splines.flat_map(|spline| spline.x_m.iter().chain(&spline.y_m));
+        let largest_m = all.fold(1e-9_f64, |max, value| max.max(value.abs()));
+        let (unit, per_metre) = match largest_m < 1e-4 {
+            true => ("µm", 1e6),
+            false => ("mm", 1e3),
+        };
+        Scale {
+            unit,
+            per_metre,
+            reach: 1.2 * per_metre * largest_m,
+        }
+    }
+}
+
+fn draw_orbit(
+    sheet: &mut Sheet,
+    (panel, name): (&Frame, &str),
+    (run, spline): (&CutRunEntry, &SplineEntry),
+    scale: &Scale,
+) {
+    let reach = [-scale.reach, scale.reach];
+    let x = Axis::new(reach, [panel.left, panel.right], Spread::Linear);
+    let y = Axis::new(reach, [panel.bottom, panel.top], Spread::Linear);
+    draw_vertical(sheet, &y, panel, name);
+    let name = format!("centre towards the cut\u{2003}[{}]", scale.unit);
+    draw_named(sheet, &x, panel.bottom, &name);
     for [from, to] in [
         [[x.at(0.0), panel.top], [x.at(0.0), panel.bottom]],
         [[panel.left, y.at(0.0)], [panel.right, y.at(0.0)]],
     ] {
         sheet.line([from, to], Stroke::solid(tint(STANDING, 0.6), HAIRLINE));
     }
-    draw_clearance(sheet, (&x, &y), clearance_mm);
-    let places: Vec<[f64; 2]> = spline
-        .x_m
-        .iter()
-        .zip(&spline.y_m)
-        .map(|(px, py)| [x.at(1e3 * px), y.at(1e3 * py)])
+    draw_clearance(sheet, (&x, &y), panel, spline.clearance_m, scale);
+    let points = spline.x_m.iter().zip(&spline.y_m);
+    let places: Vec<[f64; 2]> = points
+        .map(|(px, py)| [x.at(scale.per_metre * px), y.at(scale.per_metre * py)])
         .collect();
     let settled = spline.settled_from.min(places.len());
     let pale = Stroke::solid(tint(FORWARD, 0.35), HAIRLINE);
@@ -91,22 +114,82 @@ fn draw_orbit(sheet: &mut Sheet, index: usize, run: &CutRunEntry, spline: &Splin
     sheet.text([panel.left, panel.top - 12.0], letters, &text);
 }
 
-/// What the play of the flanks would let a blade without torque do.
-fn draw_clearance(sheet: &mut Sheet, (x, y): (&Axis, &Axis), clearance_mm: f64) {
-    if clearance_mm <= 0.0 {
+/// What the play of the flanks would let a blade without torque do, as a circle where it fits in.
+fn draw_clearance(
+    sheet: &mut Sheet,
+    (x, y): (&Axis, &Axis),
+    panel: &Frame,
+    clearance_m: f64,
+    scale: &Scale,
+) {
+    let radius = scale.per_metre * clearance_m;
+    if radius <= 0.0 {
         return;
     }
     let circle = (0..=120).map(|k| {
         let (sin, cos) = (f64::from(k) / 120.0 * std::f64::consts::TAU).sin_cos();
-        [x.at(clearance_mm * cos), y.at(clearance_mm * sin)]
+        [x.at(radius * cos), y.at(radius * sin)]
     });
+    let circle: Vec<[f64; 2]> = circle.collect();
     let dashed = Stroke {
         dash: Some(FINE_DASH),
         ..Stroke::solid(QUIET, HAIRLINE)
     };
-    sheet.line(circle, dashed);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    let at = [x.at(0.75 * clearance_mm), y.at(-1.08 * clearance_mm)];
-    let text = format!("clearance {} mm", super::axis::tick_label(clearance_mm));
+    for part in clip(&circle, panel) {
+        sheet.line(part, dashed);
+    }
+    let is_shown = radius <= scale.reach;
+    let word = if is_shown { "dashed: " } else { "" };
+    let outside = if is_shown {
+        ""
+    } else {
+        ", outside the picture"
+    };
+    let text = format!(
+        "{word}clearance {} mm{outside}",
+        tick_label(1e3 * clearance_m)
+    );
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
+    let at = [panel.right - 6.0, panel.bottom - 10.0];
+    sheet.fill(text_frame(at, &letters, &text), PAPER);
     sheet.text(at, letters, &text);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spline(x_m: Vec<f64>) -> SplineEntry {
+        SplineEntry {
+            verdict: crate::report::Verdict::Stable,
+            growth_per_s: 0.0,
+            frequency_hz: None,
+            stiffness_change: 0.1,
+            torque_n_m: 1500.0,
+            clearance_m: 2.5e-4,
+            teeth_in_contact: 20.0,
+            peak_tooth_n: 1200.0,
+            deepest_m: 3e-5,
+            imbalance: 1e-10,
+            unsteadiness: 1e-10,
+            settled_from: 1,
+            time_s: Vec::new(),
+            force_n: [0.0; 2],
+            y_m: x_m.clone(),
+            x_m,
+        }
+    }
+
+    /// An orbit of a few micrometres in a clearance of a quarter of a millimetre, and one that fills it.
+    #[test]
+    fn an_orbit_far_smaller_than_the_clearance_fills_its_panel() {
+        for (metres, unit, fits) in [(9e-6, "µm", false), (2.4e-4, "mm", true)] {
+            let spline = spline(vec![0.5 * metres, -metres, metres]);
+            let scale = Scale::of(std::iter::once(&spline));
+            assert_eq!(scale.unit, unit);
+            let share = scale.per_metre * metres / scale.reach;
+            assert!((0.8..1.0).contains(&share), "{share}");
+            assert_eq!(scale.per_metre * spline.clearance_m <= scale.reach, fits);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Time against true error, both on logarithmic scales.
 
-use super::axis::{Axis, Spread};
+use super::axis::{Axis, Spread, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::heading;
 use super::key::Key;
@@ -19,6 +19,9 @@ const PANEL: Frame = Frame {
     bottom: 560.0,
 };
 
+/// Smaller errors and times are rounding.
+const LEAST: f64 = 1e-12;
+
 const METHODS: [Method; 4] = [
     Method::Reduced,
     Method::Dense,
@@ -30,20 +33,16 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, "Computing time over true error", scene);
     let decades = |value: fn(&Setting) -> f64| {
-        let logs = settings.iter().map(|s| value(s).max(1e-12).log10());
+        let logs = settings.iter().map(|s| value(s).max(LEAST).log10());
         let low = logs.clone().fold(f64::INFINITY, f64::min).floor();
-        [low, logs.fold(low + 1.0, f64::max).ceil()]
+        [low, logs.fold(low + 1.0, f64::max).ceil()].map(|log| 10f64.powf(log))
     };
-    let error = Axis::new(
-        decades(|s| s.error),
-        [PANEL.left, PANEL.right],
-        Spread::Linear,
-    );
-    let time = Axis::new(
-        decades(|s| s.seconds),
-        [PANEL.bottom, PANEL.top],
-        Spread::Linear,
-    );
+    let errors = decades(|s| s.error).map(|share| 100.0 * share);
+    let error = Axis::new(errors, [PANEL.left, PANEL.right], Spread::Logarithmic);
+    // Room for a number above the slowest.
+    let [least, most] = decades(|s| s.seconds);
+    let seconds = [least, 2.0 * most];
+    let time = Axis::new(seconds, [PANEL.bottom, PANEL.top], Spread::Logarithmic);
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
@@ -62,8 +61,8 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
 }
 
 fn place(setting: &Setting, error: &Axis, time: &Axis) -> [f64; 2] {
-    let log = |value: f64| value.max(1e-12).log10();
-    [error.at(log(setting.error)), time.at(log(setting.seconds))]
+    let percent = 100.0 * setting.error.max(LEAST);
+    [error.at(percent), time.at(setting.seconds.max(LEAST))]
 }
 
 fn look(method: Method) -> (Colour, &'static str) {
@@ -83,6 +82,13 @@ fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Let
         let [x, y] = place(setting, error, time);
         let (colour, _) = look(setting.method);
         let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
+        // Above the dots of the same basis at other numbers of speeds, which stand close by.
+        let alike = settings
+            .iter()
+            .filter(|s| s.method == setting.method && s.functions == setting.functions);
+        let close = alike.map(|s| place(s, error, time));
+        let close = close.filter(|[_, other]| (y - 16.0..y).contains(other));
+        let y = close.fold(y, |top, [_, other]| top.min(other));
         ([x, y - 11.0], letters, setting.functions.to_string())
     };
     charts.map(label).collect()
@@ -124,14 +130,14 @@ fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis
 
 fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
     let quiet = |anchor| Lettering::regular(AXIS_SIZE, QUIET, anchor);
-    for tick in error.ticks(60.0).into_iter().filter(|t| t.fract() == 0.0) {
+    for tick in error.ticks(90.0) {
         let x = error.at(tick);
         let grid = Stroke::solid(GRID, HAIRLINE);
         sheet.line([[x, PANEL.top], [x, PANEL.bottom]], grid);
-        let share = format!("{} %", percent(tick));
+        let share = format!("{} %", error.label(tick));
         sheet.text([x, PANEL.bottom + 20.0], quiet(Anchor::Middle), &share);
     }
-    for tick in time.ticks(40.0).into_iter().filter(|t| t.fract() == 0.0) {
+    for tick in time.ticks(40.0) {
         let y = time.at(tick);
         let grid = Stroke::solid(GRID, HAIRLINE);
         sheet.line([[PANEL.left, y], [PANEL.right, y]], grid);
@@ -150,9 +156,9 @@ fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
     };
     sheet.text([28.0, (PANEL.top + PANEL.bottom) / 2.0], upright, "time");
     // What the named accuracies promise.
-    for (log, word) in [(-2.0, "draft"), (-3.0, "design"), (-4.0, "reference")] {
-        if error.shows(log) {
-            let x = error.at(log);
+    for (percent, word) in [(1.0, "draft"), (0.1, "design"), (0.01, "reference")] {
+        if error.shows(percent) {
+            let x = error.at(percent);
             let guide = Stroke {
                 dash: Some(DASH),
                 ..Stroke::solid(QUIET, HAIRLINE)
@@ -164,17 +170,10 @@ fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
     }
 }
 
-fn percent(log: f64) -> String {
-    let decimals = (-2.0 - log).max(0.0) as usize;
-    format!("{:.decimals$}", 100.0 * 10f64.powf(log))
-}
-
-fn seconds(log: f64) -> String {
-    if log < 0.0 {
-        let decimals = (-3.0 - log).max(0.0) as usize;
-        format!("{:.decimals$} ms", 1e3 * 10f64.powf(log))
-    } else {
-        format!("{:.0} s", 10f64.powf(log))
+fn seconds(value: f64) -> String {
+    match value < 1.0 {
+        true => format!("{} ms", tick_label(1e3 * value)),
+        false => format!("{} s", tick_label(value)),
     }
 }
 
@@ -224,14 +223,23 @@ mod tests {
     }
 
     #[test]
-    fn ticks_are_written_in_percent_and_seconds() {
-        assert_eq!(
-            [percent(-2.0), percent(-3.0), percent(-5.0)],
-            ["1", "0.1", "0.001"]
-        );
-        assert_eq!(
-            [seconds(-3.0), seconds(-1.0), seconds(1.0)],
-            ["1 ms", "100 ms", "10 s"]
-        );
+    fn ticks_are_written_in_seconds() {
+        assert_eq!([1e-3, 0.1, 10.0].map(seconds), ["1 ms", "100 ms", "10 s"]);
+    }
+
+    /// Errors from rounding to a percent.
+    #[test]
+    fn ticks_over_many_decades_keep_apart() {
+        let settings = [1e-12, 1e-9, 1e-2].map(|error| Setting {
+            method: Method::Reduced,
+            max_diameters: 6,
+            radial_functions: 4,
+            functions: 52,
+            speeds: 51,
+            seconds: 9.9,
+            error,
+            on_front: true,
+        });
+        super::super::tidy::assert_tidy(&sheet("A saw", &settings));
     }
 }

@@ -2,13 +2,12 @@
 //! frequency.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Frame, Sheet, Stroke};
 use super::clip::clip;
 use super::heading;
 use super::key::Key;
 use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, DASH, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK,
-    PAPER, QUIET,
+    ALARM, BETWEEN_FACTS, CURVE, DASH, FLUTTER, FLUTTER_SHADE, HAIRLINE, INK, PAPER, QUIET,
 };
 use crate::report::{Verdict, WashboardReport};
 
@@ -37,9 +36,10 @@ pub fn sheet(report: &WashboardReport) -> Sheet {
     let ends = [lobes.rpm.first(), lobes.rpm.last()].map(|rpm| rpm.copied().unwrap_or(0.0));
     let speed = Axis::new(ends, [LOBES.left, LOBES.right], Spread::Linear);
     let decades = decades(report);
-    let stiffness = Axis::new(decades, [LOBES.bottom, LOBES.top], Spread::Linear);
+    let stiffness = Axis::new(decades, [LOBES.bottom, LOBES.top], Spread::Logarithmic);
     draw_unstable(&mut sheet, report, &speed, &stiffness);
-    draw_decades(&mut sheet, &stiffness);
+    let name = "lateral cutting stiffness\u{2003}[N/m]";
+    draw_vertical(&mut sheet, &stiffness, &LOBES, name);
     draw_boundary(&mut sheet, report, &speed, &stiffness);
     draw_horizontal(&mut sheet, &speed, LOBES.bottom, false);
     draw_frequencies(&mut sheet, report, &speed);
@@ -75,33 +75,7 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     let least = known.clone().fold(f64::INFINITY, f64::min);
     let highest = own.max(if least.is_finite() { least } else { own }) + DECADES;
     let most = known.filter(|k| *k <= highest).fold(own, f64::max);
-    [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()]
-}
-
-fn draw_decades(sheet: &mut Sheet, stiffness: &Axis) {
-    let [least, most] = stiffness.values();
-    for decade in least.ceil() as i32..=most.floor() as i32 {
-        let y = stiffness.at(f64::from(decade));
-        let grid = Stroke::solid(GRID, HAIRLINE);
-        sheet.line([[LOBES.left, y], [LOBES.right, y]], grid);
-        let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
-        let at = [LOBES.left - 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, letters, &format!("1e{decade}"));
-        for digit in [2.0_f64, 5.0].into_iter().filter(|_| most - least < 3.5) {
-            let log = f64::from(decade) + digit.log10();
-            if log < most {
-                let at = [LOBES.left - 9.0, stiffness.at(log) + 0.36 * AXIS_SIZE];
-                sheet.text(at, letters, &format!("{digit}e{decade}"));
-            }
-        }
-    }
-    let upright = Lettering {
-        upright: true,
-        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
-    };
-    let middle = 0.5 * (LOBES.top + LOBES.bottom);
-    let name = "lateral cutting stiffness\u{2003}[N/m]";
-    sheet.text([28.0, middle], upright, name);
+    [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
 /// A column from the boundary upwards at every speed, half way to the next ones.
@@ -112,8 +86,7 @@ fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stif
         let Some(critical) = critical else {
             continue;
         };
-        let low = stiffness.values()[0];
-        let y = stiffness.at(critical.max(10f64.powf(low)).log10());
+        let y = stiffness.at(critical.max(stiffness.values()[0]));
         let x = places[k];
         let before = k.checked_sub(1).map_or(x, |before| places[before]);
         let after = places.get(k + 1).copied().unwrap_or(x);
@@ -138,8 +111,8 @@ fn draw_boundary(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stif
         .zip(&lobes.critical_stiffness_n_per_m)
         .map(|(rpm, critical)| {
             // Beyond the frame where there is none, below it where it is zero.
-            let log = critical.map_or(most + 1.0, |k| k.max(f64::MIN_POSITIVE).log10());
-            [speed.at(*rpm), stiffness.at(log.max(least - 1.0))]
+            let k = critical.unwrap_or(10.0 * most);
+            [speed.at(*rpm), stiffness.at(k.max(0.1 * least))]
         })
         .collect();
     for part in clip(&points, &LOBES) {
@@ -180,10 +153,7 @@ fn draw_frequencies(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis) {
 
 /// The saw at its speed with its cutting stiffness.
 fn draw_own(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
-    let at = [
-        speed.at(report.rpm),
-        stiffness.at(report.stiffness_n_per_m.log10()),
-    ];
+    let at = [speed.at(report.rpm), stiffness.at(report.stiffness_n_per_m)];
     sheet.ring(at, 6.0, Stroke::solid(own_colour(report), 2.5), PAPER);
 }
 
