@@ -67,7 +67,7 @@ impl Meeting {
 }
 
 /// Speeds from the first to the last, closest together at both.
-pub fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     const STEPS: u32 = 64;
     let angle = |i: u32| std::f64::consts::PI * f64::from(i) / f64::from(STEPS);
     (0..=STEPS).map(move |i| match i {
@@ -78,7 +78,7 @@ pub fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
 }
 
 /// The line through points that ascend by their first number, level beyond them.
-pub fn interpolate(points: &[[f64; 2]], x: f64) -> f64 {
+fn interpolate(points: &[[f64; 2]], x: f64) -> f64 {
     let after = points.partition_point(|point| point[0] <= x);
     match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
         (Some([x0, y0]), Some([x1, y1])) => y0 + (x - x0) / (x1 - x0) * (y1 - y0),
