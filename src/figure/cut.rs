@@ -99,9 +99,6 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
         label_end_of_model(sheet, panel, x, "the linear model ends");
     }
     draw_verdict(sheet, panel, run);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    let at = [panel.right, panel.top - 32.0];
-    sheet.text(at, letters, &format!("largest {}", length(largest_m(run))));
 }
 
 /// A length of any size in a unit in which it has few digits.
@@ -201,7 +198,11 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
         let name = entry.criterion;
         format!("{name} {:.2}", growth(entry.growth_per_s))
     });
-    let text = format!("{} 1/s", facts.collect::<Vec<_>>().join(", "));
+    let text = format!(
+        "largest {}; {} 1/s",
+        length(largest_m(run)),
+        facts.collect::<Vec<_>>().join(", ")
+    );
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let room = panel.right - panel.left + 20.0;
     let text = shorten(&text, LABEL_SIZE, Weight::Regular, room);
