@@ -11,7 +11,7 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use super::campbell::{self, curve};
 use super::draws::{any_saw, lowest_critical, scene};
 use super::root_loci;
-use super::tidy::{assert_tidy, assert_unstruck};
+use super::tidy::assert_tidy;
 use crate::report::{BranchEntry, Report, RootLociEntry};
 use crate::scene::{Accuracy, SceneFile, SweepFile, rpm};
 use crate::stability::Analysis;
@@ -118,7 +118,6 @@ fn figures_of_drawn_saws_show_what_their_reports_say() {
         assert_one_name(&report);
         let drawn = campbell::sheet(&report, campbell::CampbellView::default());
         assert_tidy(&drawn);
-        assert_unstruck(&drawn);
         if let Some(loci) = &report.root_loci {
             let mut all = loci.paths.iter().flat_map(|path| &path.frequency_hz);
             assert!(all.all(|hz| *hz >= 0.0), "{case}");

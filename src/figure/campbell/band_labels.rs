@@ -103,14 +103,14 @@ impl BandLabels {
                     PAPER,
                 );
             }
-            let towards_band = match letters.anchor {
-                Anchor::Start => -1.0,
-                Anchor::End => 1.0,
-                Anchor::Middle => 0.0,
-            };
             let [x, y] = [at[0], at[1] - 0.36 * LABEL_SIZE];
-            let bridge = [2.0, FLAG_GAP].map(|away| [x + towards_band * away, y]);
-            sheet.line(bridge, Stroke::solid(letters.colour, HAIRLINE));
+            let bridge = |way: f64| [2.0, FLAG_GAP].map(|away| [x + way * away, y]);
+            let stroke = Stroke::solid(letters.colour, HAIRLINE);
+            match letters.anchor {
+                Anchor::Start => sheet.line(bridge(-1.0), stroke),
+                Anchor::End => sheet.line(bridge(1.0), stroke),
+                Anchor::Middle => {}
+            }
             sheet.text(*at, *letters, label);
         }
     }
