@@ -234,7 +234,8 @@ mod tests {
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
         assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
-        assert_eq!((with("operating 1250"), with("none")), (1, 1), "{said:?}");
+        assert_eq!(with("operating 1250"), 1, "{said:?}");
+        assert!(said.contains(&"none"), "{said:?}");
     }
 
     /// A saw whose lowest critical speed lies beyond its sweep.
