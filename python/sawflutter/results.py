@@ -91,8 +91,8 @@ class CampbellResults(Result, CampbellReport):
         ----------
         of : {"branches", "modes_at_rest", "critical_speeds", "bands"}
             Branches and speeds, with the columns of ``campbell.csv``; or modes at rest, critical
-            speeds, or bands of instability, with their branches, how those run at the largest growth
-            (``directions``), and their nodal diameters there.
+            speeds, or bands of instability, with the waves that make them, how those run
+            (``directions``), and their nodal diameters.
 
         Examples
         --------
@@ -113,15 +113,13 @@ class CampbellResults(Result, CampbellReport):
         return frame(getattr(self, of))
 
     def _of_bands(self) -> dict[str, list[str]]:
-        """What the branches of each band are where it grows most."""
+        """The waves of each band, how they run, and their nodal diameters."""
         columns: dict[str, list[str]] = {"modes": [], "directions": [], "nodal_diameters": []}
         for band in self.bands:
-            branches = [self.branches[number - 1] for number in band.branches]
-            places = [int(np.argmin(abs(of.rpm - band.peak_rpm))) for of in branches]
-            found = list(zip(branches, places))
+            waves = [mode.partition(", ") for mode in band.modes]
+            diameters = (name.partition(" diameter")[0] for name, _, _ in waves)
             columns["modes"].append(" + ".join(band.modes))
-            columns["directions"].append(" + ".join(of.direction[at] for of, at in found))
-            diameters = (str(of.dominant_harmonics[at, 0]) for of, at in found)
+            columns["directions"].append(" + ".join(way or "standing" for _, _, way in waves))
             columns["nodal_diameters"].append(" + ".join(diameters))
         return columns
 
