@@ -19,12 +19,12 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter analyze                                  # the built-in saw
   sawflutter analyze my-saw.json --out my-saw         # your own saw
-  sawflutter analyze saws/*.json --out saws-out       # a folder each, and a table
+  sawflutter analyze saws/*.json --out saws-out       # a folder each, a table
   cat my-saw.json | sawflutter analyze -              # a scene from a program
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
   sawflutter analyze --at-rpm 1800                    # the modes of one speed
-  sawflutter analyze --draw-to-rpm 2000               # a picture of a part of the sweep
-  sawflutter analyze --in-cut 2800                    # under the forces of a cut
+  sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
+  sawflutter analyze --in-cut 2800                    # with forces of a cut
   sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
 
 #[derive(Args, Default)]

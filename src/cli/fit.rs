@@ -18,7 +18,8 @@ Examples:
   sawflutter fit --to-rpm 1250            # the built-in saw to its own table
   sawflutter fit my-saw.json measured.csv # radius and stiffness of every guide
   sawflutter fit my-saw.json measured.csv \\
-    --free \"guides[0].radius_m=0.15..0.3\" --free blade.material.density_kg_per_m3
+    --free \"guides[0].radius_m=0.15..0.3\" \\
+    --free blade.material.density_kg_per_m3
 
 measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
 mode was not seen. They are held against the lowest computed ones. A first line

@@ -38,7 +38,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let word = arguments.word.as_deref().unwrap_or_default();
     let mut text = String::new();
     for key in keys.iter().filter(|key| key.path.contains(word)) {
-        writeln!(text, "{}\n  {}", key.heading(), wrapped(&key.meaning))?;
+        let meaning = wrapped(&format!("- {}", key.meaning));
+        writeln!(text, "{}\n{meaning}", key.heading())?;
     }
     Ok(say(&text)?)
 }
