@@ -68,6 +68,7 @@ fn measured_speeds_in_thousands_are_told_once() {
 }
 
 #[test]
+#[allow(clippy::approx_constant, reason = "as it is typed")]
 fn angles_in_radians_are_recognized() {
     let one = |angle: f64| remarks(|file| file.guides[0].angle_deg = angle);
     for radians in [1.5708, -0.96, 1.047, -PI, 0.785] {
@@ -80,8 +81,8 @@ fn angles_in_radians_are_recognized() {
     }
     let several = |angles: &[f64]| {
         remarks(|file| {
-            let pad = file.guides[0].clone();
-            file.guides = angles.iter().map(|_| pad.clone()).collect();
+            let pad = file.guides[0];
+            file.guides = vec![pad; angles.len()];
             for (pad, angle) in file.guides.iter_mut().zip(angles) {
                 pad.angle_deg = *angle;
             }
