@@ -74,8 +74,9 @@ fn a_speed_in_another_unit_is_warned_of() {
     let folder = TempDir::new().unwrap();
     let output = run(&["cut", "--rpm", "1.8", "--json"], &folder);
     let report: CutReport = serde_json::from_slice(&output.stdout).unwrap();
-    let warned = |w: &String| w.contains("thousands of rpm? That would be 1800 rpm");
-    assert!(report.warnings.iter().any(warned), "{:?}", report.warnings);
+    let told = |w: &String| w.contains("thousands of rpm? That would be 1800 rpm");
+    let unusual = &report.unusual_numbers;
+    assert!(unusual.iter().any(told), "{unusual:?}");
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn refusals_name_key_value_and_remedy() {
         (
             serde_json::json!({ "residual_stress": [row(0.1, -20e6),
                 { "radius_m": 0.15, "hoop_pa": 30e6, "radial_pa": 40e6 }, row(0.2, 40e6)] }),
-            "membrane.residual_stress[1].radial_pa is 40000000",
+            "membrane.residual_stress[1].radial_pa is 4e7",
         ),
     ];
     for (membrane, words) in cases {
