@@ -66,7 +66,8 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     heading::draw(&mut sheet, &title, &report.scene.name);
     draw_axes(&mut sheet, &chart);
     draw_band(&mut sheet, &chart, entry);
-    for path in &chart.paths {
+    // The growing one last: over speed the decaying one lies below it.
+    for path in chart.paths.iter().rev() {
         draw_path(&mut sheet, path, |s| chart.in_plane(s));
         draw_path(&mut sheet, path, |s| chart.over_speed(s));
     }
