@@ -81,7 +81,7 @@ fn weak_pads_on_a_loose_blade_leave_no_contradiction() {
             from_rpm: 0.0,
             to_rpm,
         });
-        let scene = Scene::from_file(file.clone()).unwrap();
+        let scene = Scene::try_from(file.clone()).unwrap();
         let certificate = Analysis::new(&scene).unwrap().report().certificate;
         assert_eq!(certificate.krein_violations, 0, "to {to_rpm} rpm");
     }
