@@ -731,13 +731,13 @@ class CampbellReport(Entry):
 
     overdamped_modes_at_rest: int
     """Modes at rest that decay without oscillating (overdamped), no faster than 2π
-    campbell.complete_to_hz; they are counted here and not listed."""
+    `campbell.complete_to_hz`; they are counted here and not listed."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Every critical speed up to the end of the sweep, ascending."""
 
     critical_speeds_without_damping: bool
-    """Whether critical_speeds are those of the saw without its damping: where damping turns
+    """Whether `critical_speeds` are those of the saw without its damping: where damping turns
     with the blade, no eigenvalue of the damped saw is zero at any speed."""
 
     instabilities: tuple[Instability, ...]

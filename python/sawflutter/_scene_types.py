@@ -467,7 +467,8 @@ class MeasuredRowDict(TypedDict):
     """Rotation speed."""
 
     frequencies_hz: list[float | None]
-    """Frequencies in the space-fixed frame, lowest first; null in the place of one that was not seen."""
+    """Frequencies in the space-fixed frame, lowest first; null in the place of one that was not
+    seen."""
 
 
 class MeasuredDict(TypedDict):

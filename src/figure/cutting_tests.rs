@@ -4,7 +4,7 @@ use super::canvas::Mark;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
 use crate::report::{CutReport, RunUpReport, WashboardReport};
-use crate::scene::{Accuracy, CutRun, Scene};
+use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::{Cutting, RunningUp};
 use crate::washboarding::Washboard;
 
@@ -18,7 +18,12 @@ fn cut_report(scene: &Scene) -> CutReport {
 
 fn draft() -> Scene {
     let scene = Scene::from_json(include_str!("../../scenes/paper-spline.json")).unwrap();
-    scene.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap()
+    scene.edited(coarse).unwrap()
+}
+
+/// What is drawn does not depend on how well it is computed.
+fn coarse(saw: &mut SceneFile) {
+    (saw.accuracy, saw.tolerance) = (Accuracy::Draft, Some(0.1));
 }
 
 #[test]
@@ -151,8 +156,7 @@ fn deflections_have_one_common_scale() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_figures_of_a_run_up_are_tidy() {
-    let paper = Scene::paper();
-    let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
+    let scene = Scene::paper().edited(coarse).unwrap();
     let scene = scene.edited(|saw| {
         let runup = saw.runup.as_mut().unwrap();
         (runup.from_rpm, runup.to_rpm, runup.duration_s) = (0.0, 2000.0, 10.0);
@@ -178,7 +182,7 @@ fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
         (3e4, 1.0, 15e6, "2400 rpm: unstable at"),
     ] {
         let scene = scene.edited(|saw| {
-            saw.accuracy = Accuracy::Draft;
+            coarse(saw);
             let cut = saw.cut.as_mut().unwrap();
             cut.power_w = Some(power_w);
             let delayed = cut.washboarding.as_mut().unwrap();

@@ -11,7 +11,7 @@ use super::program::{names_in, out, run, text, write_scene};
 fn resaw(change: impl FnOnce(&mut SceneFile)) -> SceneFile {
     let scene = include_str!("../../scenes/gallery/washboarding.json");
     let mut file = Scene::from_json(scene).unwrap().file().clone();
-    file.accuracy = Accuracy::Draft;
+    (file.accuracy, file.tolerance) = (Accuracy::Draft, Some(0.1));
     change(&mut file);
     file
 }
