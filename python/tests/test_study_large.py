@@ -14,7 +14,7 @@ import pytest
 
 import sawflutter as sf
 
-SAWS, MOST_KB = (1_000_000, 500_000) if "SAWFLUTTER_TRIALS" in os.environ else (100_000, 100_000)
+SAWS, MOST_KB = (1_000_000, 500_000) if "SAWFLUTTER_TRIALS" in os.environ else (100_000, 150_000)
 # Rows of a task, and tasks under way at the same time.
 ROWS, WINDOW = 5000, 64
 MERGE = """
