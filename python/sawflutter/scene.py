@@ -226,9 +226,10 @@ class Scene(Questions, Mapping[str, Any]):
 
         Parameters
         ----------
-        radius_m, angle_deg, radial_length_m, tangential_length_m, stiffness_n_per_m,
-        damping_n_s_per_m, gap_m : float, optional
-            Its numbers, as in a scene file. What is left out is that of the last guide.
+        radius_m, angle_deg, radial_length_m, tangential_length_m : float, optional
+            Its place and size, as in a scene file.
+        stiffness_n_per_m, damping_n_s_per_m, gap_m : float, optional
+            Its other numbers. A number that is left out is that of the last guide.
 
         Raises
         ------
