@@ -73,7 +73,7 @@ impl Progress {
         CURRENT.set(self.clone());
     }
 
-    /// Shows a loop that is no [`Work`]: until it is done nothing within it is shown.
+    /// Shows a loop that counts itself by no `Work`: until it is done nothing within it is shown.
     pub fn show(&self, what: &'static str, done: usize, of: usize) {
         if let Some(shared) = &self.0 {
             shared.is_busy.store(done < of, Ordering::Relaxed);

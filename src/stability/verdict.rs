@@ -45,7 +45,7 @@ pub struct Verdict {
     pub band: Option<usize>,
     /// The stretch around the speed in which that band counts, in rad/s.
     pub stretch: Option<(f64, f64)>,
-    /// Place of the critical speed that the saw runs at, nearer than [`CRITICAL_MARGIN`]; the nearest of several.
+    /// Place of the critical speed that the saw runs at, nearer than 5 %; the nearest of several.
     pub critical: Option<usize>,
 }
 
