@@ -54,7 +54,6 @@ pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "explore"))]
 pub(crate) use quantity::QUANTITIES;
-#[cfg(feature = "cli")]
 pub(crate) use quantity::Quantity;
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
