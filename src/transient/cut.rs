@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 use super::linear::Gauge;
 use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
-use super::{Propagator, State, TransientError};
+use super::{Integrator, Propagator, State, TransientError};
 
 /// How fast a saw's motion grows at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,7 +169,7 @@ fn record(
         for step in 1..=count as u64 {
             let time_s = start_s + step as f64 * step_s;
             if let Some(propagator) = &propagator {
-                state = propagator.step(&state, &[force_n], &[force_n]);
+                state = propagator.step(&state, [&[force_n], &[force_n]])?;
             }
             let deflection = gauge.at_probe(|i| state.displacement[i]);
             if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
@@ -226,7 +226,7 @@ fn sinusoids_in_cut(
     let mut first = vec![0.0];
     let mut last = VecDeque::from([0.0]);
     for _ in 0..count as u64 {
-        state = propagator.step(&state, &force, &force);
+        state = propagator.step(&state, [&force, &force])?;
         let deflection = gauge.at_probe(|i| state.displacement[i]);
         if first.len() < SAMPLES {
             first.push(deflection);

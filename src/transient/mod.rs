@@ -2,8 +2,8 @@
 //! give on its stability.
 //!
 //! At a constant speed a step is the exponential of the state matrix, exact for loads that
-//! change linearly; while the speed changes it is Newmark's average acceleration (N. M. Newmark, J. Eng. Mech. Div.
-//! ASCE 85 (1959), 67–94). Both work on the blade's lowest modes and its static
+//! change linearly; while the speed changes, or under forces that depend on the displacement, it is
+//! Newmark's average acceleration (N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959), 67–94). Both work on the blade's lowest modes and its static
 //! deflections under the loads.
 //!
 //! In goes a scene with its `cut` or `runup`; out comes a [`Cutting`] or a [`RunningUp`]: times in
@@ -12,6 +12,7 @@
 mod band_growth;
 mod cut;
 mod linear;
+mod motion;
 mod newmark;
 mod on_spline;
 mod propagator;
@@ -28,9 +29,10 @@ pub(crate) use band_growth::{BandGrowth, band_growths};
 pub(crate) use cut::CutHistory;
 pub(crate) use cut::{Growth, cut_history};
 pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
-pub(crate) use newmark::{Motion, Newmark};
+pub(crate) use motion::{Force, Integrator, State};
+pub(crate) use newmark::Newmark;
 pub(crate) use on_spline::{OnSpline, on_spline};
-pub(crate) use propagator::{Propagator, State};
+pub(crate) use propagator::Propagator;
 pub(crate) use response::ResponseMap;
 pub(crate) use response::response_map;
 pub(crate) use runup::RunUpHistory;
@@ -84,6 +86,16 @@ pub enum TransientError {
     BentByForce {
         /// The force.
         force_n: f64,
+    },
+    /// Newton's method found no end of a step.
+    #[error(
+        "no motion within {step_s:e} s at {rpm:.0} rpm balances the forces on the blade; make the forces or the deflections smaller"
+    )]
+    NotBalanced {
+        /// Rotation speed.
+        rpm: f64,
+        /// Length of the step.
+        step_s: f64,
     },
     /// Matrices that no exponential can be taken of.
     #[error(

@@ -8,41 +8,22 @@
 //! (C. F. Van Loan, *Computing integrals involving the matrix exponential*, IEEE Trans.
 //! Automatic Control 23 (1978) 395–404). No step is too long for accuracy or stability.
 
-use faer::{Col, Mat};
-use nalgebra::{DMatrix, DVector};
+use faer::{Col, Mat, Scale};
+use nalgebra::DMatrix;
 
 use crate::scene::rpm;
 use crate::spectrum::{Cancellation, time_scale};
 use crate::system::GyroscopicSystem;
 
-use super::TransientError;
+use super::{Integrator, State, TransientError};
 
 /// Steps of one length at one speed.
 #[derive(Debug, Clone)]
 pub struct Propagator {
-    transition: DMatrix<f64>,
-    load_now: DMatrix<f64>,
-    load_change: DMatrix<f64>,
+    transition: Mat<f64>,
+    load_now: Mat<f64>,
+    load_change: Mat<f64>,
     scale_per_s: f64,
-}
-
-/// Displacement and velocity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct State {
-    /// q.
-    pub displacement: DVector<f64>,
-    /// q̇.
-    pub velocity: DVector<f64>,
-}
-
-impl State {
-    /// At rest, undeflected.
-    pub fn rest(order: usize) -> Self {
-        State {
-            displacement: DVector::zeros(order),
-            velocity: DVector::zeros(order),
-        }
-    }
 }
 
 impl Propagator {
@@ -90,8 +71,9 @@ impl Propagator {
         if !exponential.iter().all(|value| value.is_finite()) {
             return Err(not_finite());
         }
-        let part =
-            |column: usize, width: usize| exponential.view((0, column), (size, width)).into_owned();
+        let part = |column: usize, width: usize| {
+            Mat::from_fn(size, width, |i, k| exponential[(i, column + k)])
+        };
         Ok(Propagator {
             transition: part(0, size),
             load_now: part(size, count),
@@ -100,31 +82,31 @@ impl Propagator {
         })
     }
 
-    /// One step, from the loads at its beginning to those at its end.
-    pub fn step(&self, state: &State, now: &[f64], next: &[f64]) -> State {
-        let order = state.displacement.len();
-        let mut x = DVector::zeros(2 * order);
-        x.rows_mut(0, order).copy_from(&state.displacement);
-        x.rows_mut(order, order)
-            .copy_from(&(&state.velocity / self.scale_per_s));
-        let now = DVector::from_column_slice(now);
-        let change = DVector::from_column_slice(next) - &now;
-        let x = &self.transition * x + &self.load_now * now + &self.load_change * change;
-        State {
-            displacement: x.rows(0, order).into_owned(),
-            velocity: x.rows(order, order) * self.scale_per_s,
-        }
-    }
-
     /// E, for x = (q, q̇/s) with the scale s of this propagator.
-    pub fn transition(&self) -> Mat<f64> {
-        let size = self.transition.nrows();
-        Mat::from_fn(size, size, |i, k| self.transition[(i, k)])
+    pub fn transition(&self) -> &Mat<f64> {
+        &self.transition
     }
 
     /// s, in 1/s.
     pub fn scale_per_s(&self) -> f64 {
         self.scale_per_s
+    }
+}
+
+impl Integrator for Propagator {
+    fn step(&self, state: &State, [now, next]: [&[f64]; 2]) -> Result<State, TransientError> {
+        let order = state.displacement.nrows();
+        let x = Col::from_fn(2 * order, |i| match i.checked_sub(order) {
+            None => state.displacement[i],
+            Some(i) => state.velocity[i] / self.scale_per_s,
+        });
+        let change = Col::from_fn(now.len(), |k| next[k] - now[k]);
+        let now = Col::from_fn(now.len(), |k| now[k]);
+        let x = &self.transition * x + &self.load_now * now + &self.load_change * change;
+        Ok(State {
+            displacement: x.subrows(0, order).to_owned(),
+            velocity: Scale(self.scale_per_s) * x.subrows(order, order),
+        })
     }
 }
 
@@ -163,7 +145,7 @@ mod tests {
             let mut state = State::rest(1);
             for step in 0..4 {
                 let t = f64::from(step) * step_s;
-                state = propagator.step(&state, &[t], &[t + step_s]);
+                state = propagator.step(&state, [&[t], &[t + step_s]]).unwrap();
             }
             let exact = response_to_a_ramp(omega, 4.0 * step_s);
             assert!(
@@ -181,7 +163,7 @@ mod tests {
         let mut state = State::rest(1);
         state.displacement[0] = 1.0;
         for _ in 0..50 {
-            state = propagator.step(&state, &[], &[]);
+            state = propagator.step(&state, [&[], &[]]).unwrap();
         }
         let exact = ring_down(omega, delta, 50.0 * 0.013);
         assert!((state.displacement[0] - exact).abs() < 1e-12);

@@ -11,7 +11,7 @@ use crate::system::GyroscopicSystem;
 use super::cut::finite;
 use super::linear::Gauge;
 use super::reduced::{ReducedBlade, Snapshot, at_point};
-use super::{Motion, Newmark, TransientError};
+use super::{Integrator, Newmark, State, TransientError};
 
 /// Deflection over the run-up.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,8 @@ pub fn run_up(
     let blade = reduced_blade(plate, runup);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
-    let load = faer::Scale(runup.force_n) * blade.vector(&force);
+    let loads = [blade.vector(&force)];
+    let force = [runup.force_n];
     let gauge = Gauge::new(plate, &blade, probe);
     let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
     let steps = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
@@ -78,16 +79,13 @@ pub fn run_up(
     // that the error stays of second order, and one factorization serves them all.
     let held = |step: usize| {
         let middle = speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
-        Newmark::new(&system, middle, rate, step_s)
+        Newmark::new(&system, (middle, rate), &loads, step_s)
     };
     let mut newmark = held(0);
     // The force is there from the beginning: the blade starts where it holds it, unless
     // nothing does.
-    let mut motion = newmark.start(
-        static_deflection(&system, speed_at(0), &load),
-        Col::zeros(blade.order()),
-        &load,
-    );
+    let load = faer::Scale(runup.force_n) * &loads[0];
+    let mut state = State::still(static_deflection(&system, speed_at(0), &load));
     let stride = steps.div_ceil(MAX_SAMPLES);
     let stop = Cancellation::current();
     let mut history = RunUpHistory {
@@ -98,12 +96,12 @@ pub fn run_up(
     };
     for step in 0..=steps {
         if step % stride == 0 || step == steps {
-            if !history.take(&gauge, &motion, (speed_at(step), step as f64 * step_s))? {
+            if !history.take(&gauge, &state, (speed_at(step), step as f64 * step_s))? {
                 break;
             }
             progress(step, steps);
         }
-        motion = newmark.step(&motion, &load);
+        state = newmark.step(&state, [&force, &force])?;
         if (step + 1) % HELD_STEPS == 0 {
             stop.check()?;
             newmark = held(step + 1);
@@ -122,10 +120,10 @@ impl RunUpHistory {
     fn take(
         &mut self,
         gauge: &Gauge,
-        motion: &Motion,
+        state: &State,
         (speed_rad_per_s, time_s): (f64, f64),
     ) -> Result<bool, TransientError> {
-        let deflection = gauge.at_probe(|i| motion.displacement[i]);
+        let deflection = gauge.at_probe(|i| state.displacement[i]);
         let deflection = finite(deflection, rpm(speed_rad_per_s), time_s)?;
         if gauge.beyond(deflection) {
             self.linear_until_rad_per_s = Some(speed_rad_per_s);

@@ -16,7 +16,7 @@ use super::cut::finite;
 use super::linear::Gauge;
 use super::reduced::ReducedBlade;
 use super::saw_in_cut::{SawInCut, lateral_load};
-use super::{Growth, Propagator, State, TransientError};
+use super::{Growth, Integrator, Propagator, State, TransientError};
 
 /// What the passing of the teeth changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,7 +157,7 @@ impl<'a> MovingLoads<'a> {
         let steps = (run.duration_s / self.step_s()).ceil() as usize;
         let mut largest = 0.0_f64;
         for step in 0..steps {
-            state = stages[step % stages.len()].step(&state, &force, &force);
+            state = stages[step % stages.len()].step(&state, [&force, &force])?;
             let deflection = gauge.at_probe(|i| state.displacement[i]);
             let time_s = (step + 1) as f64 * self.step_s();
             if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
@@ -184,7 +184,7 @@ fn largest_multiplier_ln(
     let Some((first, others)) = stages.split_first() else {
         return Err(not_finite);
     };
-    let mut product = first.transition();
+    let mut product = first.transition().clone();
     let mut doublings = 0.0;
     for stage in others {
         product = rescaled(stage, first.scale_per_s()) * product;
@@ -214,7 +214,7 @@ fn largest_multiplier_ln(
 /// The transition for x = (q, q̇/s) of another s: stages differ a little in stiffness, so
 /// that their scales may differ by a factor two.
 fn rescaled(propagator: &Propagator, scale_per_s: f64) -> Mat<f64> {
-    let mut transition = propagator.transition();
+    let mut transition = propagator.transition().clone();
     let factor = propagator.scale_per_s() / scale_per_s;
     let order = transition.nrows() / 2;
     for i in 0..order {

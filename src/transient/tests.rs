@@ -8,7 +8,8 @@ use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
 use crate::spectrum::{fastest_growing_of, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 use crate::transient::{
-    Newmark, Propagator, SawInCut, State, cut_history, run_up, tooth_passing, verdict_map,
+    Integrator, Newmark, Propagator, SawInCut, State, cut_history, run_up, tooth_passing,
+    verdict_map,
 };
 use faer::{Col, Mat, Scale};
 
@@ -41,11 +42,6 @@ fn energy(system: &GyroscopicSystem, speed: f64, q: &Col<f64>, v: &Col<f64>) -> 
     0.5 * (v.transpose() * v) + 0.5 * (q.transpose() * stiffness * q)
 }
 
-fn columns(state: &State) -> (Col<f64>, Col<f64>) {
-    let column = |x: &nalgebra::DVector<f64>| Col::from_fn(x.len(), |i| x[i]);
-    (column(&state.displacement), column(&state.velocity))
-}
-
 fn bent(order: usize) -> Col<f64> {
     Col::from_fn(order, |i| {
         (1.3 * i as f64 + 0.2).sin() / (1.0 + i as f64).powi(2)
@@ -61,30 +57,21 @@ fn an_undamped_unloaded_saw_keeps_its_energy() {
     });
     let system = GyroscopicSystem::of_plate(&plate);
     let speed = rad_per_s(1200.0);
-    let still = Col::zeros(system.order());
-    let q = bent(system.order());
-    let before = energy(&system, speed, &q, &still);
-
-    let propagator = Propagator::new(&system, speed, &[], 2e-3).unwrap();
-    let mut state = State::rest(system.order());
-    for (i, value) in state.displacement.iter_mut().enumerate() {
-        *value = q[i];
-    }
-    for _ in 0..100_000 {
-        state = propagator.step(&state, &[], &[]);
-    }
-    let (q_after, v_after) = columns(&state);
-    let after = energy(&system, speed, &q_after, &v_after);
-    assert!((after / before - 1.0).abs() < 1e-10, "{before} {after}");
-
-    let newmark = Newmark::new(&system, speed, 0.0, 2e-3);
-    let mut motion = newmark.start(q, still.clone(), &still);
-    for _ in 0..100_000 {
-        motion = newmark.step(&motion, &still);
-    }
-    let after = energy(&system, speed, &motion.displacement, &motion.velocity);
+    let begun = State::still(bent(system.order()));
+    let energy = |state: &State| energy(&system, speed, &state.displacement, &state.velocity);
+    let before = energy(&begun);
+    let kept = |integrator: &dyn Integrator| {
+        let mut state = begun.clone();
+        for _ in 0..100_000 {
+            state = integrator.step(&state, [&[], &[]]).unwrap();
+        }
+        (energy(&state) / before - 1.0).abs()
+    };
+    let lost = kept(&Propagator::new(&system, speed, &[], 2e-3).unwrap());
+    assert!(lost < 1e-10, "{lost:e}");
     // Each step solves with a matrix of condition 1e4 or so, and roundings add up.
-    assert!((after / before - 1.0).abs() < 1e-8, "{before} {after}");
+    let lost = kept(&Newmark::new(&system, (speed, 0.0), &[], 2e-3));
+    assert!(lost < 1e-8, "{lost:e}");
 }
 
 /// The lowest modes of a system at a speed, as a basis.
@@ -112,21 +99,23 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     let basis = low_modes(&system, speed);
     let system = system.project(basis.as_ref());
     let rim = plate.functions_at(plate.blade.outer_radius_m, 0.3);
-    let load = basis.transpose() * Col::from_fn(rim.len(), |i| rim[i]);
+    let loads = [basis.transpose() * Col::from_fn(rim.len(), |i| rim[i])];
     let end_s = 0.2;
-    let exact = Propagator::new(&system, speed, std::slice::from_ref(&load), end_s)
+    let exact = Propagator::new(&system, speed, &loads, end_s)
         .unwrap()
-        .step(&State::rest(system.order()), &[0.0], &[end_s]);
-    let exact = columns(&exact).0;
+        .step(&State::rest(system.order()), [&[0.0], &[end_s]])
+        .unwrap()
+        .displacement;
     let distance = |steps: usize| {
         let step_s = end_s / steps as f64;
-        let newmark = Newmark::new(&system, speed, 0.0, step_s);
-        let zero = Col::zeros(system.order());
-        let mut motion = newmark.start(zero.clone(), zero.clone(), &zero);
-        for step in 1..=steps {
-            motion = newmark.step(&motion, &(Scale(step as f64 * step_s) * &load));
+        let newmark = Newmark::new(&system, (speed, 0.0), &loads, step_s);
+        let mut state = State::rest(system.order());
+        for step in 0..steps {
+            let size = |step: usize| [step as f64 * step_s];
+            let sizes = [size(step), size(step + 1)];
+            state = newmark.step(&state, [&sizes[0], &sizes[1]]).unwrap();
         }
-        (&motion.displacement - &exact).norm_l2() / exact.norm_l2()
+        (&state.displacement - &exact).norm_l2() / exact.norm_l2()
     };
     let (coarse, fine) = (distance(8000), distance(16000));
     let order = (coarse / fine).log2();
@@ -192,8 +181,9 @@ fn few_motions_make_the_record_of_the_whole_basis() {
     let propagator =
         Propagator::new(&system, run.speed_rad_per_s, &[load], run.duration_s).unwrap();
     let force = [run.lateral_n];
-    let whole = propagator.step(&State::rest(system.order()), &force, &force);
-    let whole = columns(&whole).0.transpose() * &read;
+    let rest = State::rest(system.order());
+    let whole = propagator.step(&rest, [&force, &force]).unwrap();
+    let whole = whole.displacement.transpose() * &read;
     let end = history
         .time_s
         .partition_point(|t| *t < history.forces_s.1 - 1e-9);
