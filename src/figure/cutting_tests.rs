@@ -1,5 +1,7 @@
 //! The figures of the cut and of the run-up, drawn from reports made up for it.
 
+use std::sync::LazyLock;
+
 use super::canvas::Mark;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
@@ -8,13 +10,14 @@ use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::{Cutting, RunningUp};
 use crate::washboarding::Washboard;
 
-/// As many speeds as make two rows.
-fn cut_report(scene: &Scene) -> CutReport {
+/// As many speeds as make two rows, of a saw with a spline.
+static THREE_SPEEDS: LazyLock<CutReport> = LazyLock::new(|| {
+    let scene = draft();
     let cut = scene.cut().unwrap();
     let runs = [1800.0, 2800.0, 2600.0].map(|rpm| cut.at_rpm(rpm).unwrap());
-    let cutting = Cutting::new(scene, &runs, &|_, _| ()).unwrap();
+    let cutting = Cutting::new(&scene, &runs, &|_, _| ()).unwrap();
     CutReport::new(&cutting)
-}
+});
 
 fn draft() -> Scene {
     let scene = Scene::from_json(include_str!("../../scenes/paper-spline.json")).unwrap();
@@ -29,8 +32,8 @@ fn coarse(saw: &mut SceneFile) {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_figures_of_a_cut_are_tidy_and_say_the_verdict() {
-    let report = cut_report(&draft());
-    let sheet = cut::sheet(&report);
+    let report = &*THREE_SPEEDS;
+    let sheet = cut::sheet(report);
     assert_tidy(&sheet);
     for run in &report.runs {
         let title = format!("{} rpm: {}", run.rpm, run.verdict);
@@ -39,8 +42,8 @@ fn the_figures_of_a_cut_are_tidy_and_say_the_verdict() {
             .any(|(_, text)| text.starts_with(&title));
         assert!(said, "{title}");
     }
-    assert_tidy(&cut_map::sheet(&report));
-    assert_tidy(&spline_orbit::sheet(&report).unwrap());
+    assert_tidy(&cut_map::sheet(report));
+    assert_tidy(&spline_orbit::sheet(report).unwrap());
 }
 
 /// The numbers at the axis of a panel keep to the room left of it.
@@ -136,8 +139,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn deflections_have_one_common_scale() {
-    let report = cut_report(&draft().edited(|saw| saw.spline = None).unwrap());
-    let drawn = cut::sheet(&report);
+    let drawn = cut::sheet(&THREE_SPEEDS);
     let texts = texts(&drawn);
     // Numbers left of the two columns, from the top down.
     let ticks = |from: f64, to: f64| {

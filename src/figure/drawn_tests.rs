@@ -97,7 +97,7 @@ fn drawn_saws(count: usize) -> impl Iterator<Item = (SceneFile, f64)> {
 
 #[test]
 fn figures_of_drawn_saws_show_what_their_reports_say() {
-    for (case, (file, reach)) in drawn_saws(10).enumerate() {
+    for (case, (file, reach)) in drawn_saws(6).enumerate() {
         let report = report(&file, reach);
         for branch in &report.campbell.branches {
             let loose = loose_ends(&report, branch);

@@ -279,12 +279,12 @@ mod tests {
     use crate::spectrum::SpectralModel;
 
     /// A blade of an eighth of the thickness reflects the waves of many more diameters below
-    /// 2400 rpm than the ten of the least basis; the inertia of the largest basis says how many.
+    /// 1600 rpm than the ten of the least basis; the inertia of the largest basis says how many.
     #[test]
     fn a_basis_too_small_for_the_waves_below_a_speed_gives_way_to_a_larger_one() {
         let thin = Scene::paper().edited(|saw| saw.blade.thickness_m /= 8.0);
         let thin = thin.unwrap();
-        let top = rad_per_s(2400.0);
+        let top = rad_per_s(1600.0);
         let below =
             |critical: &[NamedCriticalSpeed]| critical.partition_point(|c| c.speed_rad_per_s < top);
         let exact = Assembled::from(Plate::new(&thin, resolution(LADDER[LADDER.len() - 1])));

@@ -2,7 +2,7 @@
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Cut, CutRun, RunUp, Scene, SceneError, SpeedRange};
+use crate::scene::{Accuracy, Cut, CutRun, RunUp, Scene, SceneError, SpeedRange};
 use crate::spectrum::{Mode, Work};
 use crate::stability::{Analysis, ChosenBasis};
 
@@ -47,10 +47,19 @@ const STAGE_DEG: f64 = 1.1;
 fn stages(cut: &Cut) -> usize {
     STAGES.max((cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize)
 }
-/// The map reaches so far on both sides of the guides, in steps of so much.
-const MAP_TURN_DEG: (f64, f64) = (30.0, 2.5);
-/// Highest load level of the map, and its steps.
-const MAP_LOAD: (f64, f64) = (1.5, 0.1);
+/// The map reaches so far on both sides of the guides.
+const MAP_TURN_DEG: f64 = 30.0;
+/// Highest load level of the map.
+const MAP_LOAD: f64 = 1.5;
+
+/// Steps of the map in degrees and in load level: 400 eigenproblems a speed are most of the work of a cut, which a
+/// draft does with 91.
+fn map_steps(accuracy: Accuracy) -> (f64, f64) {
+    match accuracy {
+        Accuracy::Draft => (5.0, 0.25),
+        Accuracy::Design | Accuracy::Reference => (2.5, 0.1),
+    }
+}
 
 /// The saw under the forces, time history, teeth and map.
 const PARTS: usize = 4;
@@ -67,14 +76,15 @@ impl Cutting {
     ) -> Result<Self, TransientError> {
         let cut = scene.needed_cut().map_err(SceneError::from)?;
         let plate = chosen_plate(scene, runs)?;
+        let (turn_deg, level) = map_steps(scene.accuracy());
         let turns: Vec<f64> = match scene.guides().is_empty() {
             // Turned by any angle, a saw without guides is the same.
             true => vec![0.0],
-            false => even(-MAP_TURN_DEG.0, MAP_TURN_DEG.0, MAP_TURN_DEG.1)
+            false => even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
                 .map(f64::to_radians)
                 .collect(),
         };
-        let levels: Vec<f64> = even(0.0, MAP_LOAD.0, MAP_LOAD.1).collect();
+        let levels: Vec<f64> = even(0.0, MAP_LOAD, level).collect();
         let points = turns.len() * levels.len();
         let parts = Work::of("parts of the cut", PARTS * runs.len());
         let runs = runs

@@ -1,19 +1,21 @@
 //! Goal: the answer first, in lines that fit a terminal; one answer in text and JSON.
 
+use std::sync::LazyLock;
+
 use sawflutter::report::{CheckReport, Report, StabilityState};
 use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
 use super::program::{out, run, sawflutter, text, write_scene};
 
-/// The paper's saw with a damped pad: (text, report).
-fn damped_pad(more: &[&str]) -> (String, Report) {
+/// The paper's saw with a damped pad, and its modes at 1800 rpm: (text, report).
+static DAMPED_PAD: LazyLock<(String, Report)> = LazyLock::new(|| {
     let folder = TempDir::new().unwrap();
     let mut file = Scene::paper().file().clone();
     file.guides[0].damping_n_s_per_m = 50.0;
     file.accuracy = Accuracy::Draft;
     let scene = write_scene(&folder, &file);
-    let arguments = [&["analyze", scene.to_str().unwrap()], more].concat();
+    let arguments = ["analyze", scene.to_str().unwrap(), "--at-rpm", "1800"];
     let output = run(&arguments, &folder);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let report = std::fs::read(out(&folder).join("report.json")).unwrap();
@@ -21,7 +23,7 @@ fn damped_pad(more: &[&str]) -> (String, Report) {
         text(&output.stdout).to_owned(),
         serde_json::from_slice(&report).unwrap(),
     )
-}
+});
 
 fn fits(text: &str) {
     for line in text.lines().filter(|line| !line.starts_with("Written to")) {
@@ -34,9 +36,9 @@ fn fits(text: &str) {
 /// for `check`; flutter counts from where its growth reaches the threshold.
 #[test]
 fn a_damped_pad_is_stable_where_its_growth_is_below_the_threshold() {
-    let (text, report) = damped_pad(&[]);
-    fits(&text);
-    let operating = report.operating.unwrap();
+    let (text, report) = &*DAMPED_PAD;
+    fits(text);
+    let operating = report.operating.as_ref().unwrap();
     assert_eq!(operating.verdict, StabilityState::Stable);
     assert_eq!(operating.inside_instability, None);
     let growth = operating.growth_per_s.unwrap();
@@ -72,9 +74,9 @@ fn a_damped_pad_is_stable_where_its_growth_is_below_the_threshold() {
 /// The table of one speed has the modes of the chart, with the damping ratio of a damped scene.
 #[test]
 fn the_modes_of_one_speed_are_listed_when_asked_for() {
-    let (text, report) = damped_pad(&["--at-rpm", "1800"]);
-    fits(&text);
-    let whirl = report.whirl.unwrap();
+    let (text, report) = &*DAMPED_PAD;
+    fits(text);
+    let whirl = report.whirl.as_ref().unwrap();
     assert_eq!(whirl.rpm, 1800.0);
     assert!(text.contains("Modes at 1800 rpm: stable"), "{text}");
     for mode in &whirl.modes {

@@ -5,7 +5,7 @@
 use crate::common::Worst;
 use crate::promises::{Kept, drawn_saws, promises, saws};
 use sawflutter::plate::Resolution;
-use sawflutter::scene::Scene;
+use sawflutter::scene::{Scene, SweepFile};
 use sawflutter::stability::{Analysis, InstabilityKind};
 
 /// A basis that is large beside what 1e-2 takes of saws with soft pads.
@@ -37,7 +37,7 @@ fn onsets_keep_the_tolerance() {
             .map(|b| b.from_rad_per_s)
             .collect()
     };
-    let truth = onsets(1e-5);
+    let truth = onsets(1e-4);
     for tolerance in [1e-2, 1e-3] {
         let found = onsets(tolerance);
         assert_eq!(found.len(), truth.len(), "{tolerance}");
@@ -63,6 +63,11 @@ fn what_is_out_of_reach_names_the_pad_and_the_functions_that_would_do() {
             saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
             saw.tolerance = Some(1e-3);
             (saw.cut, saw.measured) = (None, None);
+            // The basis is chosen from critical speeds, below which there is nothing to search.
+            saw.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: 1600.0,
+            });
         });
         Analysis::new(&scene.unwrap()).unwrap()
     };

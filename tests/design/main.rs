@@ -2,6 +2,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/measurements.rs"]
+mod measurements;
 
 mod fit;
 mod numbers;

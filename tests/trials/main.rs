@@ -16,9 +16,13 @@ mod draw;
 #[allow(dead_code, reason = "helpers of other tests")]
 #[path = "../common/draws.rs"]
 mod draws;
+#[path = "../common/measurements.rs"]
+mod measurements;
 #[cfg(target_os = "linux")]
 #[path = "../common/memory.rs"]
 mod memory;
+#[path = "../design/numbers.rs"]
+mod numbers;
 #[path = "../common/pressed.rs"]
 mod pressed;
 #[allow(dead_code, reason = "helpers of other tests")]
@@ -36,5 +40,6 @@ mod drawn_bands;
 #[cfg(target_os = "linux")]
 mod fine_chart;
 mod fuzz;
+mod intervals;
 mod told;
 mod violent_cuts;

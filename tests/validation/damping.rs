@@ -5,6 +5,8 @@
 //! blade. With both, their ratio decides. (Huang and Crandall, J. Appl. Mech. 41, 1974,
 //! for rotating shafts and disks.)
 
+use std::sync::LazyLock;
+
 use faer::c64;
 use nalgebra::DMatrix;
 use sawflutter::analytical::free_wave::{FreeWave, LightDamping};
@@ -190,20 +192,21 @@ fn the_undamped_limit_is_continuous() {
 }
 
 /// The paper's saw with a pad that damps with 50 N s/m, at draft accuracy.
-fn damped_pad() -> Scene {
-    let mut file = Scene::paper().file().clone();
-    file.guides[0].damping_n_s_per_m = 50.0;
-    file.accuracy = Accuracy::Draft;
-    Scene::try_from(file).unwrap()
-}
+static DAMPED_PAD: LazyLock<Analysis> = LazyLock::new(|| {
+    let scene = Scene::paper().edited(|saw| {
+        saw.guides[0].damping_n_s_per_m = 50.0;
+        saw.accuracy = Accuracy::Draft;
+    });
+    Analysis::new(&scene.unwrap()).unwrap()
+});
 
 /// A damped pad feeds reflected waves from their critical speeds on, with 1e-5 1/s over hundreds
 /// of rpm, and hardly changes the flutter of modes that meet. Growth is held against every
 /// eigenvalue of the whole basis, the flutter speed against the saw without damping.
 #[test]
 fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
-    let scene = damped_pad();
-    let analysis = Analysis::new(&scene).unwrap();
+    let analysis = &*DAMPED_PAD;
+    let scene = &analysis.scene;
     let undamped = scene.edited(|file| file.guides[0].damping_n_s_per_m = 0.0);
     let undamped = undamped.unwrap();
     let undamped = Analysis::new(&undamped).unwrap();
@@ -267,7 +270,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
 /// A chart has enough points of each band that straight lines between them show its growth.
 #[test]
 fn growth_of_a_damped_band_is_drawn_as_it_is() {
-    let analysis = Analysis::new(&damped_pad()).unwrap();
+    let analysis = &*DAMPED_PAD;
     let samples = &analysis.chart.campbell.samples;
     for band in &analysis.chart.instabilities {
         let inside = |speed: f64| (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
@@ -298,7 +301,7 @@ fn growth_of_a_damped_band_is_drawn_as_it_is() {
 /// other.
 #[test]
 fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
-    let analysis = Analysis::new(&damped_pad()).unwrap();
+    let analysis = &*DAMPED_PAD;
     let campbell = &analysis.chart.campbell;
     let mut followed = 0;
     for band in &analysis.chart.instabilities {
@@ -332,6 +335,10 @@ fn a_divergence_has_the_branch_that_it_has_without_damping() {
         let scene = Scene::paper().edited(|saw| {
             saw.damping = damping;
             saw.accuracy = Accuracy::Draft;
+            saw.sweep = Some(SweepFile {
+                from_rpm: 1400.0,
+                to_rpm: 2650.0,
+            });
         });
         let report = Analysis::new(&scene.unwrap()).unwrap().report();
         let bands = report.instabilities.into_iter();

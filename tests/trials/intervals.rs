@@ -1,0 +1,84 @@
+//! Goal: the intervals of `fit` cover the truth as often as they say.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+use sawflutter::fit::{Fit, Measurement, Options};
+
+use crate::common::scene;
+use crate::measurements::{SMALL, SPEEDS, exact, measured};
+use crate::numbers::{freed, with};
+use crate::told::{Trial, mine};
+
+const RADIUS: &str = "guides[0].radius_m";
+const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
+
+/// Normal deviates from a linear congruence and Box and Muller's formula.
+struct Noise(u64);
+
+impl Noise {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
+    }
+}
+
+const DRAWS: usize = 100;
+
+#[test]
+#[ignore = "a hundred fits"]
+fn intervals_cover_the_truth_as_often_as_they_say() {
+    let mut trial = Trial::new("intervals of fit");
+    for what in mine(["the paper's saw"]) {
+        trial.saw(what, || {
+            // Three standard deviations of such a count.
+            let allowed = 3.0 * (DRAWS as f64 * 0.9 * 0.1).sqrt();
+            let is_off = |count: usize| (count as f64 - 0.9 * DRAWS as f64).abs() > allowed;
+            let covered = covered();
+            match covered.into_iter().any(is_off) {
+                true => vec![format!(
+                    "{covered:?} of {DRAWS} cover the truth, expected 90 %"
+                )],
+                false => Vec::new(),
+            }
+        });
+    }
+    trial.end();
+}
+
+/// Of 100 measurements with noise of 0.1 Hz, how often the 90 % interval covers the true radius and the true stiffness.
+fn covered() -> [usize; 2] {
+    let saw = scene("paper");
+    let truth = with(&saw, &[(RADIUS, 0.21), (STIFFNESS, 8e6)]);
+    let exact = exact(&truth, &SPEEDS, 5);
+    let free = freed(&saw, &[(RADIUS, 0.15, 0.3), (STIFFNESS, 1e6, 1e8)]);
+    let options = Options {
+        confidence: 0.9,
+        starts: 1,
+        seed: 0,
+        resolution: Some(SMALL),
+        ..Options::default()
+    };
+    let mut noise = Noise(20_241_122);
+    let drawn: Vec<Measurement> = (0..DRAWS)
+        .map(|_| measured(&exact, || 0.1 * noise.normal()))
+        .collect();
+    let fits: Vec<Fit> = drawn
+        .par_iter()
+        .map(|drawn| Fit::new(&saw, drawn, &free, &options, &|_, _| ()).unwrap())
+        .collect();
+    [(0, 0.21), (1, 8e6)].map(|(k, truth)| {
+        let covers = |fit: &&Fit| {
+            let (low, high) = fit.parameters[k].interval.unwrap();
+            low <= truth && truth <= high
+        };
+        fits.iter().filter(covers).count()
+    })
+}
