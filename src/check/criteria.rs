@@ -5,23 +5,15 @@ use super::limits::Limits;
 use super::static_deflection::{StaticDeflection, point};
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
-use crate::stability::{Evidence, Instability, InstabilityKind};
+use crate::stability::{Evidence, InstabilityKind, flutter_onsets};
 use crate::text::{shown, shown_to};
 
 impl Limits {
-    /// Every limit held against the speeds and bands of a saw, in rad/s; bands that grow more
-    /// slowly than the threshold are none.
-    pub fn criteria(
-        &self,
-        lowest_critical: Option<f64>,
-        flutter_speed: Option<f64>,
-        bands: &[Instability],
-        threshold_per_s: f64,
-    ) -> Vec<Criterion> {
-        let mut criteria = vec![
-            self.of_margin(lowest_critical),
-            self.of_operation(bands, threshold_per_s),
-        ];
+    /// Every limit held against the critical speeds and bands of a saw.
+    pub fn criteria(&self, found: &Evidence<'_>) -> Vec<Criterion> {
+        let lowest_critical = found.critical_rad_per_s.first().copied();
+        let [flutter_speed, _] = flutter_onsets(found.bands, found.threshold_per_s);
+        let mut criteria = vec![self.of_margin(lowest_critical), self.of_operation(found)];
         criteria.extend(self.min_critical_rad_per_s.map(|asked| {
             let nowhere = "no critical speed was found".to_owned();
             at_least(
@@ -33,7 +25,7 @@ impl Limits {
             )
         }));
         criteria.extend(self.min_flutter_rad_per_s.map(|asked| {
-            let end = rpm(self.reach_rad_per_s());
+            let end = rpm(found.range_rad_per_s.1);
             let nowhere = format!("none up to {end:.0} rpm, where the search ends");
             at_least(
                 "min_flutter",
@@ -75,17 +67,10 @@ impl Limits {
     }
 
     /// Whether the saw is stable where it runs.
-    fn of_operation(&self, bands: &[Instability], threshold_per_s: f64) -> Criterion {
+    fn of_operation(&self, found: &Evidence<'_>) -> Criterion {
         let operating = self.operating_rad_per_s;
-        let evidence = Evidence {
-            bands,
-            // The limit above is the one of critical speeds.
-            critical_rad_per_s: &[],
-            threshold_per_s,
-            range_rad_per_s: (0.0, self.reach_rad_per_s()),
-        };
-        let verdict = evidence.verdict(operating);
-        let kind = verdict.band.map(|index| match bands[index].kind {
+        let verdict = found.verdict(operating);
+        let kind = verdict.band.map(|index| match found.bands[index].kind {
             InstabilityKind::Divergence => "divergence",
             InstabilityKind::Flutter => "flutter",
         });

@@ -141,8 +141,8 @@ impl Limits {
             .collect()
     }
 
-    /// How far a sweep has to go: past every speed asked for, so that a band that begins there
-    /// is seen to.
+    /// How far a sweep has to go at least: past every speed asked for, so that a band that begins
+    /// there is seen to.
     pub fn reach_rad_per_s(&self) -> f64 {
         let asked = [
             Some(self.operating_rad_per_s / self.margin),

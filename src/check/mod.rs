@@ -23,7 +23,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError};
+use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 use crate::system::GyroscopicSystem;
 
 use criteria::{of_gaps, without_stiffness};
@@ -95,14 +95,15 @@ const POINT_LOAD_BASIS: Resolution = Resolution {
 };
 
 impl Check {
-    /// Analyses a saw as far as the limits ask, and compares.
+    /// Analyses a saw from rest to where its sweep ends, or further where the limits ask for more,
+    /// and compares: what is found is what an [`Analysis`] of the scene finds.
     ///
     /// # Errors
     /// [`CheckError`] when the saw cannot be analysed that far.
     pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, CheckError> {
         let swept = scene.swept(SpeedRange {
             from_rad_per_s: 0.0,
-            to_rad_per_s: limits.reach_rad_per_s(),
+            to_rad_per_s: end_of_sweep(scene)?.max(limits.reach_rad_per_s()),
         })?;
         let analysis = Analysis::new(&swept)?;
         let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
@@ -126,12 +127,7 @@ impl Check {
             rim_stiffness_over_speed: bending
                 .as_ref()
                 .map_or_else(Vec::new, StaticDeflection::rim_stiffness_n_per_m),
-            criteria: limits.criteria(
-                lowest_critical,
-                analysis.flutter_speed_rad_per_s,
-                &analysis.chart.instabilities,
-                scene.flutter_threshold_per_s(),
-            ),
+            criteria: limits.criteria(&analysis.evidence(&analysis.critical_rad_per_s())),
             unusual_numbers: limits.unusual_numbers(scene),
             accept_unusual: limits.accept_unusual,
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
@@ -194,5 +190,33 @@ fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) ->
         stiffness
     } else {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Accuracy, rad_per_s};
+
+    /// Of a saw whose sweep the program ends, asked for far less, and for more.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn a_check_finds_what_an_analysis_finds() {
+        let scene = Scene::paper().edited(|saw| {
+            (saw.accuracy, saw.sweep) = (Accuracy::Draft, None);
+        });
+        let scene = scene.unwrap();
+        let analysis = Analysis::new(&scene).unwrap();
+        let limits = |asked_rpm: f64| Limits {
+            min_flutter_rad_per_s: Some(rad_per_s(asked_rpm)),
+            ..Limits::at(rad_per_s(300.0))
+        };
+        let near = Check::new(&scene, &limits(400.0)).unwrap();
+        assert_eq!(near.analysis.range_rad_per_s, analysis.range_rad_per_s);
+        assert!(analysis.flutter_speed_rad_per_s.is_some());
+        assert_eq!(near.criteria[2].found, analysis.flutter_speed_rad_per_s);
+        let far = limits(1.1 * rpm(analysis.range_rad_per_s.1));
+        let end = Check::new(&scene, &far).unwrap().analysis.range_rad_per_s.1;
+        assert!(end > far.min_flutter_rad_per_s.unwrap());
     }
 }

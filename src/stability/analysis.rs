@@ -305,12 +305,12 @@ impl Analysis {
         Some(rpm(self.model.critical[place].speed_rad_per_s))
     }
 
-    fn critical_rad_per_s(&self) -> Vec<f64> {
+    pub(crate) fn critical_rad_per_s(&self) -> Vec<f64> {
         let critical = self.model.critical.iter();
         critical.map(|c| c.speed_rad_per_s).collect()
     }
 
-    fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
+    pub(crate) fn evidence<'a>(&'a self, critical_rad_per_s: &'a [f64]) -> Evidence<'a> {
         Evidence {
             bands: &self.chart.instabilities,
             critical_rad_per_s,

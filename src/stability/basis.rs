@@ -265,6 +265,20 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
     (LARGEST_STRETCH.get() * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
 }
 
+/// Where the sweep of a scene ends, as typed or as the program chooses it, in rad/s.
+///
+/// # Errors
+/// Those of [`ChosenBasis::new`], where it is the program's choice.
+pub(crate) fn end_of_sweep(scene: &Scene) -> Result<f64, AnalysisError> {
+    match scene.sweep() {
+        Some(sweep) => Ok(sweep.to_rad_per_s),
+        None => {
+            let chosen = ChosenBasis::new(scene, scene.tolerance())?;
+            Ok(chosen.range_rad_per_s.1)
+        }
+    }
+}
+
 /// Twice the lowest critical speed, rounded up to two digits.
 fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
     let lowest = lowest_rad_per_s.map_or(1000.0, rpm);

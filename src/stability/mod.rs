@@ -48,7 +48,7 @@ pub use analysis::{Analysis, AnalysisOptions};
 pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
-pub(crate) use basis::resolved;
+pub(crate) use basis::{end_of_sweep, resolved};
 pub use certificate::Certificate;
 pub(crate) use certificate::Mismatch;
 pub use chart::StabilityChart;
@@ -75,5 +75,5 @@ pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]
 pub use undamped::undamped_bands;
-pub(crate) use verdict::{CRITICAL_MARGIN, Evidence, flutter_onsets};
-pub use verdict::{StabilityState, Verdict};
+pub(crate) use verdict::{CRITICAL_MARGIN, flutter_onsets};
+pub use verdict::{Evidence, StabilityState, Verdict};

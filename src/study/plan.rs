@@ -15,7 +15,7 @@ use crate::check::{Criterion, Limits, LimitsFile};
 use crate::plate::Resolution;
 use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
 use crate::spectrum::SpectrumError;
-use crate::stability::{AnalysisError, ChosenBasis};
+use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
 /// Saws of a study: as many as there are points but one, and a log of 600 GB.
 const MAX_SAWS: usize = u32::MAX as usize;
@@ -73,14 +73,9 @@ impl Study {
         let (drawn, count) = counts(&file, &varying)?;
         check_statistics(&file)?;
         let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
-        let end = match (file.to_rpm, scene.sweep()) {
-            (Some(rpm), _) => speed_rad_per_s("to_rpm", rpm)?,
-            (None, Some(sweep)) => sweep.to_rad_per_s,
-            (None, None) => {
-                ChosenBasis::new(&scene, scene.tolerance())?
-                    .range_rad_per_s
-                    .1
-            }
+        let end = match file.to_rpm {
+            Some(rpm) => speed_rad_per_s("to_rpm", rpm)?,
+            None => end_of_sweep(&scene)?,
         };
         let reach = limits.map_or(0.0, |limits| limits.reach_rad_per_s());
         Ok(Study {
@@ -177,7 +172,13 @@ impl Study {
 
     /// The limits that every saw is held against, as one without any event keeps them.
     pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
-        let criteria = self.limits.map(|l| l.criteria(None, None, &[], 0.0));
+        let nothing = Evidence {
+            bands: &[],
+            critical_rad_per_s: &[],
+            threshold_per_s: 0.0,
+            range_rad_per_s: (0.0, self.to_rad_per_s),
+        };
+        let criteria = self.limits.map(|limits| limits.criteria(&nothing));
         criteria.unwrap_or_default()
     }
 }

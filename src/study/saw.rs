@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
 use crate::scene::{Scene, rpm};
-use crate::stability::{AnalysisError, Onsets};
+use crate::stability::{AnalysisError, Evidence, Onsets};
 
 /// A saw and what became of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -98,14 +98,13 @@ impl Study {
             Some(basis) => Onsets::beside(scene, basis)?,
             None => Onsets::new(scene)?,
         };
-        let criteria = self.limits().map(|limits| {
-            limits.criteria(
-                onsets.lowest_critical_rad_per_s,
-                onsets.flutter_speed_rad_per_s,
-                &onsets.instabilities,
-                scene.flutter_threshold_per_s(),
-            )
-        });
+        let evidence = Evidence {
+            bands: &onsets.instabilities,
+            critical_rad_per_s: onsets.lowest_critical_rad_per_s.as_slice(),
+            threshold_per_s: scene.flutter_threshold_per_s(),
+            range_rad_per_s: (0.0, self.to_rad_per_s()),
+        };
+        let criteria = self.limits().map(|limits| limits.criteria(&evidence));
         Ok(Found {
             lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),

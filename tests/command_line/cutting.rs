@@ -147,7 +147,7 @@ fn a_scene_without_the_forces_is_refused() {
 /// The exit code is the verdict, for scripts that read nothing else.
 #[test]
 fn a_check_passes_fails_or_is_refused() {
-    let cases: [(&[&str], i32, &str); 6] = [
+    let cases: [(&[&str], i32, &str); 7] = [
         (&["--operating-rpm", "1200"], 0, "PASSED at 1200 rpm"),
         (
             &["--operating-rpm", "1400"],
@@ -163,6 +163,12 @@ fn a_check_passes_fails_or_is_refused() {
             &["--operating-rpm", "1200", "--min-flutter-rpm", "2300"],
             1,
             "FAIL flutter speed of at least 2300 rpm: 22",
+        ),
+        // Found where `analyze` finds it, however little is asked.
+        (
+            &["--operating-rpm", "1200", "--min-flutter-rpm", "1400"],
+            0,
+            "PASS flutter speed of at least 1400 rpm: 2256 rpm",
         ),
         (&["--operating-rpm", "-3"], 2, "--operating-rpm is -3"),
         (&["--margin", "2"], 2, "--margin is 2"),
