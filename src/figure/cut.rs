@@ -7,10 +7,12 @@ use super::clip::clip;
 use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
 use super::style::{
     ALARM, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
-    SUBTITLE_SIZE, Weight, shorten, tint,
+    SUBTITLE_SIZE, Weight, broken, tint,
 };
 use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, CutVerdict, Verdict};
 
+/// From the baseline of a line of facts to that of the next.
+const LINE: f64 = 16.0;
 const PANELS: Columns = Columns {
     lefts: [92.0, 680.0],
     top: 136.0,
@@ -191,20 +193,28 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
         weight: Weight::SemiBold,
         ..Lettering::regular(SUBTITLE_SIZE + 2.0, colour, Anchor::Start)
     };
-    sheet.text([panel.left, panel.top - 32.0], title, &text);
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let room = panel.right - panel.left + 20.0;
+    let lines = broken(&facts(run), LABEL_SIZE, Weight::Regular, room);
+    let mut baseline = panel.top - 12.0;
+    for line in lines.iter().rev() {
+        sheet.text([panel.left, baseline], letters, line);
+        baseline -= LINE;
+    }
+    sheet.text([panel.left, baseline + LINE - 20.0], title, &text);
+}
+
+/// The largest deflection, and the growth that each criterion says.
+fn facts(run: &CutRunEntry) -> String {
     // Rounding of either sign is no growth.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
-    let facts = run.criteria.iter().map(|entry| {
+    let criteria = run.criteria.iter().map(|entry| {
         let name = entry.criterion;
         format!("{name} {:.2}", growth(entry.growth_per_s))
     });
-    let text = format!(
+    format!(
         "largest {}; {} 1/s",
         length(largest_m(run)),
-        facts.collect::<Vec<_>>().join(", ")
-    );
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let room = panel.right - panel.left + 20.0;
-    let text = shorten(&text, LABEL_SIZE, Weight::Regular, room);
-    sheet.text([panel.left, panel.top - 12.0], letters, &text);
+        criteria.collect::<Vec<_>>().join(", ")
+    )
 }

@@ -42,6 +42,9 @@ fn the_figures_of_a_cut_are_tidy_and_say_the_verdict() {
             .any(|(_, text)| text.starts_with(&title));
         assert!(said, "{title}");
     }
+    // What each criterion says stands in the heading, of the last one too.
+    let cut_off = texts(&sheet).iter().any(|(_, text)| text.contains('…'));
+    assert!(!cut_off, "{:?}", texts(&sheet));
     assert_tidy(&cut_map::sheet(report));
     assert_tidy(&spline_orbit::sheet(report).unwrap());
 }

@@ -127,6 +127,20 @@ pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     }
 }
 
+/// The text on as many lines as it takes, broken at spaces.
+pub fn broken(text: &str, em: f64, weight: Weight, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = |line: &String| format!("{line} {word}");
+        let fits = |line: &&mut String| text_width(&longer(line), em, weight) <= room;
+        match lines.last_mut().filter(fits) {
+            Some(line) => *line = longer(line),
+            None => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// The text on one line, cut with an ellipsis where it is wider than `room`.
 pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
     let line = one_line(text);
