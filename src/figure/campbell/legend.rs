@@ -71,13 +71,8 @@ fn line(key: &mut Key, stroke: Stroke, word: &str) {
 fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     let mut notes =
         vec!["at the lines, branch: nodal diameters/circles at its first speed".to_owned()];
-    let (labelled, all) = (labels.count(), chart.report.instabilities.len());
-    if labelled < all {
-        notes.push(format!(
-            "labels of {labelled} of {all} bands; all in report.json"
-        ));
-    }
-    notes.extend(left_out(chart.report, chart.speed.values()));
+    let shown = chart.speed.values();
+    notes.extend(left_out(chart.report, shown, labels.count()));
     if growth::hides_decay(chart.report) {
         notes.push("growing modes have decaying mirror images, not shown".to_owned());
     }

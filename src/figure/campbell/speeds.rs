@@ -10,7 +10,12 @@ use super::super::style::{
 use super::{Chart, WIDTH, waves};
 use crate::report::InstabilityKind;
 
-const CRITICAL_BASELINE: f64 = 90.0;
+/// Baselines of the critical speeds and of the waves that stand still there, and the upper end of the lines to them.
+const CRITICAL_BASELINE: f64 = 79.0;
+const WAVES_BASELINE: f64 = 93.0;
+const CRITICAL_TOP: f64 = 97.0;
+/// Room for the waves of a single speed.
+const LEAST_WIDTH: f64 = 44.0;
 
 pub fn line_colour(kind: InstabilityKind) -> Colour {
     match kind {
@@ -35,10 +40,7 @@ pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
     };
     for &rpm in &speeds {
         let x = chart.speed.at(rpm);
-        sheet.line(
-            [[x, chart.upper.bottom], [x, CRITICAL_BASELINE + 5.0]],
-            dashed,
-        );
+        sheet.line([[x, chart.upper.bottom], [x, CRITICAL_TOP]], dashed);
     }
     label_critical(sheet, chart, &speeds);
 }
@@ -53,19 +55,52 @@ pub fn dot_critical(sheet: &mut Sheet, chart: &Chart) {
 fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
     let gap = 12.0;
-    let width = |label: &str| text_width(label, LABEL_SIZE, Weight::Regular) + gap;
+    let width = |label: &str| text_width(label, LABEL_SIZE, Weight::Regular).max(LEAST_WIDTH) + gap;
     let ends = [MARGIN, f64::from(WIDTH) - MARGIN];
     let clusters = join_close(speeds, |rpm| chart.speed.at(rpm), width, ends);
-    for Cluster { centre, label, .. } in &clusters {
+    for Cluster {
+        centre,
+        label,
+        values,
+    } in &clusters
+    {
         sheet.text([*centre, CRITICAL_BASELINE], letters, label);
+        let waves = waves_at(chart, values);
+        sheet.text([*centre, WAVES_BASELINE], letters, &waves);
     }
     let Some(first) = clusters.first() else {
         return;
     };
-    let caption = "critical [rpm]";
-    if MARGIN + width(caption) < first.centre - width(&first.label) / 2.0 {
+    let captions = ["critical [rpm]", "nodal diameters"];
+    if MARGIN + width(captions[1]) < first.centre - width(&first.label) / 2.0 {
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-        sheet.text([MARGIN, CRITICAL_BASELINE], letters, caption);
+        for (caption, baseline) in captions
+            .into_iter()
+            .zip([CRITICAL_BASELINE, WAVES_BASELINE])
+        {
+            sheet.text([MARGIN, baseline], letters, caption);
+        }
+    }
+}
+
+/// The waves that stand still at some critical speeds: "n = 2", "n = 2, 3", "n = 2 … 13"; "2/1" where they have a
+/// nodal circle.
+fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
+    let entries = chart.report.critical_speeds.iter();
+    let among = entries.filter(|entry| speeds.contains(&entry.rpm));
+    let mut waves: Vec<_> = among
+        .map(|e| (e.nodal_diameters, e.nodal_circles))
+        .collect();
+    waves.sort_unstable();
+    waves.dedup();
+    let names = waves.iter().map(|(diameters, circles)| match circles {
+        0 => diameters.to_string(),
+        _ => format!("{diameters}/{circles}"),
+    });
+    let names: Vec<String> = names.collect();
+    match &names[..] {
+        [first, .., last] if names.len() > 3 => format!("n = {first} … {last}"),
+        _ => format!("n = {}", names.join(", ")),
     }
 }
 

@@ -60,6 +60,16 @@ fn a_band_that_is_not_shaded_has_no_label_but_is_told() {
     assert!(starting_with(&drawn, "flutter").is_empty());
     let notes = starting_with(&drawn, "at the lines").join("");
     assert!(notes.contains("1 wide band that grows by less than 0.25 1/s: not shaded"));
+    assert!(!notes.contains("without a label"), "{notes}");
+}
+
+/// The critical speeds of n = 2, 3 and 4 of the made-up saw, two of each.
+#[test]
+fn critical_speeds_have_the_waves_that_stand_still() {
+    let drawn = sheet(&busy_report(), CampbellView::default());
+    let waves = starting_with(&drawn, "n = ");
+    assert_eq!(waves, ["n = 2", "n = 3", "n = 4"]);
+    assert_eq!(starting_with(&drawn, "nodal diameters").len(), 1);
 }
 
 /// 193 bands over ten thousand rpm.

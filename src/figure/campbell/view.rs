@@ -58,8 +58,8 @@ fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     marks.fold(*onset, f64::max).min(end)
 }
 
-/// What the figure leaves out, in words.
-pub fn left_out(report: &Report, [from, to]: [f64; 2]) -> Vec<String> {
+/// What the figure leaves out, in words, where so many bands have a label.
+pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<String> {
     let mut notes = Vec::new();
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     if first < from || to < last {
@@ -69,17 +69,20 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2]) -> Vec<String> {
     }
     let is_shown = |b: &&InstabilityEntry| b.from_rpm <= to && from <= b.to_rpm;
     let shown = report.instabilities.iter().filter(is_shown);
-    let weak = shown.filter(|band| !is_shaded([from, to], band)).count();
-    if weak > 0 {
-        let (bands, grow) = if weak == 1 {
-            ("band", "grows")
-        } else {
-            ("bands", "grow")
-        };
-        let threshold = report.flutter_threshold_per_s;
-        notes.push(format!(
-            "{weak} wide {bands} that {grow} by less than {threshold} 1/s: not shaded"
-        ));
-    }
+    let weak = shown.clone().filter(|band| !is_shaded([from, to], band));
+    let (shown, weak) = (shown.count(), weak.count());
+    let threshold = report.flutter_threshold_per_s;
+    let of_weak = match weak {
+        0 => String::new(),
+        1 => format!("1 wide band that grows by less than {threshold} 1/s: not shaded"),
+        _ => format!("{weak} wide bands that grow by less than {threshold} 1/s: not shaded"),
+    };
+    // A band that is not shaded has no label either.
+    let others = shown.saturating_sub(labelled + weak);
+    let of_others = match others {
+        0 => String::new(),
+        _ => format!("{others} of {shown} bands without a label, see report.json"),
+    };
+    notes.extend([of_weak, of_others].into_iter().filter(|n| !n.is_empty()));
     notes
 }
