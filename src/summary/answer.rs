@@ -2,7 +2,7 @@
 
 use std::fmt::{Result, Write};
 
-use super::wrapped;
+use super::{is_damped, wrapped};
 use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
@@ -54,14 +54,18 @@ fn fastest(report: &Report, growth: f64, hz: f64) -> String {
             false => "is below",
         };
         return format!(
-            "fastest growth {growth:.2e} 1/s at {hz:.2} Hz {held} the threshold of {threshold} 1/s"
+            "fastest growth {} 1/s at {hz:.2} Hz {held} the threshold of {threshold} 1/s",
+            shown_to(3, growth)
         );
     }
     match growth < 0.0 {
         true => format!(
-            "every motion decays, the slowest by {:.2e} 1/s at {hz:.2} Hz",
-            -growth
+            "every motion decays, the slowest by {} 1/s at {hz:.2} Hz",
+            shown_to(3, -growth)
         ),
+        false if is_damped(report) => {
+            format!("no motion grows; the one at {hz:.2} Hz does not decay either")
+        }
         false => "no motion grows (the scene has no damping that would make it decay)".to_owned(),
     }
 }

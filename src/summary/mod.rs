@@ -19,12 +19,19 @@ mod whirl;
 
 use std::fmt::Write;
 
+use crate::report::Report;
 use textwrap::{Options, WordSeparator, WordSplitter};
 
 /// Lines of a table before the rest is only counted.
 const ROWS: usize = 12;
 /// Columns of a line.
 const WIDTH: usize = 80;
+
+/// Whether the scene has damping: then every mode at rest has a damping ratio.
+fn is_damped(report: &Report) -> bool {
+    let mut modes = report.modes_at_rest.iter();
+    modes.any(|mode| mode.damping_ratio.is_some())
+}
 
 /// Number and name of a branch, as at the lines of the Campbell diagram.
 fn numbered(branch: Option<usize>, name: &str) -> String {

@@ -8,9 +8,10 @@ use super::excitation::crossings;
 use super::in_cut::in_cut;
 use super::influences::{heat, sensitivity};
 use super::whirl::whirl;
-use super::{ROWS, WIDTH, more, numbered, shortened, unusual_numbers};
+use super::{ROWS, WIDTH, is_damped, more, numbered, shortened, unusual_numbers};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
+use crate::text::shown_to;
 
 impl Report {
     /// The report in words, 80 columns wide: the answer first, then what it rests on.
@@ -62,7 +63,7 @@ fn thickness(blade: &BladeFile) -> String {
 
 fn modes(text: &mut String, report: &Report) -> std::fmt::Result {
     let modes = &report.modes_at_rest;
-    match modes.iter().any(|mode| mode.damping_ratio.is_some()) {
+    match is_damped(report) {
         true => writeln!(
             text,
             "\nModes at rest: [Hz], damping ratio [%], logarithmic decrement"
@@ -93,8 +94,8 @@ fn damping(mode: &RestMode) -> String {
         return String::new();
     };
     let decrement = mode.logarithmic_decrement;
-    let decrement = decrement.map_or("-".to_owned(), |d| format!("{d:.2e}"));
-    format!("{:>8} {decrement:>8}  ", format!("{:.2e}", 100.0 * ratio))
+    let decrement = decrement.map_or("-".to_owned(), |d| shown_to(3, d));
+    format!("{:>8} {decrement:>8}  ", shown_to(3, 100.0 * ratio))
 }
 
 fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {

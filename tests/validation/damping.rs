@@ -378,6 +378,13 @@ fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
         let off = (found.mode.lambda - expected).norm() / omega;
         assert!(off < 1e-6, "{} {expected}", found.mode.lambda);
     }
+    // A thin free blade wobbles at twice its speed without bending: its material does not resist.
+    let speed = rad_per_s(1200.0);
+    let modes = damped.model.modes(speed).unwrap();
+    let wobbles = |m: &&sawflutter::spectrum::Mode| (m.lambda.im / speed - 2.0).abs() < 1e-6;
+    let wobble = modes.iter().find(wobbles).unwrap();
+    assert_eq!(wobble.growth_per_s(), 0.0, "{}", wobble.lambda);
+    assert!(modes.iter().all(|m| m.growth_per_s() <= 0.0));
     let report = damped.report();
     assert!(report.campbell.complete_to_hz > 100.0);
     assert!(report.critical_speeds_without_damping);
