@@ -83,6 +83,10 @@ def place(
     samples: SupportsIndex = 64,
     refine: SupportsIndex = 60,
     map: SupportsIndex = 17,
+    radius_tolerance_m: SupportsFloat = 0.002,
+    angle_tolerance_deg: SupportsFloat = 1.0,
+    guide_tolerance_share: SupportsFloat = 0.1,
+    other_tolerance_share: SupportsFloat = 0.01,
     progress: _Progress = None,
 ) -> str: ...
 def tradeoff(scene: str, *, progress: _Progress = None) -> str: ...

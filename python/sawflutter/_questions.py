@@ -393,6 +393,10 @@ class Questions:
         samples: SupportsIndex = 64,
         refine: SupportsIndex = 60,
         map: SupportsIndex = 17,
+        radius_tolerance_m: SupportsFloat = 0.002,
+        angle_tolerance_deg: SupportsFloat = 1.0,
+        guide_tolerance_share: SupportsFloat = 0.1,
+        other_tolerance_share: SupportsFloat = 0.01,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
         progress: Progress = None,
@@ -411,6 +415,11 @@ class Questions:
         samples, refine, map : int
             Saws spread over the bounds at first, saws that each refinement may take, and points of
             the map along each axis, 0 for none.
+        radius_tolerance_m, angle_tolerance_deg : float
+            How far production may be off a radius and an angle: every saw counts as the worst of
+            those around it.
+        guide_tolerance_share, other_tolerance_share : float
+            The same of a guide's stiffness or damping, and of other numbers, as a share of each.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -435,6 +444,10 @@ class Questions:
                 samples=samples,
                 refine=refine,
                 map=map,
+                radius_tolerance_m=radius_tolerance_m,
+                angle_tolerance_deg=angle_tolerance_deg,
+                guide_tolerance_share=guide_tolerance_share,
+                other_tolerance_share=other_tolerance_share,
                 progress=told,
             )
         return PlaceResults.computed(text)

@@ -4,7 +4,7 @@
 use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
-use sawflutter::place::{Options as PlaceOptions, Placement};
+use sawflutter::place::{Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
     CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
     WashboardReport,
@@ -207,7 +207,8 @@ fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Meas
 /// `place.json` of a scene.
 #[pyfunction]
 #[pyo3(signature = (scene, free, *, goal="flutter", min_critical_rpm=None, samples=64, refine=60,
-                    map=17, progress=None))]
+                    map=17, radius_tolerance_m=0.002, angle_tolerance_deg=1.0,
+                    guide_tolerance_share=0.1, other_tolerance_share=0.01, progress=None))]
 #[allow(clippy::too_many_arguments, reason = "they are Python's")]
 pub fn place(
     py: Python<'_>,
@@ -218,6 +219,10 @@ pub fn place(
     samples: usize,
     refine: u64,
     map: usize,
+    radius_tolerance_m: f64,
+    angle_tolerance_deg: f64,
+    guide_tolerance_share: f64,
+    other_tolerance_share: f64,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -226,6 +231,12 @@ pub fn place(
         samples,
         refine: refine.max(1),
         map,
+        tolerances: Tolerances {
+            radius_m: radius_tolerance_m,
+            angle_deg: angle_tolerance_deg,
+            guide_share: guide_tolerance_share,
+            other_share: other_tolerance_share,
+        },
         ..PlaceOptions::default()
     };
     let options = options.checked().map_err(Failure::from)?;

@@ -1,6 +1,6 @@
 //! `sawflutter place`.
 
-use crate::place::{Demands, Goal, Options, Placement};
+use crate::place::{Demands, Goal, Options, Placement, Tolerances};
 use crate::report::PlaceReport;
 use crate::scene::{Freed, Scene};
 use clap::{Args, ValueEnum};
@@ -16,11 +16,12 @@ Examples:
   sawflutter place my-saw.json --free \"guides[0].radius_m=0.2..0.3\" \\
     --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
   sawflutter place --goal window # widest window around operating_rpm
+  sawflutter place --radius-tolerance-m 0.0005 --angle-tolerance-deg 0.2
 The best saw is placed-scene.json; hold it against `check` and `cut`.
 
-Every saw counts as the worst of those whose numbers are off by tolerances of
-production: 2 mm of a radius, 1 degree of an angle, 10 % of a stiffness or
-damping, 1 % of other numbers.
+Every saw counts as the worst of those whose numbers are off by the tolerances
+of production, by default 2 mm of a radius, 1 degree of an angle, 10 % of a
+stiffness or damping, 1 % of other numbers.
 
 Exit code: 0 done, 1 no saw tried keeps the limit at the worst of its
 tolerances, 2 the input was refused or the run failed.";
@@ -45,6 +46,18 @@ pub struct Arguments {
     /// Steps that the refinement of each of the best places may take, each a saw and those around it
     #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>)]
     refine: u64,
+    /// Tolerance of a radius
+    #[arg(long, value_name = "M", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = number)]
+    radius_tolerance_m: f64,
+    /// Tolerance of an angle
+    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number)]
+    angle_tolerance_deg: f64,
+    /// Tolerance of a guide's stiffness or damping, as a share of it
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number)]
+    guide_tolerance_share: f64,
+    /// Tolerance of other numbers, as a share of each
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = number)]
+    other_tolerance_share: f64,
     /// Points of the map along each axis; 0 for none
     #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>)]
     map: usize,
@@ -66,6 +79,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         samples: arguments.samples,
         refine: arguments.refine.max(1),
         map: arguments.map,
+        tolerances: Tolerances {
+            radius_m: arguments.radius_tolerance_m,
+            angle_deg: arguments.angle_tolerance_deg,
+            guide_share: arguments.guide_tolerance_share,
+            other_share: arguments.other_tolerance_share,
+        },
         ..Options::default()
     };
     let options = options.checked().map_err(of_option)?;

@@ -1,7 +1,8 @@
 //! What is wanted of a place, and how hard to look for it.
 
 use crate::plate::Resolution;
-use crate::scene::{RefusedValue, Scene, rad_per_s, speed_rad_per_s};
+use crate::scene::{Parameter, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
+use crate::text::shown;
 
 /// What is to be made large.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +72,77 @@ pub struct Options {
     pub map: usize,
     /// A basis instead of the one that the scene's tolerance asks for.
     pub resolution: Option<Resolution>,
+    /// How far the numbers of a saw may be off.
+    pub tolerances: Tolerances,
+}
+
+/// Tolerances of production: how far the numbers of a saw may be off, to either side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Of a radius.
+    pub radius_m: f64,
+    /// Of an angle.
+    pub angle_deg: f64,
+    /// Of the stiffness or damping of a guide, as a share of it.
+    pub guide_share: f64,
+    /// Of other numbers, as a share of each.
+    pub other_share: f64,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Tolerances::USUAL
+    }
+}
+
+impl Tolerances {
+    /// Where nothing else is known.
+    pub const USUAL: Self = Tolerances {
+        radius_m: 0.002,
+        angle_deg: 1.0,
+        guide_share: 0.1,
+        other_share: 0.01,
+    };
+
+    /// The same, if production can have them.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] that names the tolerance that no production has.
+    pub fn checked(self) -> Result<Self, RefusedValue> {
+        let all = [
+            ("radius_tolerance_m", self.radius_m, 0.1, "0.002 is usual"),
+            ("angle_tolerance_deg", self.angle_deg, 45.0, "1 is usual"),
+            (
+                "guide_tolerance_share",
+                self.guide_share,
+                0.9,
+                "0.1 is usual",
+            ),
+            (
+                "other_tolerance_share",
+                self.other_share,
+                0.5,
+                "0.01 is usual",
+            ),
+        ];
+        for (key, value, most, remedy) in all {
+            if !(0.0..=most).contains(&value) {
+                let allowed = format!("from 0 to {}", shown(most));
+                return Err(RefusedValue::new(key, value, allowed, remedy));
+            }
+        }
+        Ok(self)
+    }
+
+    /// That of a number of this value, in its unit.
+    pub(super) fn of(&self, parameter: &Parameter, value: f64) -> f64 {
+        match parameter.path().rsplit('.').next().unwrap_or_default() {
+            "radius_m" => self.radius_m,
+            "angle_deg" => self.angle_deg,
+            "stiffness_n_per_m" | "damping_n_s_per_m" => self.guide_share * value,
+            _ => self.other_share * value.abs(),
+        }
+    }
 }
 
 impl Default for Options {
@@ -81,6 +153,7 @@ impl Default for Options {
             refine: 60,
             map: 17,
             resolution: None,
+            tolerances: Tolerances::default(),
         }
     }
 }
@@ -106,6 +179,56 @@ impl Options {
             let remedy = "17 is usual, 0 draws none";
             return Err(RefusedValue::new("map", self.map, allowed, remedy));
         }
+        self.tolerances.checked()?;
         Ok(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_that_no_production_has_are_refused() {
+        let usual = Tolerances::default();
+        assert_eq!(usual.checked(), Ok(usual));
+        for (tolerances, key) in [
+            (
+                Tolerances {
+                    radius_m: -0.001,
+                    ..usual
+                },
+                "radius_tolerance_m",
+            ),
+            (
+                Tolerances {
+                    angle_deg: f64::NAN,
+                    ..usual
+                },
+                "angle_tolerance_deg",
+            ),
+            (
+                Tolerances {
+                    guide_share: 10.0,
+                    ..usual
+                },
+                "guide_tolerance_share",
+            ),
+            (
+                Tolerances {
+                    other_share: 1.0,
+                    ..usual
+                },
+                "other_tolerance_share",
+            ),
+        ] {
+            let options = Options {
+                tolerances,
+                ..Options::default()
+            };
+            let error = options.checked().unwrap_err();
+            assert_eq!(error.key, key);
+            assert!(error.to_string().contains("from 0 to "), "{error}");
+        }
     }
 }

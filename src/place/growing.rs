@@ -130,6 +130,7 @@ mod tests {
                 max_diameters: 6,
                 radial_functions: 3,
             }),
+            ..Options::default()
         };
         let shown = Mutex::new(Vec::new());
         let watch = |growing: &GrowingMap| {

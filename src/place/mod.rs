@@ -4,8 +4,8 @@
 //!
 //! The flutter speed is not continuous in the numbers: it jumps where the peak of a band passes the
 //! threshold. A saw right beside such a jump is worth little, for production meets no number exactly. So
-//! a saw is worth what the worst of its neighbours is worth, those whose numbers are off by tolerances of production:
-//! 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other numbers. The saw that is best without tolerances is told beside
+//! a saw is worth what the worst of its neighbours is worth, those whose numbers are off by tolerances of production,
+//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other numbers. The saw that is best without tolerances is told beside
 //! the answer. Bands are searched without the forces of a cut. One angle of guides that may all turn is held, since nothing else
 //! stands in space: a single pad may be anywhere around the blade.
 //!
@@ -17,7 +17,7 @@
 //! let scene = Scene::paper();
 //! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.18, 0.28)?;
 //! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
-//! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0 };
+//! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0, ..Options::default() };
 //! let found = Placement::new(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
 //! assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,7 +42,7 @@ use crate::spectrum::{Cancellation, SpectrumError};
 use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
-pub use demands::{Demands, Goal, Options};
+pub use demands::{Demands, Goal, Options, Tolerances};
 use growing::Grower;
 #[cfg(feature = "explore")]
 pub(crate) use growing::GrowingMap;
@@ -193,6 +193,7 @@ impl Placement {
             min_critical_rad_per_s: demands.min_critical_rad_per_s,
             range: basis.range_rad_per_s,
             resolution: options.resolution.unwrap_or(basis.saw.plate.resolution),
+            tolerances: options.tolerances,
         };
         let all = Search::new(scene.file(), freed, question.clone());
         let (freed, without_effect) = moving(scene, &all);

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{Freed, scene_at};
+use crate::scene::scene_at;
 use crate::stability::{Instability, InstabilityKind};
 
 use super::outcome::{Outcome, REFUSED};
@@ -48,23 +48,6 @@ const MAX_CORNERS: usize = 4;
 /// So many neighbours are computed at a time before the worst of them is looked at.
 const AT_A_TIME: usize = 4;
 
-/// Tolerances of production, where nothing else is known: two millimetres, a degree, a tenth of a stiffness, one
-/// per cent of other numbers.
-fn tolerance(freed: &Freed, value: f64) -> f64 {
-    match freed
-        .parameter
-        .path()
-        .rsplit('.')
-        .next()
-        .unwrap_or_default()
-    {
-        "radius_m" => 0.002,
-        "angle_deg" => 1.0,
-        "stiffness_n_per_m" | "damping_n_s_per_m" => 0.1 * value,
-        _ => 0.01 * value.abs(),
-    }
-}
-
 /// Directions to the neighbours: corners of the tolerances, which tell most, and then less and more of each number.
 fn directions(numbers: usize) -> Vec<Vec<f64>> {
     let mut all: Vec<Vec<f64>> = Vec::new();
@@ -90,7 +73,7 @@ fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<
     let numbers = search.freed.iter().zip(shares).zip(direction);
     let values = numbers.map(|((freed, share), direction)| {
         let value = freed.value(*share);
-        value + direction * tolerance(freed, value)
+        value + direction * search.tolerance(freed, value)
     });
     let values: Vec<f64> = values.collect();
     let pairs = search.freed.iter().zip(&values);
@@ -130,7 +113,7 @@ impl Neighbours {
         let pairs = search.freed.iter().zip(shares);
         let values: Vec<f64> = pairs.map(|(freed, share)| freed.value(*share)).collect();
         let offsets = search.freed.iter().zip(&values);
-        let offsets = offsets.map(|(f, v)| tolerance(f, *v)).collect();
+        let offsets = offsets.map(|(f, v)| search.tolerance(f, *v)).collect();
         let nominal = Neighbour {
             values,
             outcome: Some(own.clone()),

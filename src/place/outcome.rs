@@ -6,7 +6,7 @@ use crate::stability::{
     AnalysisError, Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
-use super::Goal;
+use super::{Goal, Tolerances};
 
 /// What was found out about a saw.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Question {
     pub range: (f64, f64),
     /// The basis, or the least of all where a saw takes a larger one.
     pub resolution: Resolution,
+    /// How far its numbers may be off.
+    pub tolerances: Tolerances,
 }
 
 /// The cost of a saw worse than any that can be analysed.

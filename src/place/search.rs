@@ -118,6 +118,11 @@ impl<'a> Search<'a> {
         found.ok()
     }
 
+    /// How far a number of this value may be off.
+    pub fn tolerance(&self, freed: &Freed, value: f64) -> f64 {
+        self.question.tolerances.of(&freed.parameter, value)
+    }
+
     /// What a saw costs.
     pub fn cost(&self, shares: &[f64]) -> f64 {
         self.outcome(shares).as_ref().map_or(REFUSED, Outcome::cost)

@@ -195,11 +195,16 @@ fn a_place_is_found_and_written() {
 
 #[test]
 fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
-    let cases: [(&[&str], i32, &str); 4] = [
+    let cases: [(&[&str], i32, &str); 5] = [
         (&["--min-critical-rpm", "9000"], 1, "comes nearest"),
         (&["--min-critical-rpm", "-9"], 2, "--min-critical-rpm is -9"),
         (&["--map", "1"], 2, "--map is 1"),
         (&["--samples", "0"], 2, "--samples is 0"),
+        (
+            &["--radius-tolerance-m", "-0.002"],
+            2,
+            "--radius-tolerance-m is -0.002, but must be from 0 to 0.1",
+        ),
     ];
     for (more, code, expected) in cases {
         let folder = TempDir::new().unwrap();

@@ -4,7 +4,7 @@
 
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
-use sawflutter::place::{Demands, Goal, Options, Placement};
+use sawflutter::place::{Demands, Goal, Options, Placement, Tolerances};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::PlaceReport;
 use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
@@ -28,6 +28,7 @@ fn quick() -> Options {
         refine: 24,
         map: 0,
         resolution: Some(SMALL),
+        tolerances: Tolerances::USUAL,
     }
 }
 
@@ -331,6 +332,38 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(one.best, three.best);
     let report = |found: &Placement| PlaceReport::new(&Demands::default(), found);
     assert_eq!(report(&one), report(&three));
+}
+
+/// Where nothing is ever off, a saw is worth what it is by itself; and what is off is off by what was said.
+#[test]
+fn the_tolerances_are_those_that_are_stated() {
+    let saw = swept("paper");
+    let free = freed(&saw, &[(RADIUS, 0.18, 0.28), (ANGLE, -70.0, -40.0)]);
+    let found = |radius_m: f64, angle_deg: f64| {
+        let tolerances = Tolerances {
+            radius_m,
+            angle_deg,
+            ..Tolerances::USUAL
+        };
+        let options = Options {
+            samples: 3,
+            refine: 2,
+            tolerances,
+            ..quick()
+        };
+        let found = place(&saw, &free, &Demands::default(), &options);
+        PlaceReport::new(&Demands::default(), &found)
+    };
+    let exact = found(0.0, 0.0);
+    assert_eq!(exact.worst_neighbour_share, 1.0);
+    assert_eq!((exact.fragile, exact.fragile_optimum), (false, None));
+    for parameter in &exact.parameters {
+        let itself = exact.best.goal_rpm;
+        assert_eq!(parameter.offset, 0.0);
+        assert_eq!([parameter.less_rpm, parameter.more_rpm], [Some(itself); 2]);
+    }
+    let radius = found(0.005, 0.0).parameters.swap_remove(0);
+    assert_eq!((radius.path.as_str(), radius.offset), (RADIUS, 0.005));
 }
 
 /// A saw of draft accuracy, with the choice of the basis left to the program.
