@@ -7,6 +7,7 @@ use crate::plate::{MembraneSource, Plate};
 use crate::scene::{Blade, Bore, Scene};
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
+use crate::text::{shown, shown_to};
 
 use super::CertificateEntry;
 
@@ -100,16 +101,16 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
     if analysis.reaches_tolerance() {
         return None;
     }
-    let error = analysis.promised_error()?;
+    let error = shown_to(2, analysis.promised_error()?);
     let functions = analysis.model.plate.degrees_of_freedom();
-    let tolerance = scene.tolerance();
+    let tolerance = shown(scene.tolerance());
     let Some(found) = analysis.out_of_reach else {
         return Some(format!(
-            "the tolerance {tolerance:e} is out of reach of {functions} functions; reached: {error:.1e}"
+            "the tolerance {tolerance} is out of reach of {functions} functions; reached: {error}"
         ));
     };
     let most = match found.is_dense {
-        true => " (the most for a saw with damping or forces at the rim)",
+        true => " (the most for a saw with damping, forces at the rim or many stiff guides)",
         false => "",
     };
     let guide = found.guide.map_or(String::new(), |guide| {
@@ -120,7 +121,7 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
         format!("; by the fall of the error some {hundreds} functions would reach it")
     });
     Some(format!(
-        "the tolerance {tolerance:e} is out of reach of {functions} functions{most}; reached: {error:.1e}{guide}{needed}"
+        "the tolerance {tolerance} is out of reach of {functions} functions{most}; reached: {error}{guide}{needed}"
     ))
 }
 
@@ -158,8 +159,8 @@ fn rounded(analysis: &Analysis, at_rest: &[DescribedMode]) -> Option<String> {
     let highest = at_rest.iter().rfind(rounded)?;
     Some(format!(
         "the frequencies of this scene are so far apart that rounding leaves fewer than \
-         six digits of those up to {:.3e} Hz",
-        highest.mode.frequency_rad_per_s() / TAU
+         six digits of those up to {} Hz",
+        shown_to(4, highest.mode.frequency_rad_per_s() / TAU)
     ))
 }
 
@@ -168,7 +169,8 @@ fn unsettled(analysis: &Analysis) -> Option<String> {
     (error_hz > 0.0).then(|| {
         format!(
             "the reduced model would need modes of more speeds than it may take: its frequencies \
-             may be off by {error_hz:.1e} Hz; a sweep over fewer speeds cures that"
+             may be off by {} Hz; a sweep over fewer speeds cures that",
+            shown_to(2, error_hz)
         )
     })
 }

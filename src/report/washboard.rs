@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::Verdict;
 use crate::scene::{SceneFile, rpm, unusual_number};
 use crate::spectrum::Direction;
+use crate::text::shown_to;
 use crate::washboarding::{Washboard, WashboardMode};
 
 /// `washboard.json`.
@@ -245,8 +246,8 @@ fn beyond(found: &Washboard) -> Option<String> {
     let stiffness = found.washboarding.stiffness_n_per_m;
     (stiffness > found.safe_beyond_n_per_m).then(|| {
         format!(
-            "modes above {complete_hz:.0} Hz are not looked at; by its damping alone none of them grows up to {:.2e} N/m",
-            found.safe_beyond_n_per_m
+            "modes above {complete_hz:.0} Hz are not looked at; by its damping alone none of them grows up to {} N/m",
+            shown_to(3, found.safe_beyond_n_per_m)
         )
     })
 }

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{unusual_numbers, wrapped};
 use crate::report::{FitReport, ParameterEntry};
+use crate::text::shown_to;
 
 impl FitReport {
     /// The report in words, 80 columns wide, the verdict first.
@@ -88,7 +89,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
     speeds.dedup();
     for rpm in speeds.iter().take(ROWS) {
         let own = report.residuals.iter().filter(|r| r.rpm == *rpm);
-        let mut line = format!("{:>8}", (100.0 * rpm).round() / 100.0);
+        let mut line = format!("{:>8}", shown_to(6, *rpm));
         let mut fitted = true;
         for r in own {
             if r.place <= COLUMNS {
@@ -104,12 +105,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
 }
 
-/// A number in ten columns.
+/// Digits of a number that was fitted.
 fn short(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        return format!("{value:.3e}");
-    }
-    let decimals = (4.0 - size.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{value:.decimals$}")
+    shown_to(5, value)
 }

@@ -6,6 +6,7 @@ use super::{unusual_numbers, wrapped};
 use crate::report::{
     FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
+use crate::text::shown_to;
 
 impl PlaceReport {
     /// The report in words, 80 columns wide, the verdict first.
@@ -127,12 +128,7 @@ fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) 
     )
 }
 
-/// A number in nine columns.
+/// Digits of a number that was placed.
 fn short(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e5).contains(&size) {
-        return format!("{value:.2e}");
-    }
-    let decimals = (3.0 - size.max(1e-3).log10().floor()).clamp(0.0, 4.0) as usize;
-    format!("{value:.decimals$}")
+    shown_to(4, value)
 }

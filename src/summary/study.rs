@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::study::{Group, Passing, SpeedEntry, StudyReport};
+use crate::text::{shown, shown_to};
 
 use super::{WIDTH, shortened, unusual_numbers};
 
@@ -55,7 +56,7 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
         write!(
             text,
             "{:>8}",
-            format!("{} %", rounded(100.0 * quantile.share))
+            format!("{} %", shown(100.0 * quantile.share))
         )?;
     }
     let speeds = [
@@ -80,11 +81,6 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// 0.1 + 0.2 is 0.3 to the reader.
-fn rounded(value: f64) -> f64 {
-    (1e6 * value).round() / 1e6
-}
-
 fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result {
     let Passing { passed, .. } = passing;
     writeln!(
@@ -96,7 +92,7 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
         writeln!(
             text,
             "  with {} % confidence between {:.2} % and {:.2} %",
-            rounded(100.0 * passing.confidence),
+            shown(100.0 * passing.confidence),
             100.0 * low,
             100.0 * high
         )?;
@@ -115,11 +111,7 @@ fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     };
     write!(text, "\nShare of saws that run")?;
     for fastest in &reliability.fastest {
-        write!(
-            text,
-            "{:>8}",
-            format!("{} %", rounded(100.0 * fastest.share))
-        )?;
+        write!(text, "{:>8}", format!("{} %", shown(100.0 * fastest.share)))?;
     }
     write!(text, "\n  up to [rpm]          ")?;
     for fastest in &reliability.fastest {
@@ -129,7 +121,7 @@ fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(
         text,
         "\n  (at most {} of the lowest critical speed, and no flutter up to there)",
-        rounded(reliability.margin)
+        shown_to(6, reliability.margin)
     )
 }
 
@@ -198,8 +190,8 @@ fn remarks(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let all = &report.all;
     writeln!(
         text,
-        "\nEstimated error of critical speeds: {:.2e} at most",
-        report.largest_estimated_relative_error
+        "\nEstimated error of critical speeds: {} % at most",
+        shown_to(2, 100.0 * report.largest_estimated_relative_error)
     )?;
     if report.saws_with_krein_violations > 0 {
         writeln!(

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
+use crate::text::shown_to;
 
 impl WashboardReport {
     /// The report in words, 80 columns wide, the verdict first.
@@ -21,9 +22,9 @@ fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     writeln!(text, "{}", wrapped(&boundary(report)))?;
     let facts = format!(
-        "{:.0} teeth pass in a second; {:.3e} N/m across the blade, overlap {:.2}, arc of {:.1}°; modes up to {:.0} Hz",
+        "{:.0} teeth pass in a second; {} N/m across the blade, overlap {:.2}, arc of {:.1}°; modes up to {:.0} Hz",
         report.tooth_passing_hz,
-        report.stiffness_n_per_m,
+        shown_to(4, report.stiffness_n_per_m),
         report.overlap,
         report.arc_deg,
         report.complete_to_hz
@@ -62,13 +63,14 @@ fn boundary(report: &WashboardReport) -> String {
         report.critical_frequency_hz,
     ) {
         (Some(stiffness), Some(hz)) if stiffness > 0.0 => format!(
-            "Least cutting stiffness at which a motion grows: {stiffness:.3e} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
+            "Least cutting stiffness at which a motion grows: {} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
+            shown_to(4, stiffness),
             report.stiffness_n_per_m / stiffness
         ),
         (Some(_), _) => "A motion grows without the delayed force".to_owned(),
         (None, _) => format!(
-            "No motion grows up to a cutting stiffness of {:.1e} N/m",
-            report.ceiling_n_per_m
+            "No motion grows up to a cutting stiffness of {} N/m",
+            shown_to(2, report.ceiling_n_per_m)
         ),
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::{Result, Write};
 
 use crate::report::{Report, StabilityState, WhirlMode};
+use crate::text::shown_to;
 
 /// Frequency, direction, name, growth, damping and Krein sign of the modes of one speed.
 pub fn whirl(text: &mut String, report: &Report) -> Result {
@@ -38,12 +39,8 @@ pub fn whirl(text: &mut String, report: &Report) -> Result {
 }
 
 fn numbers(mode: &WhirlMode) -> String {
-    let growth = format!("{:.2e}", mode.growth_per_s);
+    let growth = shown_to(3, mode.growth_per_s);
     let Some(ratio) = mode.damping_ratio else {
-        let growth = match mode.growth_per_s == 0.0 {
-            true => "0",
-            false => &growth,
-        };
         let sign = match mode.krein_sign {
             0 => "none",
             1 => "+1",
@@ -52,9 +49,9 @@ fn numbers(mode: &WhirlMode) -> String {
         return format!("{growth:>10} {sign:>5}");
     };
     let decrement = mode.logarithmic_decrement;
-    let decrement = decrement.map_or("none".to_owned(), |d| format!("{d:.3e}"));
+    let decrement = decrement.map_or("none".to_owned(), |d| shown_to(4, d));
     format!(
         "{growth:>10} {:>9} {decrement:>9}",
-        format!("{:.2e}", 100.0 * ratio)
+        shown_to(3, 100.0 * ratio)
     )
 }
