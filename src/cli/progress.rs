@@ -15,9 +15,10 @@ pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Res
     if !std::io::stderr().is_terminal() {
         return Ok(work(&Progress::default()));
     }
-    let style = ProgressStyle::with_template("{bar:20} {pos}/{len} {msg}, {elapsed}");
+    let style = ProgressStyle::with_template("{bar:20} {msg}, {elapsed}");
     let bar =
         ProgressBar::new(1).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.set_message(in_words(Stage::default()));
     bar.enable_steady_tick(TICK);
     let shown = bar.clone();
     let progress = Progress::new(move |stage| show(&shown, stage));
@@ -32,10 +33,44 @@ fn show(bar: &ProgressBar, stage: Stage) {
     bar.set_message(in_words(stage));
 }
 
+/// What is done of a step, where one is known, and how many eigenproblems are solved.
 fn in_words(stage: Stage) -> String {
-    match (stage.what, stage.eigenproblems) {
-        (what, 0) => what.to_owned(),
-        ("", count) => format!("{count} eigenproblems"),
-        (what, count) => format!("{what}, {count} eigenproblems"),
+    let Stage {
+        what,
+        done,
+        of,
+        eigenproblems,
+    } = stage;
+    let solved = match eigenproblems {
+        0 => "begun".to_owned(),
+        1 => "1 eigenproblem".to_owned(),
+        count => format!("{count} eigenproblems"),
+    };
+    match what {
+        "" => solved,
+        _ => format!("{done}/{of} {what}, {solved}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_says_what_is_being_done_between_two_steps_too() {
+        let said = |what, done, of, eigenproblems| {
+            in_words(Stage {
+                what,
+                done,
+                of,
+                eigenproblems,
+            })
+        };
+        assert_eq!(said("", 0, 0, 0), "begun");
+        assert_eq!(said("", 0, 0, 23), "23 eigenproblems");
+        assert_eq!(
+            said("sizes of the basis", 5, 11, 1),
+            "5/11 sizes of the basis, 1 eigenproblem"
+        );
     }
 }
