@@ -16,6 +16,7 @@ mod explore;
 mod faults;
 mod growth;
 mod input;
+mod matrices;
 mod membrane;
 #[cfg(target_os = "linux")]
 mod memory;
