@@ -117,12 +117,14 @@ fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(
     if speeds.len() <= most {
         return Ok(());
     }
+    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
+    let critical: Vec<f64> = critical.collect();
     Err(CampbellError::TooLarge {
         needed_mb: (speeds.len() * modes * bytes_of_mode(model)) >> 20,
         allowed_mb: MEMORY_BUDGET_MB,
         modes,
         speeds: speeds.len(),
-        largest_end_rpm: largest_end(model, speeds, most).map(rpm),
+        largest_end_rpm: largest_end(&critical, speeds, most).map(rpm),
     })
 }
 
@@ -137,18 +139,24 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     check_memory(model, model.drawn_modes(*last)?.len(), speeds)
 }
 
-/// Speeds of a chart at each of its critical speeds.
-const AT_CRITICAL: usize = 3;
-
-/// Where a sweep may end of which so many speeds are charted: an earlier end leaves critical speeds out.
-fn largest_end(model: &SpectralModel, speeds: &[f64], most: usize) -> Option<f64> {
+/// At which critical speed a sweep may end of which so many speeds are charted: an earlier end leaves those beside later critical
+/// speeds out, and not the even ones, which move closer together. There are fewer modes there as well.
+fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
     let last = *speeds.last()?;
-    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    let critical: Vec<f64> = critical.filter(|speed| *speed < last).collect();
-    let even = speeds.len().checked_sub(AT_CRITICAL * critical.len())?;
-    let room = most.checked_sub(even)? / AT_CRITICAL;
-    critical.get(room).copied()
+    let first = *critical.first()?;
+    // Below the first critical speed there are even ones alone.
+    let alone = speeds.partition_point(|speed| *speed < first * (1.0 - BESIDE)) as f64;
+    let even = (alone * last / first).min(speeds.len() as f64);
+    let charted = |end: f64| {
+        let up_to = speeds.partition_point(|speed| *speed < end) as f64;
+        even + up_to - even * end / last
+    };
+    let fits = |end: &&f64| **end < last && charted(**end) <= most as f64;
+    critical.iter().rfind(fits).copied()
 }
+
+/// No speed of a chart is farther from the critical speed that it is charted for.
+const BESIDE: f64 = 1e-3;
 
 /// Computes the modes at every speed, in parallel; the order of the result, and
 /// every bit in it, is that of the speeds.
@@ -257,5 +265,20 @@ mod tests {
             followed += 1;
         }
         assert!(followed >= 8, "{followed}");
+    }
+
+    /// Fifty even speeds, and two beside each of 40 critical ones in the second half of the sweep: with room for 90 half of
+    /// these may stay.
+    #[test]
+    fn a_sweep_that_does_not_fit_may_end_at_the_last_critical_speed_that_does() {
+        let critical: Vec<f64> = (0..40).map(|k| 50.5 + 1.23 * f64::from(k)).collect();
+        let even = (0..50).map(|k| 2.0 * f64::from(k));
+        let beside = critical.iter().flat_map(|c| [c * 0.9999, c * 1.0001]);
+        let mut speeds: Vec<f64> = even.chain(beside).collect();
+        speeds.sort_by(f64::total_cmp);
+        let end = largest_end(&critical, &speeds, 90).unwrap();
+        assert!((18..=22).map(|k| critical[k]).any(|c| c == end), "{end}");
+        assert_eq!(largest_end(&critical, &speeds, 40), None);
+        assert_eq!(largest_end(&[], &speeds, 40), None);
     }
 }

@@ -23,7 +23,7 @@ use faer::linalg::solvers::Solve;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError, end_of_sweep};
+use crate::stability::{Analysis, AnalysisError};
 use crate::system::GyroscopicSystem;
 
 use criteria::{of_gaps, without_stiffness};
@@ -101,11 +101,7 @@ impl Check {
     /// # Errors
     /// [`CheckError`] when the saw cannot be analysed that far.
     pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, CheckError> {
-        let swept = scene.swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: end_of_sweep(scene)?.max(limits.reach_rad_per_s()),
-        })?;
-        let analysis = Analysis::new(&swept)?;
+        let analysis = analysed(scene, limits.reach_rad_per_s())?;
         let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
         let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
@@ -164,6 +160,22 @@ impl Check {
             .cloned()
             .chain(failed)
             .collect()
+    }
+}
+
+/// Of a scene from rest to the end of its sweep, or that of the program's choice, or further where as much is asked.
+fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckError> {
+    let to = |end_rad_per_s: f64| {
+        let range = (0.0, end_rad_per_s.max(least_end_rad_per_s));
+        Ok(Analysis::new(&scene.swept(range.into())?)?)
+    };
+    if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
+        return to(to_rad_per_s);
+    }
+    let analysis = Analysis::new(scene)?;
+    match analysis.range_rad_per_s.1 >= least_end_rad_per_s {
+        true => Ok(analysis),
+        false => to(least_end_rad_per_s),
     }
 }
 

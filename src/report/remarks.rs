@@ -4,9 +4,9 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{MembraneSource, Plate};
-use crate::scene::{Blade, Bore, Scene};
+use crate::scene::{Blade, Bore, Scene, rpm};
 use crate::spectrum::DescribedMode;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, chosen_end};
 use crate::text::{shown, shown_to};
 
 use super::CertificateEntry;
@@ -93,6 +93,7 @@ pub fn warnings(
         unsettled(analysis),
         contradicted(certificate),
         left_free(analysis),
+        ended_early(scene, analysis),
     ];
     found.into_iter().flatten().collect()
 }
@@ -123,6 +124,20 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
     Some(format!(
         "the tolerance {tolerance} is out of reach of {functions} functions{most}; reached: {error}{guide}{needed}"
     ))
+}
+
+/// A sweep that the program ends before twice the lowest critical speed.
+fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
+    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
+    let (end, usual) = (analysis.range_rad_per_s.1, chosen_end(scene, lowest));
+    let is_early = scene.sweep().is_none() && end < 0.99 * usual;
+    is_early.then(|| {
+        format!(
+            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a              coarser accuracy goes further",
+            shown_to(3, rpm(end)),
+            shown_to(3, rpm(usual))
+        )
+    })
 }
 
 fn uncalibrated(scene: &Scene) -> Option<String> {

@@ -3,7 +3,7 @@
 use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
-use super::basis::ChosenBasis;
+use super::basis::{ChosenBasis, two_digits_down};
 use super::chart::{CHART_SPEEDS, StabilityChart, chart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -15,8 +15,8 @@ use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::out_of_reach::OutOfReach;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
-use crate::campbell::Progress;
-use crate::scene::{Accuracy, Scene, rpm};
+use crate::campbell::{CampbellError, Progress};
+use crate::scene::{Accuracy, Scene, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// A saw is run at no more than this share of its lowest critical speed: the
@@ -147,6 +147,26 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
+        let chosen = ChosenBasis::new(scene, scene.tolerance())?;
+        let least = chosen.saw.plate.resolution;
+        let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
+            // The end of the sweep is the program's choice: it chooses one that it can chart.
+            Err(AnalysisError::Campbell(CampbellError::TooLarge {
+                largest_end_rpm: Some(end),
+                ..
+            })) if scene.sweep().is_none() => rad_per_s(two_digits_down(end)),
+            analysed => return analysed,
+        };
+        let shorter = scene.swept((0.0, end_rad_per_s).into())?;
+        let chosen = ChosenBasis::at_least(&shorter, scene.tolerance(), least)?;
+        Self::on_basis(scene, chosen, options)
+    }
+
+    fn on_basis(
+        scene: &Scene,
+        chosen: ChosenBasis,
+        options: AnalysisOptions<'_>,
+    ) -> Result<Self, AnalysisError> {
         let detail = options.detail;
         let ChosenBasis {
             saw,
@@ -155,7 +175,7 @@ impl Analysis {
             estimated_relative_error,
             estimated_resting_error,
             larger,
-        } = ChosenBasis::new(scene, scene.tolerance())?;
+        } = chosen;
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let mut chart = charted(&model, range, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?

@@ -86,7 +86,7 @@ impl ChosenBasis {
             let is_last = is_largest || rung + 1 == LADDER.len();
             let range = |lowest: Option<f64>| match scene.sweep() {
                 Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
-                None => (0.0, default_top(lowest).min(fastest)),
+                None => (0.0, chosen_end(scene, lowest)),
             };
             let top = |lowest: Option<f64>| PAST_THE_RANGE * range(lowest).1;
             let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
@@ -277,6 +277,18 @@ pub(crate) fn end_of_sweep(scene: &Scene) -> Result<f64, AnalysisError> {
             Ok(chosen.range_rad_per_s.1)
         }
     }
+}
+
+/// Where the program ends a sweep that the scene does not, in rad/s: at twice the lowest critical speed, or where no blade is
+/// elastic any more.
+pub(crate) fn chosen_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
+    default_top(lowest_critical_rad_per_s).min(fastest_rad_per_s(scene.blade()))
+}
+
+/// A speed in rpm rounded down to two digits.
+pub(super) fn two_digits_down(rpm: f64) -> f64 {
+    let digit = 10_f64.powf(rpm.log10().floor() - 1.0);
+    (rpm / digit).floor() * digit
 }
 
 /// Twice the lowest critical speed, rounded up to two digits.

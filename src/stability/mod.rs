@@ -48,7 +48,7 @@ pub use analysis::{Analysis, AnalysisOptions};
 pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
-pub(crate) use basis::{end_of_sweep, resolved};
+pub(crate) use basis::{chosen_end, end_of_sweep, resolved};
 pub use certificate::Certificate;
 pub(crate) use certificate::Mismatch;
 pub use chart::StabilityChart;

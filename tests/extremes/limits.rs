@@ -86,17 +86,18 @@ fn what_would_not_fit_is_refused_with_the_number() {
     assert!(message.contains("more than 1024 MB"), "{message}");
 }
 
-/// A sweep whose chart would not fit is told where it may end: at a critical speed, for each beyond it takes three speeds.
+/// A sweep whose chart would not fit is told where it may end: at a critical speed, for beside each there are speeds of the
+/// chart, here sixty.
 #[test]
 fn a_chart_that_would_not_fit_is_told_where_its_sweep_may_end() {
     let plate = Plate::new(&scene(&paper()), SMALL);
     let range = (0.0, rad_per_s(3000.0));
     let model = SpectralModel::new(plate.clone(), range, Strategy::Reduced).unwrap();
-    let refusal = |speeds: usize| match sample(&model, &even_speeds(range, speeds), &|_, _| ()) {
+    let refusal = |speeds: Vec<f64>| match sample(&model, &speeds, &|_, _| ()) {
         Err(error) => error,
-        Ok(_) => panic!("{speeds} speeds fit"),
+        Ok(_) => panic!("{} speeds fit", speeds.len()),
     };
-    let hopeless = refusal(10_000_000);
+    let hopeless = refusal(even_speeds(range, 10_000_000));
     let CampbellError::TooLarge { needed_mb, .. } = &hopeless else {
         panic!("{hopeless}");
     };
@@ -105,11 +106,20 @@ fn a_chart_that_would_not_fit_is_told_where_its_sweep_may_end() {
         "{hopeless}"
     );
     let most = 1024.0 * 1e7 / *needed_mb as f64;
-    let message = refusal(most as usize + 4).to_string();
     let critical = SpectralModel::critical_speeds(&plate).unwrap();
     let critical = critical.iter().map(|c| c.speed_rad_per_s);
     let within: Vec<f64> = critical.filter(|speed| *speed < range.1).collect();
-    let last = rpm(within[within.len() - 2]);
-    let expected = format!("end the sweep at {last:.0} rpm or earlier");
+    let sides = (-30..=30)
+        .filter(|k| *k != 0)
+        .map(|k| 1.0 + 1e-5 * f64::from(k));
+    let beside = within
+        .iter()
+        .flat_map(|c| sides.clone().map(move |side| c * side));
+    // All but a hundred of those that fit are even.
+    let even = even_speeds(range, most as usize - 100);
+    let mut speeds: Vec<f64> = even.into_iter().chain(beside).collect();
+    speeds.sort_by(f64::total_cmp);
+    let message = refusal(speeds).to_string();
+    let expected = format!("end the sweep at {:.0} rpm or earlier", rpm(within[1]));
     assert!(message.contains(&expected), "{expected}: {message}");
 }
