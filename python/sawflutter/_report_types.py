@@ -611,8 +611,12 @@ class HeatLimit(Entry):
     rise_k: float
     """Peak of the profile."""
 
+    name: str
+    """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves
+    where none dominates."""
+
     nodal_diameters: int
-    """Nodal diameters of the shape that buckles, or of the wave that stands still."""
+    """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
     """Its nodal circles."""
@@ -622,11 +626,14 @@ class HeatLimit(Entry):
 class HeatCurve(Entry):
     """A critical speed over the peak of the temperature profile."""
 
+    name: str
+    """The wave that stands still, of a guided blade at the last peak."""
+
     nodal_diameters: int
-    """Nodal diameters, of a guided blade at the last peak."""
+    """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
-    """Nodal circles."""
+    """Its nodal circles."""
 
     rise_k: FloatArray
     """Peaks of the profile."""

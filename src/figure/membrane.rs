@@ -154,15 +154,10 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
             false => places.last(),
         };
         if let (Some(y), Some(end)) = (label, end) {
-            let circles = match curve.nodal_circles {
-                0 => String::new(),
-                circles => format!(", {circles} circles"),
-            };
-            let text = format!("{} diameters{circles}", curve.nodal_diameters);
             let at = [SPEEDS.right + 14.0, y];
             sheet.line([*end, at], Stroke::solid(QUIET, 0.6 * HAIRLINE));
             let letters = Lettering::regular(LABEL_SIZE, FORWARD, Anchor::Start);
-            sheet.text([at[0] + 4.0, y + 0.36 * LABEL_SIZE], letters, &text);
+            sheet.text([at[0] + 4.0, y + 0.36 * LABEL_SIZE], letters, &curve.name);
         }
     }
 }
@@ -247,6 +242,7 @@ mod tests {
         let radius_m: Vec<f64> = (0..=30).map(|k| 0.08 + 0.01 * f64::from(k)).collect();
         let peaks: Vec<f64> = (0..=20).map(|k| 2.6 * f64::from(k) - 1e-3).collect();
         let curve = |diameters: usize| HeatCurveEntry {
+            name: format!("{diameters} diameters"),
             nodal_diameters: diameters,
             nodal_circles: 0,
             rise_k: peaks.clone(),
@@ -258,6 +254,7 @@ mod tests {
         let limit = |rise_k| {
             Some(HeatLimitEntry {
                 rise_k,
+                name: "3 diameters".to_owned(),
                 nodal_diameters: 3,
                 nodal_circles: 0,
             })

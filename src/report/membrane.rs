@@ -51,7 +51,10 @@ pub struct HeatEntry {
 pub struct HeatLimitEntry {
     /// Peak of the profile.
     pub rise_k: f64,
-    /// Nodal diameters of the shape that buckles, or of the wave that stands still.
+    /// The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves where none dominates.
+    #[serde(default)]
+    pub name: String,
+    /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
     /// Its nodal circles.
     pub nodal_circles: usize,
@@ -61,9 +64,12 @@ pub struct HeatLimitEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatCurveEntry {
-    /// Nodal diameters, of a guided blade at the last peak.
+    /// The wave that stands still, of a guided blade at the last peak.
+    #[serde(default)]
+    pub name: String,
+    /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
-    /// Nodal circles.
+    /// Its nodal circles.
     pub nodal_circles: usize,
     /// Peaks of the profile.
     pub rise_k: Vec<f64>,
@@ -100,10 +106,10 @@ impl MembraneEntry {
                     .iter()
                     .map(|r| temperature.rise_k(&plate.blade, *r))
                     .collect(),
-                operating_limit: limits.operating.map(HeatLimitEntry::from),
+                operating_limit: limits.operating.as_ref().map(HeatLimitEntry::from),
                 past_critical_when_cold: limits.past_critical,
-                buckling: limits.buckling.map(HeatLimitEntry::from),
-                flat_from: limits.flat_from.map(HeatLimitEntry::from),
+                buckling: limits.buckling.as_ref().map(HeatLimitEntry::from),
+                flat_from: limits.flat_from.as_ref().map(HeatLimitEntry::from),
                 buckles_first: limits.buckles_first,
                 critical_speeds: curves(limits),
             });
@@ -116,12 +122,13 @@ impl MembraneEntry {
     }
 }
 
-impl From<HeatLimit> for HeatLimitEntry {
-    fn from(limit: HeatLimit) -> Self {
+impl From<&HeatLimit> for HeatLimitEntry {
+    fn from(limit: &HeatLimit) -> Self {
         HeatLimitEntry {
             rise_k: limit.rise_k,
-            nodal_diameters: limit.diameters,
-            nodal_circles: limit.circles,
+            name: limit.name.in_words(),
+            nodal_diameters: limit.name.diameters(),
+            nodal_circles: limit.name.circles(),
         }
     }
 }
@@ -130,8 +137,9 @@ fn curves(limits: &HeatLimits) -> Vec<HeatCurveEntry> {
     let curves = limits.curves.iter();
     curves
         .map(|curve| HeatCurveEntry {
-            nodal_diameters: curve.diameters,
-            nodal_circles: curve.circles,
+            name: curve.name.in_words(),
+            nodal_diameters: curve.name.diameters(),
+            nodal_circles: curve.name.circles(),
             rise_k: curve.rise_k.clone(),
             rpm: curve.speed_rad_per_s.iter().map(|s| rpm(*s)).collect(),
         })

@@ -8,17 +8,16 @@ use crate::system::spread;
 use super::component::Component;
 use super::critical::standing_name;
 use super::error::SpectrumError;
+use super::event_name::EventName;
 use super::generalized::singular_multiples;
 
 /// A multiple of a stress under which K(Ω) is singular.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SingularStress {
     /// The multiple.
     pub multiple: f64,
-    /// Nodal diameters of the dominant harmonic of the shape.
-    pub diameters: usize,
-    /// Nodal circles of the dominant harmonic.
-    pub circles: usize,
+    /// The waves of the shape.
+    pub name: EventName,
 }
 
 /// Stress added to that of a plate: from a multiple of a stress onwards, up or down.
@@ -59,13 +58,9 @@ pub fn first_singular(
         let Some((multiple, shape)) = found.into_iter().next() else {
             continue;
         };
-        if first.is_none_or(|other| multiple < other.multiple) {
+        if first.as_ref().is_none_or(|other| multiple < other.multiple) {
             let name = standing_name(plate, component.first, &shape, speed_rad_per_s);
-            first = Some(SingularStress {
-                multiple,
-                diameters: name.diameters(),
-                circles: name.circles(),
-            });
+            first = Some(SingularStress { multiple, name });
         }
     }
     Ok(first)
@@ -90,7 +85,7 @@ pub fn explained(plate: &Plate, error: SpectrumError) -> SpectrumError {
     };
     match first_singular(&flat, &Component::of(&flat), 0.0, &added) {
         Ok(Some(found)) => SpectrumError::Buckled {
-            diameters: found.diameters,
+            diameters: found.name.diameters(),
             share: found.multiple,
         },
         _ => error,

@@ -15,30 +15,26 @@ use rayon::prelude::*;
 use crate::plate::{MembraneStress, membrane_stiffness};
 use crate::scene::{Scene, Temperature};
 use crate::spectrum::{
-    AddedStress, SingularStress, SpectralModel, SpectrumError, critical_speeds, first_singular,
-    standing_name,
+    AddedStress, EventName, SingularStress, SpectralModel, SpectrumError, critical_speeds,
+    first_singular, standing_name,
 };
 use crate::system::spread;
 
 /// A temperature rise at which the blade buckles or loses the speed asked for, and the shape of the
 /// mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimit {
     /// Peak of the temperature profile.
     pub rise_k: f64,
-    /// Nodal diameters of the shape.
-    pub diameters: usize,
-    /// Its nodal circles.
-    pub circles: usize,
+    /// The waves of the shape.
+    pub name: EventName,
 }
 
 /// Critical speed of one wave over the temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatCurve {
-    /// Nodal diameters at the last peak.
-    pub diameters: usize,
-    /// Nodal circles there.
-    pub circles: usize,
+    /// The waves that stand still, at the last peak.
+    pub name: EventName,
     /// Peaks of the temperature profile.
     pub rise_k: Vec<f64>,
     /// Critical speeds.
@@ -90,14 +86,16 @@ impl HeatLimits {
             Some(speed) => heating.operating(speed)?,
             None => (None, false),
         };
-        let before = |buckling: HeatLimit| {
-            let later = |limit: HeatLimit| buckling.rise_k.abs() < limit.rise_k.abs();
-            scene.operating_rad_per_s().is_some() && !past_critical && operating.is_none_or(later)
+        let before = |buckling: &HeatLimit| {
+            let later = |limit: &HeatLimit| buckling.rise_k.abs() < limit.rise_k.abs();
+            scene.operating_rad_per_s().is_some()
+                && !past_critical
+                && operating.as_ref().is_none_or(later)
         };
-        let buckles_first = buckling.is_some_and(before);
+        let buckles_first = buckling.as_ref().is_some_and(before);
         // At speed the rotation still holds flat what has buckled at rest.
         let operating = operating.filter(|_| !buckles_first);
-        let curves = heating.curves(operating, buckling)?;
+        let curves = heating.curves(operating.as_ref(), buckling.as_ref())?;
         Ok(Some(HeatLimits {
             operating,
             past_critical,
@@ -159,8 +157,7 @@ impl<'a> Heating<'a> {
         let found = first_singular(plate, components, speed_rad_per_s, &added)?;
         let limit = |found: SingularStress| HeatLimit {
             rise_k: from_k + direction * found.multiple,
-            diameters: found.diameters,
-            circles: found.circles,
+            name: found.name,
         };
         Ok(found.map(limit))
     }
@@ -178,8 +175,8 @@ impl<'a> Heating<'a> {
     }
 
     /// Peaks from none to past the limits, closer towards the end, where speeds fall faster.
-    fn rises(&self, operating: Option<HeatLimit>, buckling: Option<HeatLimit>) -> Vec<f64> {
-        let size = |limit: Option<HeatLimit>| limit.map(|limit| limit.rise_k.abs());
+    fn rises(&self, operating: Option<&HeatLimit>, buckling: Option<&HeatLimit>) -> Vec<f64> {
+        let size = |limit: Option<&HeatLimit>| limit.map(|limit| limit.rise_k.abs());
         let shown = size(operating).map_or(0.0, |rise| BEYOND * rise);
         let shown = shown.max(BEYOND * self.now_k.abs());
         let end = match size(buckling).map(|rise| BEFORE_BUCKLING * rise) {
@@ -196,8 +193,8 @@ impl<'a> Heating<'a> {
 
     fn curves(
         &self,
-        operating: Option<HeatLimit>,
-        buckling: Option<HeatLimit>,
+        operating: Option<&HeatLimit>,
+        buckling: Option<&HeatLimit>,
     ) -> Result<Vec<HeatCurve>, SpectrumError> {
         let rises = self.rises(operating, buckling);
         let speeds: Result<Vec<Vec<Named>>, SpectrumError> = rises
@@ -209,22 +206,22 @@ impl<'a> Heating<'a> {
         let mut curves: Vec<HeatCurve> = Vec::new();
         for (rise_k, found) in rises.iter().zip(speeds?) {
             for (place, wave) in found.into_iter().enumerate() {
-                let named = |curve: &HeatCurve| curve.diameters == wave.diameters;
+                let diameters = wave.name.diameters();
+                let named = |curve: &HeatCurve| curve.name.diameters() == diameters;
                 let index = match free {
                     true => curves.iter().position(named),
                     false => (place < curves.len()).then_some(place),
                 };
                 let index = index.unwrap_or_else(|| {
                     curves.push(HeatCurve {
-                        diameters: wave.diameters,
-                        circles: wave.circles,
+                        name: wave.name.clone(),
                         rise_k: Vec::new(),
                         speed_rad_per_s: Vec::new(),
                     });
                     curves.len() - 1
                 });
                 // A guided blade's waves change places: the name is that of the last peak.
-                (curves[index].diameters, curves[index].circles) = (wave.diameters, wave.circles);
+                curves[index].name = wave.name;
                 curves[index].rise_k.push(*rise_k);
                 curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);
             }
@@ -258,8 +255,7 @@ impl<'a> Heating<'a> {
                 let name = standing_name(plate, component.first, &critical.shape, speed_rad_per_s);
                 Named {
                     speed_rad_per_s,
-                    diameters: name.diameters(),
-                    circles: name.circles(),
+                    name,
                 }
             }));
         }
@@ -271,6 +267,5 @@ impl<'a> Heating<'a> {
 
 struct Named {
     speed_rad_per_s: f64,
-    diameters: usize,
-    circles: usize,
+    name: EventName,
 }

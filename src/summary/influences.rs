@@ -3,7 +3,6 @@
 use std::fmt::{Result, Write};
 
 use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
-use crate::spectrum::{Direction, in_words};
 
 /// How hot the blade may become, on the scene's temperature profile.
 pub fn heat(text: &mut String, report: &Report) -> Result {
@@ -12,16 +11,11 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
         return Ok(());
     };
     writeln!(text, "Heat, peak of the profile now {:+.1} K:", heat.rise_k)?;
-    let shape = |limit: &HeatLimitEntry| {
-        let (diameters, circles) = (limit.nodal_diameters, limit.nodal_circles);
-        in_words(diameters, circles, Direction::Standing)
-    };
     if let Some(limit) = &heat.operating_limit {
         writeln!(
             text,
             "  {:+.1} K brings the first critical speed down to the operating speed\n    ({})",
-            limit.rise_k,
-            shape(limit)
+            limit.rise_k, limit.name
         )?;
     } else if heat.past_critical_when_cold {
         writeln!(
@@ -35,8 +29,11 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
         )?;
     }
     if let Some(limit) = &heat.flat_from {
-        let (rise, shape) = (limit.rise_k, shape(limit));
-        writeln!(text, "  below {rise:+.1} K it is buckled at rest ({shape})")?;
+        let HeatLimitEntry { rise_k, name, .. } = limit;
+        writeln!(
+            text,
+            "  below {rise_k:+.1} K it is buckled at rest ({name})"
+        )?;
     }
     match &heat.buckling {
         Some(limit) => writeln!(
@@ -47,7 +44,7 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
                 true => ", before a critical speed is that low",
                 false => "",
             },
-            shape(limit)
+            limit.name
         ),
         None => writeln!(text, "  it never buckles the blade at rest"),
     }

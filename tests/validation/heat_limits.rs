@@ -61,7 +61,7 @@ fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
             let found = limits(&heated(&base, scene_k));
             let limit = found.operating.unwrap();
             assert_close("operating limit", limit.rise_k, expected, 1e-9);
-            assert!(limit.diameters >= 2 && !found.buckles_first && !found.past_critical);
+            assert!(limit.name.diameters() >= 2 && !found.buckles_first && !found.past_critical);
             // The curves pass through it.
             let curve = &found.curves[0];
             let below = curve.rise_k.partition_point(|rise| *rise < expected);
@@ -90,7 +90,7 @@ fn the_blade_buckles_where_no_critical_speed_can_be_computed_any_more() {
         match flat(2.0 * expected) {
             Err(SpectrumError::Buckled { share, diameters }) => {
                 assert_close("share", share, 0.5, 1e-8);
-                assert_eq!(diameters, found.diameters);
+                assert_eq!(diameters, found.name.diameters());
             }
             other => panic!("{other:?}"),
         }
@@ -102,7 +102,7 @@ fn the_blade_buckles_where_no_critical_speed_can_be_computed_any_more() {
 fn a_cold_rim_has_a_limit_of_its_own() {
     let found = limits(&heated(&collar(), -1.0));
     let dish = found.buckling.unwrap();
-    assert!(dish.rise_k < 0.0 && dish.diameters < 2, "{dish:?}");
+    assert!(dish.rise_k < 0.0 && dish.name.diameters() < 2, "{dish:?}");
     assert!(found.buckles_first && found.operating.is_none());
     let expected = -bisected(0.0, 500.0, |fall_k| {
         let plate = Plate::new(&heated(&collar(), -fall_k), SMALL);
@@ -125,7 +125,7 @@ fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
     let expected = bisected(60.0, 0.0, flat);
     let found = limits(&both(60.0)).flat_from.unwrap();
     assert_close("flat from", found.rise_k, expected, 1e-8);
-    assert_eq!(found.diameters, 0);
+    assert_eq!(found.name.diameters(), 0);
     assert!(limits(&heated(&collar(), 5.0)).flat_from.is_none());
 }
 
