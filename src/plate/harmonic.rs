@@ -110,7 +110,7 @@ impl HarmonicBlock {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::scene::{Scene, ThicknessRow};
 
     /// Before the exact zeros are written, quadrature alone must give them to rounding.
     #[test]
@@ -132,6 +132,55 @@ mod tests {
                 (tension - inertia).abs() < 1e-13,
                 "{j}: {tension} {inertia}"
             );
+        }
+    }
+
+    /// wᵀ(K_σ − N)w = 0 for w = f(x cos α + y sin α), whatever the bore and the thickness over the radius:
+    /// each chord is in equilibrium, ∫ hσ_xx dy = ρΩ² ∫ h y² dy, where N has (∂θw)² = y² f′². The tilt is
+    /// the first of them; here all powers up to the sixth, of which harmonics n = p, p − 2, … take part.
+    #[test]
+    fn what_bends_about_a_chord_is_neither_stiffened_nor_softened() {
+        let row = |radius_m, thickness_m| ThicknessRow {
+            radius_m,
+            thickness_m,
+        };
+        let profiles = [
+            vec![],
+            vec![row(0.2, 2.8e-3), row(0.2, 2.0e-3), row(0.3, 2.4e-3)],
+        ];
+        for (profile, bore_m) in profiles.into_iter().zip([0.05, 0.2]) {
+            let scene = Scene::paper().edited(|saw| {
+                saw.guides.clear();
+                saw.cut = None;
+                saw.blade.inner_diameter_m = bore_m;
+                saw.blade.profile = profile;
+            });
+            let blade = *scene.unwrap().blade();
+            let basis = RadialBasis::new(&blade, 8);
+            let stress = CentrifugalStress::new(&blade);
+            for power in 1..=6_usize {
+                let (mut sum, mut inertia) = (0.0, 0.0);
+                let mut factor = 2.0_f64.powi(1 - power as i32);
+                for step in 0..=power / 2 {
+                    let n = power - 2 * step;
+                    let block = HarmonicBlock::new(&blade, &stress, &basis, n);
+                    let mut q = DVector::zeros(basis.count());
+                    for (r, w) in basis.rule().iter() {
+                        let weight = w * r * blade.thickness_ratio(r) * r.powi(power as i32);
+                        q += DVector::from_vec(basis.evaluate(n, r).value) * weight;
+                    }
+                    // xᵖ = Σ 2^(1−p) C(p, s) rᵖ cos nθ, half of it for n = 0, on which ∫dθ is twice π.
+                    let share = if n == 0 {
+                        0.5 * factor * factor
+                    } else {
+                        factor * factor
+                    };
+                    sum += share * q.dot(&(&block.spin * &q));
+                    inertia += share * (n * n) as f64 * q.dot(&q);
+                    factor *= (power - step) as f64 / (step + 1) as f64;
+                }
+                assert!(sum.abs() < 1e-10 * inertia, "{power}: {sum:e} {inertia:e}");
+            }
         }
     }
 }

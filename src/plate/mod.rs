@@ -22,6 +22,7 @@ mod membrane;
 mod quadrature;
 mod radial;
 mod stress;
+mod stretching;
 
 pub use contact::{Contact, ContactTerms};
 #[doc(hidden)]
@@ -30,6 +31,7 @@ pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
 pub(crate) use radial::RadialBasis;
+pub use stretching::{ReducedStretching, Stretching, StretchingError};
 
 use faer::Mat;
 

@@ -97,6 +97,14 @@ impl RadialBasis {
         self.diag.len() + self.knots.as_ref().map_or(0, |knots| knots.powers.len())
     }
 
+    /// Highest degree of the polynomials that the functions are between the knots.
+    pub(crate) fn degree(&self) -> usize {
+        let powers = self.knots.iter().flat_map(|knots| &knots.powers);
+        let highest = powers.map(|(_, power)| *power as usize).max().unwrap_or(0);
+        let clamp = if self.clamped { 2 } else { 0 };
+        clamp + highest.max(self.diag.len() - 1)
+    }
+
     /// Whether rigid heave and tilt are part of the motion.
     pub(crate) fn has_rigid_motions(&self) -> bool {
         !self.clamped

@@ -1,0 +1,195 @@
+//! Elements over the radius for displacements u_r = u(r) cos mθ, u_θ = v(r) sin mθ.
+
+use std::ops::Range;
+
+use crate::scene::Blade;
+
+/// Degree of the polynomials.
+pub const DEGREE: usize = 14;
+/// Largest ratio of the radii of an element: 1/r is then resolved to 1e-13.
+const GROWTH: f64 = 1.6;
+/// Largest logarithm by which the wave r^±m of harmonic m grows over an element.
+const WAVE_GROWTH: f64 = 4.0;
+
+/// The elements of one harmonic, and their functions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Elements {
+    /// m.
+    order: f64,
+    /// Ends of the elements, ascending.
+    edges_m: Vec<f64>,
+    reference: Reference,
+}
+
+/// Strains [ε_rr, ε_θθ, γ_rθ] of unit displacements u and v of each node of an element, and the
+/// functions themselves.
+pub struct UnitStrains {
+    /// N_k(r).
+    pub values: [f64; DEGREE + 1],
+    /// Of u.
+    pub radial: [[f64; 3]; DEGREE + 1],
+    /// Of v.
+    pub along: [[f64; 3]; DEGREE + 1],
+}
+
+impl Elements {
+    /// Elements of harmonic m, which end where the thickness is not smooth, and at `knots_m`.
+    pub fn new(blade: &Blade, order: usize, knots_m: &[f64]) -> Self {
+        Elements {
+            order: order as f64,
+            edges_m: element_edges(blade, order, knots_m),
+            reference: Reference::new(),
+        }
+    }
+
+    /// Number of elements.
+    pub fn count(&self) -> usize {
+        self.edges_m.len() - 1
+    }
+
+    /// Number of nodes: neighbours share one.
+    pub fn nodes(&self) -> usize {
+        DEGREE * self.count() + 1
+    }
+
+    /// The nodes of an element.
+    pub fn nodes_of(&self, element: usize) -> Range<usize> {
+        DEGREE * element..DEGREE * (element + 1) + 1
+    }
+
+    /// The ends of an element.
+    pub fn ends_m(&self, element: usize) -> (f64, f64) {
+        (self.edges_m[element], self.edges_m[element + 1])
+    }
+
+    /// The element that a radius is in; at an edge the inner one.
+    pub fn at(&self, radius_m: f64) -> usize {
+        let next = self.edges_m.partition_point(|edge| *edge < radius_m);
+        next.saturating_sub(1).min(self.count() - 1)
+    }
+
+    /// The node at an edge.
+    pub fn node_at_edge(&self, radius_m: f64) -> usize {
+        DEGREE * self.edges_m.partition_point(|edge| *edge < radius_m)
+    }
+
+    /// m.
+    pub fn order(&self) -> f64 {
+        self.order
+    }
+
+    /// The functions of an element at a radius.
+    pub fn values(&self, element: usize, radius_m: f64) -> [f64; DEGREE + 1] {
+        self.reference.values(self.mapped(element, radius_m))
+    }
+
+    /// x ∈ [−1, 1] over an element.
+    fn mapped(&self, element: usize, radius_m: f64) -> f64 {
+        let (from, to) = self.ends_m(element);
+        2.0 * (radius_m - from) / (to - from) - 1.0
+    }
+
+    /// Slopes at the nodes of an element of what has these values there.
+    pub fn slopes_at_nodes(&self, element: usize, values: [f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
+        let (from, to) = self.ends_m(element);
+        std::array::from_fn(|node| {
+            let slopes = self.reference.slopes[node].iter();
+            slopes.zip(values).map(|(s, v)| s * v).sum::<f64>() / (0.5 * (to - from))
+        })
+    }
+
+    /// ε_rr = u′, ε_θθ = (u + mv)/r, γ_rθ = v′ − (v + mu)/r.
+    pub fn unit_strains(&self, element: usize, radius_m: f64) -> UnitStrains {
+        let (from, to) = self.ends_m(element);
+        let half = 0.5 * (to - from);
+        let values = self.values(element, radius_m);
+        let slopes = self.reference.slopes(&values);
+        let (m, r) = (self.order, radius_m);
+        UnitStrains {
+            radial: std::array::from_fn(|k| [slopes[k] / half, values[k] / r, -m * values[k] / r]),
+            along: std::array::from_fn(|k| {
+                [0.0, m * values[k] / r, slopes[k] / half - values[k] / r]
+            }),
+            values,
+        }
+    }
+}
+
+/// Ends of the elements: edges and knots, and between them no more growth than allowed.
+fn element_edges(blade: &Blade, order: usize, knots_m: &[f64]) -> Vec<f64> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let mut knots = blade.edges_m();
+    knots.extend(knots_m.iter().filter(|r| a < **r && **r < b));
+    knots.sort_by(f64::total_cmp);
+    knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
+    // The rim stays where it is.
+    *knots.last_mut().expect("a ring has edges") = b;
+    let growth = GROWTH.ln().min(WAVE_GROWTH / order.max(1) as f64);
+    let mut edges = vec![a];
+    for pair in knots.windows(2) {
+        let count = ((pair[1] / pair[0]).ln() / growth).ceil().max(1.0) as usize;
+        let ratio = (pair[1] / pair[0]).powf(1.0 / count as f64);
+        edges.extend((1..count).map(|k| pair[0] * ratio.powi(k as i32)));
+        edges.push(pair[1]);
+    }
+    edges
+}
+
+/// Share of the outer radius below which two knots are one.
+const MERGED: f64 = 1e-12;
+
+/// Lagrange functions on the Chebyshev points of [−1, 1].
+#[derive(Debug, Clone, PartialEq)]
+struct Reference {
+    nodes: Vec<f64>,
+    /// Slopes of all functions at each node.
+    slopes: Vec<[f64; DEGREE + 1]>,
+}
+
+impl Reference {
+    fn new() -> Self {
+        let angle = |k: usize| std::f64::consts::PI * k as f64 / DEGREE as f64;
+        let nodes: Vec<f64> = (0..=DEGREE).map(|k| -angle(k).cos()).collect();
+        let of_node = |node: usize| {
+            let mut slopes: [f64; DEGREE + 1] = std::array::from_fn(|k| match k == node {
+                true => 0.0,
+                false => Self::weight(k) / Self::weight(node) / (nodes[node] - nodes[k]),
+            });
+            slopes[node] = -slopes.iter().sum::<f64>();
+            slopes
+        };
+        let slopes = (0..=DEGREE).map(of_node).collect();
+        Reference { nodes, slopes }
+    }
+
+    /// Barycentric weight of a node, up to a factor that all have.
+    fn weight(k: usize) -> f64 {
+        let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
+        if k == 0 || k == DEGREE {
+            0.5 * sign
+        } else {
+            sign
+        }
+    }
+
+    /// Values of all functions at a point.
+    fn values(&self, x: f64) -> [f64; DEGREE + 1] {
+        if let Some(node) = self.nodes.iter().position(|own| *own == x) {
+            return std::array::from_fn(|k| if k == node { 1.0 } else { 0.0 });
+        }
+        let shares: [f64; DEGREE + 1] =
+            std::array::from_fn(|k| Self::weight(k) / (x - self.nodes[k]));
+        let sum: f64 = shares.iter().sum();
+        shares.map(|share| share / sum)
+    }
+
+    /// Slopes of the functions of these values at a point: a slope is a polynomial through its
+    /// values at the nodes. The derivative of the barycentric formula would cancel beside a node.
+    fn slopes(&self, values: &[f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
+        std::array::from_fn(|k| {
+            (0..=DEGREE)
+                .map(|node| values[node] * self.slopes[node][k])
+                .sum()
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! Potential of stretching: what a plate that bends by more than a part of its thickness stores in
+//! its plane.
+//!
+//! Kirchhoff plate with von Kármán's strains, of which the steady centrifugal stress is in K_σ
+//! already, and the inertia in the plane is left out:
+//!
+//! U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ,
+//!
+//! ℂ of plane stress, u the displacement in the plane. U₄ is homogeneous of degree four in q, is
+//! never negative, and does not change when the deflection is turned about the axis, so that it is
+//! the same function in space and on the turning blade. The edges are free in the plane; a collar
+//! that holds the bore there (`in_plane` `fixed`) holds u = 0.
+//!
+//! **How.** With w = Σ wₙ(r) e^{inθ} the strains of w of harmonic m are sums of products of wₙ and
+//! w₍ₘ₋ₙ₎, and r² times them is a polynomial between the knots of the thickness: its values at so
+//! many nodes ([`Nodes`]) are all there is to know. For each m ≤ 2 n_max the displacement u that
+//! relaxes them is found by finite elements over the radius, as many as the roughest strains of the
+//! basis need ([`Relaxed`]): there is no number of functions in the plane to choose. What is left is a sum of squares,
+//! U₄ = Σₘ |Zₘ eₘ|², eₘ the strains at the nodes.
+//!
+//! In goes a [`Plate`]; out come U₄ in J, its gradient in N/√kg and its second derivatives in 1/s², for q in
+//! √kg·m. Slopes beyond about 0.1 are outside of what von Kármán's strains hold for.
+//!
+//! References: T. von Kármán, *Festigkeitsprobleme im Maschinenbau*, Enzykl. Math. Wiss. IV/4 (1910), 348–352;
+//! C. Touzé, O. Thomas & A. Chaigne, *Asymmetric non-linear forced vibrations of free-edge circular plates*, part 1,
+//! J. Sound Vib. 258 (2002), 649–676, for free edges.
+
+mod nodes;
+mod reduced;
+mod relaxed;
+mod strain;
+
+pub use reduced::ReducedStretching;
+
+use faer::{Col, Mat};
+use rayon::prelude::*;
+
+use super::Plate;
+use nodes::Nodes;
+use relaxed::Relaxed;
+use strain::{Slopes, Strain};
+
+/// Why the potential of stretching, or a value of it, could not be computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum StretchingError {
+    /// A deflection of another basis.
+    #[error(
+        "the deflection has {given} coordinates, the basis {expected} functions; give one coordinate for each"
+    )]
+    Length {
+        /// Coordinates that were given.
+        given: usize,
+        /// Coordinates that are needed.
+        expected: usize,
+    },
+    /// Numbers too far apart.
+    #[error(
+        "the stiffness of the blade in its plane is no number for {harmonic} waves around; the scene's numbers are too far apart"
+    )]
+    NotFinite {
+        /// m.
+        harmonic: usize,
+    },
+}
+
+/// Potential of stretching U₄ of a plate, on its whole basis of N functions:
+///
+/// U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ, ℂ of plane stress.
+///
+/// With it the equation of motion becomes q̈ + (2ΩG + C) q̇ + K(Ω) q + ∂U₄/∂q = f. q is in √kg·m, N
+/// values in the order of the unknowns of [`Plate`]. U₄ is homogeneous of degree four, never negative, and the
+/// same for a deflection turned about the axis; the displacement u in the plane leaves the edges free,
+/// or is zero at a collar that holds it. It holds for slopes up to about 0.1.
+///
+/// Source: T. von Kármán, *Festigkeitsprobleme im Maschinenbau*, Enzykl. Math. Wiss. IV/4 (1910), 348–352.
+#[derive(Debug, Clone)]
+pub struct Stretching {
+    nodes: Nodes,
+    /// Zₘ, m = 0 … 2 n_max.
+    harmonics: Vec<Relaxed>,
+}
+
+impl Stretching {
+    /// Relaxes the strains of every harmonic m ≤ 2 n_max.
+    ///
+    /// # Errors
+    /// [`StretchingError::NotFinite`].
+    pub fn new(plate: &Plate) -> Result<Self, StretchingError> {
+        let nodes = Nodes::new(plate);
+        let harmonics = (0..=2 * plate.max_diameters())
+            .into_par_iter()
+            .map(|m| Relaxed::new(&plate.blade, &nodes, m))
+            .collect::<Result<_, _>>()?;
+        Ok(Stretching { nodes, harmonics })
+    }
+
+    /// Number of coordinates of a deflection, that of the plate's unknowns.
+    pub fn order(&self) -> usize {
+        self.nodes.degrees_of_freedom()
+    }
+
+    /// U₄(q), in J, never negative.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn energy_j(&self, deflection: &Col<f64>) -> Result<f64, StretchingError> {
+        let w = self.slopes(deflection)?;
+        let relaxed = self.relaxed(&Strain::of(&w, &w));
+        Ok(relaxed.iter().map(|y| y * y).sum())
+    }
+
+    /// ∂U₄/∂q, in N/√kg.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn gradient(&self, deflection: &Col<f64>) -> Result<Col<f64>, StretchingError> {
+        let w = self.slopes(deflection)?;
+        let stress = self.stress(&self.relaxed(&Strain::of(&w, &w)));
+        Ok(self.nodes.work(&stress.pulled_back(&w)))
+    }
+
+    /// ∂²U₄/∂q², in 1/s², symmetric: the stiffness that stretching adds to small motions about a
+    /// deflection.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn hessian(&self, deflection: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
+        let w = self.slopes(deflection)?;
+        let stress = self.stress(&self.relaxed(&Strain::of(&w, &w)));
+        let order = self.order();
+        let columns: Vec<Col<f64>> = (0..order)
+            .into_par_iter()
+            .map(|k| {
+                let mut unit = Col::zeros(order);
+                unit[k] = 1.0;
+                let v = self.nodes.slopes(&unit);
+                // Of ∂(∂U₄/∂q): the stress that is there on the new slopes, and a new stress on
+                // those that are there.
+                let added = self.stress(&self.relaxed(&Strain::of(&w, &v)));
+                let mut force = self.nodes.work(&stress.pulled_back(&v));
+                force += faer::Scale(2.0) * self.nodes.work(&added.pulled_back(&w));
+                force
+            })
+            .collect();
+        Ok(Mat::from_fn(order, order, |i, k| {
+            0.5 * (columns[k][i] + columns[i][k])
+        }))
+    }
+
+    /// The slopes of a deflection at the nodes.
+    fn slopes(&self, deflection: &Col<f64>) -> Result<Slopes, StretchingError> {
+        match (deflection.nrows(), self.order()) {
+            (given, expected) if given == expected => Ok(self.nodes.slopes(deflection)),
+            (given, expected) => Err(StretchingError::Length { given, expected }),
+        }
+    }
+
+    /// Zₘ eₘ of all m, one after the other, the real part of each before the imaginary one.
+    fn relaxed(&self, strain: &Strain) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (harmonic, parts) in self.harmonics.iter().zip(strain.harmonics()) {
+            for part in parts {
+                harmonic.apply(part, &mut all);
+            }
+        }
+        all
+    }
+
+    /// Zₘᵀ yₘ of all m: stresses at the nodes, integrated over the width that each stands for.
+    fn stress(&self, relaxed: &[f64]) -> Strain {
+        let mut stress = self.nodes.no_strain();
+        let mut rest = relaxed;
+        for (harmonic, parts) in self.harmonics.iter().zip(stress.harmonics_mut()) {
+            for part in parts {
+                let (own, others) = rest.split_at(harmonic.rank());
+                harmonic.apply_transposed(own, part);
+                rest = others;
+            }
+        }
+        stress
+    }
+}
+
+#[cfg(test)]
+mod airy_tests;
+#[cfg(test)]
+mod exact_tests;
+#[cfg(test)]
+mod plate_tests;
+#[cfg(test)]
+mod test_blades;

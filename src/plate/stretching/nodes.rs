@@ -1,0 +1,197 @@
+//! The radii at which the strains of a deflection are known.
+
+use faer::Col;
+
+use crate::plate::Plate;
+
+use super::strain::{Slopes, Strain};
+
+/// Chebyshev points of each interval between the knots of the thickness, as many as a polynomial
+/// of the degree of r² w′² needs, and the radial functions there.
+#[derive(Debug, Clone)]
+pub struct Nodes {
+    /// Points of an interval.
+    count: usize,
+    /// Ends of the intervals.
+    edges_m: Vec<f64>,
+    /// Radii, interval by interval.
+    radii_m: Vec<f64>,
+    /// R′ and R/r of n ≠ 1 and of n = 1 at each node: one row of J values a node.
+    functions: [Vec<[Vec<f64>; 2]>; 2],
+    /// √(ρh₀ π(1+δ_n0)).
+    norms: Vec<f64>,
+    radial_functions: usize,
+}
+
+impl Nodes {
+    /// The nodes of a plate.
+    pub fn new(plate: &Plate) -> Self {
+        let count = 2 * plate.basis.degree() + 1;
+        let edges_m = plate.blade.edges_m();
+        let radii_m: Vec<f64> = edges_m
+            .windows(2)
+            .flat_map(|ends| {
+                let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+                chebyshev(count).map(move |x| middle + half * x)
+            })
+            .collect();
+        let functions = [0, 1].map(|n| {
+            let at = |r: &f64| {
+                let f = plate.basis.evaluate(n, *r);
+                [f.slope, f.value.iter().map(|value| value / r).collect()]
+            };
+            radii_m.iter().map(at).collect()
+        });
+        Nodes {
+            count,
+            edges_m,
+            radii_m,
+            functions,
+            norms: (0..=plate.max_diameters())
+                .map(|n| plate.angular_norm(n))
+                .collect(),
+            radial_functions: plate.basis.count(),
+        }
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.radii_m.len()
+    }
+
+    /// Number of unknowns of the plate.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.radial_functions * (2 * self.norms.len() - 1)
+    }
+
+    /// Polynomial degree of what is interpolated.
+    pub fn degree(&self) -> usize {
+        self.count - 1
+    }
+
+    /// Radii that divide each interval for elements of a degree: none where it is that of the strains;
+    /// else a part for each `half_waves` of them, narrower towards the ends as the half-waves are.
+    pub fn divisions_m(&self, degree: usize, half_waves: usize) -> Vec<f64> {
+        let parts = match self.degree() <= degree {
+            true => 1,
+            false => self.degree().div_ceil(half_waves),
+        };
+        let within = self.edges_m.windows(2).flat_map(|ends| {
+            let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+            let angle = std::f64::consts::PI / parts as f64;
+            (1..parts).map(move |k| middle - half * (angle * k as f64).cos())
+        });
+        within.collect()
+    }
+
+    /// Nodes of the interval that a radius is in, each with the strain at the radius of one that is
+    /// one at that node and zero at the others: r² e is the polynomial through its values.
+    pub fn interpolated(&self, radius_m: f64) -> Vec<(usize, f64)> {
+        let next = self.edges_m.partition_point(|edge| *edge < radius_m);
+        let interval = next.saturating_sub(1).min(self.edges_m.len() - 2);
+        let (from, to) = (self.edges_m[interval], self.edges_m[interval + 1]);
+        let x = (2.0 * radius_m - from - to) / (to - from);
+        let first = interval * self.count;
+        let values = lagrange(self.count, x);
+        let nodes = values.into_iter().enumerate();
+        nodes
+            .map(|(k, value)| {
+                let ratio = self.radii_m[first + k] / radius_m;
+                (first + k, value * ratio * ratio)
+            })
+            .collect()
+    }
+
+    /// wₙ′ and i n wₙ/r of a deflection, at the nodes.
+    pub fn slopes(&self, deflection: &Col<f64>) -> Slopes {
+        let mut slopes = Slopes::none(self.norms.len() - 1, self.len());
+        for (n, norm) in self.norms.iter().enumerate() {
+            let (cosines, sines) = self.unknowns(n);
+            let given = |index: usize| deflection[index] != 0.0;
+            if !cosines.clone().chain(sines.clone()).any(given) {
+                continue;
+            }
+            // c cos nθ + s sin nθ is (c − is)/2 e^{inθ} and its conjugate.
+            let half = if n == 0 { 1.0 / norm } else { 0.5 / norm };
+            for (node, [slope, over_r]) in self.functions[usize::from(n == 1)].iter().enumerate() {
+                let sum = |unknowns: &std::ops::Range<usize>, values: &[f64]| {
+                    let terms = unknowns.clone().zip(values);
+                    half * terms.map(|(i, value)| deflection[i] * value).sum::<f64>()
+                };
+                let radial = [sum(&cosines, slope), -sum(&sines, slope)];
+                // i n (c − is) = n s + i n c.
+                let n = n as f64;
+                let hoop = [n * sum(&sines, over_r), n * sum(&cosines, over_r)];
+                slopes.set(n as usize, node, radial, hoop);
+            }
+        }
+        slopes
+    }
+
+    /// Σ over the nodes of forces times the slopes of every basis function: 2 Re(fᵣ* φ′ + f_θ* φ_θ/r)
+    /// for n > 0, once for n = 0.
+    pub fn work(&self, forces: &Slopes) -> Col<f64> {
+        let mut work = Col::zeros(self.degrees_of_freedom());
+        for (n, norm) in self.norms.iter().enumerate() {
+            let (cosines, sines) = self.unknowns(n);
+            for (node, [slope, over_r]) in self.functions[usize::from(n == 1)].iter().enumerate() {
+                let [radial, hoop] = forces
+                    .at(n, node)
+                    .map(|force| force.map(|part| part / norm));
+                let n = n as f64;
+                for (j, i) in cosines.clone().enumerate() {
+                    work[i] += radial[0] * slope[j] + n * hoop[1] * over_r[j];
+                }
+                for (j, i) in sines.clone().enumerate() {
+                    work[i] += n * hoop[0] * over_r[j] - radial[1] * slope[j];
+                }
+            }
+        }
+        work
+    }
+
+    /// Unknowns of the cosines and of the sines of n.
+    fn unknowns(&self, n: usize) -> (std::ops::Range<usize>, std::ops::Range<usize>) {
+        let size = self.radial_functions;
+        match n {
+            0 => (0..size, size..size),
+            _ => {
+                let first = size * (2 * n - 1);
+                (first..first + size, first + size..first + 2 * size)
+            }
+        }
+    }
+
+    /// Strains that are zero.
+    pub fn no_strain(&self) -> Strain {
+        Strain::none(2 * (self.norms.len() - 1), self.len())
+    }
+}
+
+/// Points of [−1, 1], ascending.
+fn chebyshev(count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |k| -(std::f64::consts::PI * (k as f64 + 0.5) / count as f64).cos())
+}
+
+/// Lagrange's functions of these points, by the barycentric formula.
+fn lagrange(count: usize, x: f64) -> Vec<f64> {
+    let share = |(k, node): (usize, f64)| {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let angle = std::f64::consts::PI * (k as f64 + 0.5) / count as f64;
+        (sign * angle.sin(), x - node)
+    };
+    let shares: Vec<(f64, f64)> = chebyshev(count).enumerate().map(share).collect();
+    if let Some(at) = shares.iter().position(|(_, distance)| *distance == 0.0) {
+        return (0..count)
+            .map(|k| if k == at { 1.0 } else { 0.0 })
+            .collect();
+    }
+    let sum: f64 = shares
+        .iter()
+        .map(|(weight, distance)| weight / distance)
+        .sum();
+    shares
+        .iter()
+        .map(|(weight, distance)| weight / distance / sum)
+        .collect()
+}

@@ -1,0 +1,119 @@
+//! The potential of stretching on a few shapes: a quadratic form in the products of their coordinates.
+
+use faer::{Col, Mat, MatRef, Scale};
+use rayon::prelude::*;
+
+use super::strain::Strain;
+use super::{Stretching, StretchingError};
+
+/// [`Stretching`] on r shapes, the columns of V: U₄(V p) = ½ zᵀQz with the r(r+1)/2 products
+/// z = (p_a p_b), a ≥ b, and Q symmetric, positive semidefinite.
+#[derive(Debug, Clone)]
+pub struct ReducedStretching {
+    order: usize,
+    /// Q, r(r+1)/2 of each: pairs (0, 0), (1, 0), (1, 1), (2, 0) …
+    quartic: Mat<f64>,
+}
+
+impl ReducedStretching {
+    /// Of the shapes that are the columns of V, N × r.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn new(stretching: &Stretching, basis: MatRef<'_, f64>) -> Result<Self, StretchingError> {
+        let order = basis.ncols();
+        let slopes = (0..order)
+            .map(|k| stretching.slopes(&basis.col(k).to_owned()))
+            .collect::<Result<Vec<_>, _>>()?;
+        let pairs: Vec<(usize, usize)> = pairs(order).collect();
+        let columns: Vec<Vec<f64>> = pairs
+            .par_iter()
+            .map(|&(a, b)| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
+            .collect();
+        let height = columns.first().map_or(0, Vec::len);
+        // e is p_a p_b once for a = b and twice for a < b; U₄ = |Z e|².
+        let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
+            let times = if pairs[k].0 == pairs[k].1 { 1.0 } else { 2.0 };
+            times * columns[k][i]
+        });
+        Ok(ReducedStretching {
+            order,
+            quartic: Scale(2.0) * (relaxed.transpose() * &relaxed),
+        })
+    }
+
+    /// Number of shapes r.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Q, in 1/(kg m²s²) for shapes in 1/√kg.
+    pub fn quartic(&self) -> MatRef<'_, f64> {
+        self.quartic.as_ref()
+    }
+
+    /// U₄, in J.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn energy_j(&self, coordinates: &Col<f64>) -> Result<f64, StretchingError> {
+        let products = self.products(coordinates)?;
+        Ok(0.5 * (products.transpose() * (&self.quartic * &products)))
+    }
+
+    /// ∂U₄/∂p, in N/√kg.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn gradient(&self, coordinates: &Col<f64>) -> Result<Col<f64>, StretchingError> {
+        let tension = &self.quartic * self.products(coordinates)?;
+        Ok(self.symmetric(&tension) * coordinates)
+    }
+
+    /// ∂²U₄/∂p², in 1/s², symmetric.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn hessian(&self, coordinates: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
+        let tension = &self.quartic * self.products(coordinates)?;
+        let slope = self.product_slopes(coordinates);
+        Ok(self.symmetric(&tension) + slope.transpose() * (&self.quartic * &slope))
+    }
+
+    /// z.
+    fn products(&self, p: &Col<f64>) -> Result<Col<f64>, StretchingError> {
+        if p.nrows() != self.order {
+            return Err(StretchingError::Length {
+                given: p.nrows(),
+                expected: self.order,
+            });
+        }
+        let products: Vec<f64> = pairs(self.order).map(|(a, b)| p[a] * p[b]).collect();
+        Ok(Col::from_fn(products.len(), |i| products[i]))
+    }
+
+    /// ∂z/∂p.
+    fn product_slopes(&self, p: &Col<f64>) -> Mat<f64> {
+        let mut slopes = Mat::zeros(self.quartic.nrows(), self.order);
+        for (i, (a, b)) in pairs(self.order).enumerate() {
+            slopes[(i, a)] += p[b];
+            slopes[(i, b)] += p[a];
+        }
+        slopes
+    }
+
+    /// S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair at its two places, twice at one.
+    fn symmetric(&self, tension: &Col<f64>) -> Mat<f64> {
+        let mut matrix = Mat::zeros(self.order, self.order);
+        for (i, (a, b)) in pairs(self.order).enumerate() {
+            matrix[(a, b)] += tension[i];
+            matrix[(b, a)] += tension[i];
+        }
+        matrix
+    }
+}
+
+/// Pairs a ≥ b.
+fn pairs(order: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..order).flat_map(|a| (0..=a).map(move |b| (a, b)))
+}

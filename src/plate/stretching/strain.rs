@@ -1,0 +1,165 @@
+//! Slopes of a deflection and the strains of their products, harmonic by harmonic.
+
+/// Real and imaginary part of something at all nodes.
+type Parts = [Vec<f64>; 2];
+
+/// wₙ′ and i n wₙ/r at the nodes, n = 0 … n_max; those of −n are the conjugates. Or forces on them.
+#[derive(Debug, Clone)]
+pub struct Slopes {
+    /// Radial and hoop slope of each n; `None` where both are zero.
+    waves: Vec<Option<[Parts; 2]>>,
+    nodes: usize,
+}
+
+impl Slopes {
+    /// Zero.
+    pub fn none(max_diameters: usize, nodes: usize) -> Self {
+        Slopes {
+            waves: vec![None; max_diameters + 1],
+            nodes,
+        }
+    }
+
+    /// Sets both slopes of n at a node, each as real and imaginary part.
+    pub fn set(&mut self, n: usize, node: usize, radial: [f64; 2], hoop: [f64; 2]) {
+        let nodes = self.nodes;
+        let zero = || [0, 1].map(|_| vec![0.0; nodes]);
+        let wave = self.waves[n].get_or_insert_with(|| [zero(), zero()]);
+        for (slope, value) in wave.iter_mut().zip([radial, hoop]) {
+            slope[0][node] = value[0];
+            slope[1][node] = value[1];
+        }
+    }
+
+    /// Both slopes of n at a node.
+    pub fn at(&self, n: usize, node: usize) -> [[f64; 2]; 2] {
+        match &self.waves[n] {
+            Some(wave) => [0, 1].map(|k| [wave[k][0][node], wave[k][1][node]]),
+            None => [[0.0; 2]; 2],
+        }
+    }
+
+    /// Those n, negative ones too, that are there.
+    fn present(&self) -> impl Iterator<Item = (isize, &[Parts; 2])> {
+        let waves = self.waves.iter().enumerate();
+        waves.flat_map(|(n, wave)| {
+            let n = n as isize;
+            let both = if n == 0 { 1 } else { 2 };
+            wave.iter()
+                .flat_map(move |wave| [(n, wave), (-n, wave)].into_iter().take(both))
+        })
+    }
+}
+
+/// [ε_rr, ε_θθ, iγ_rθ] at the nodes, m = 0 … 2 n_max, of a product of two deflections: the factors of
+/// e^{imθ}. i makes one real stiffness serve all three. Or stresses, in their place.
+#[derive(Debug, Clone)]
+pub struct Strain {
+    /// Real and imaginary part of each m, 3 values a node: all ε_rr, all ε_θθ, all iγ_rθ.
+    harmonics: Vec<Parts>,
+    nodes: usize,
+}
+
+impl Strain {
+    /// Zero.
+    pub fn none(max_order: usize, nodes: usize) -> Self {
+        Strain {
+            harmonics: vec![[0, 1].map(|_| vec![0.0; 3 * nodes]); max_order + 1],
+            nodes,
+        }
+    }
+
+    /// e(v, w) = ½ sym(∇v ⊗ ∇w): [v′w′/2, v_θ w_θ/2r², (v′w_θ + v_θ w′)/2r].
+    pub fn of(v: &Slopes, w: &Slopes) -> Self {
+        let mut strain = Strain::none(2 * (v.waves.len() - 1), v.nodes);
+        let nodes = v.nodes;
+        for (n, left) in v.present() {
+            for (k, right) in w.present() {
+                let Ok(m) = usize::try_from(n + k) else {
+                    continue;
+                };
+                let [re, im] = &mut strain.harmonics[m];
+                let (re_rr, re) = re.split_at_mut(nodes);
+                let (re_tt, re_rt) = re.split_at_mut(nodes);
+                let (im_rr, im) = im.split_at_mut(nodes);
+                let (im_tt, im_rt) = im.split_at_mut(nodes);
+                let [left_sign, right_sign] = [n, k].map(conjugation);
+                let [[vr, vri], [vt, vti]] = left;
+                let [[wr, wri], [wt, wti]] = right;
+                for j in 0..nodes {
+                    let (ar, ai) = (0.5 * vr[j], 0.5 * left_sign * vri[j]);
+                    let (br, bi) = (0.5 * vt[j], 0.5 * left_sign * vti[j]);
+                    let (cr, ci) = (wr[j], right_sign * wri[j]);
+                    let (dr, di) = (wt[j], right_sign * wti[j]);
+                    re_rr[j] += ar * cr - ai * ci;
+                    im_rr[j] += ar * ci + ai * cr;
+                    re_tt[j] += br * dr - bi * di;
+                    im_tt[j] += br * di + bi * dr;
+                    // i (a d + b c).
+                    re_rt[j] -= ar * di + ai * dr + br * ci + bi * cr;
+                    im_rt[j] += ar * dr - ai * di + br * cr - bi * ci;
+                }
+            }
+        }
+        strain
+    }
+
+    /// Real and imaginary part of each m.
+    pub fn harmonics(&self) -> impl Iterator<Item = &Parts> {
+        self.harmonics.iter()
+    }
+
+    /// The same to be changed.
+    pub fn harmonics_mut(&mut self) -> impl Iterator<Item = &mut Parts> {
+        self.harmonics.iter_mut()
+    }
+
+    /// Forces on the slopes of v, so that their work is the derivative 4 Σₘ Re(sₘ* eₘ(v, w)), s these
+    /// stresses: force n is 4 Σₘ wₘ₋ₙ* sₘ/2 over positive and negative m, for 2 Re of n > 0.
+    pub fn pulled_back(&self, w: &Slopes) -> Slopes {
+        let nodes = self.nodes;
+        let mut forces = Slopes::none(w.waves.len() - 1, nodes);
+        for n in 0..forces.waves.len() as isize {
+            let mut radial = [vec![0.0; nodes], vec![0.0; nodes]];
+            let mut hoop = radial.clone();
+            for (k, wave) in w.present() {
+                self.add_force(n + k, (k, wave), (&mut radial, &mut hoop));
+            }
+            forces.waves[n as usize] = Some([radial, hoop]);
+        }
+        forces
+    }
+
+    /// Adds what the stress of harmonic m exerts through the wave k of w.
+    fn add_force(
+        &self,
+        m: isize,
+        (k, [[wr, wri], [wt, wti]]): (isize, &[Parts; 2]),
+        ([fr, fri], [ft, fti]): (&mut Parts, &mut Parts),
+    ) {
+        let nodes = self.nodes;
+        let [re, im] = &self.harmonics[m.unsigned_abs()];
+        // Stresses of −m are conjugate, and iτ changes its sign besides. Half of each pair of
+        // harmonics is ±m.
+        let share = if m == 0 { 2.0 } else { 1.0 };
+        let (side, wave_side) = (conjugation(m), -conjugation(k));
+        for j in 0..nodes {
+            let (cr, ci) = (share * wr[j], share * wave_side * wri[j]);
+            let (dr, di) = (share * wt[j], share * wave_side * wti[j]);
+            let (rr, rri) = (re[j], side * im[j]);
+            let (tt, tti) = (re[nodes + j], side * im[nodes + j]);
+            // −i times iτ.
+            let (rt, rti) = (im[2 * nodes + j], -re[2 * nodes + j]);
+            let (rt, rti) = (rt, side * rti);
+            fr[j] += cr * rr - ci * rri + dr * rt - di * rti;
+            fri[j] += cr * rri + ci * rr + dr * rti + di * rt;
+            ft[j] += dr * tt - di * tti + cr * rt - ci * rti;
+            fti[j] += dr * tti + di * tt + cr * rti + ci * rt;
+        }
+    }
+}
+
+/// Sign of the imaginary part of a wave that is kept for positive n.
+fn conjugation(n: isize) -> f64 {
+    if n < 0 { -1.0 } else { 1.0 }
+}
