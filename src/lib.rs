@@ -26,8 +26,8 @@
 //! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
 //! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`],
 //! [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
-//! [`plate`] alone. [`analytical`] imports nothing: closed forms with their sources, which the
-//! tests hold the rest against.
+//! [`plate`] alone, [`stretched`] beside [`campbell`]. [`analytical`] imports nothing: closed
+//! forms with their sources, which the tests hold the rest against.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -53,6 +53,7 @@ pub mod scene;
 pub mod spectrum;
 pub mod spline;
 pub mod stability;
+pub mod stretched;
 pub mod study;
 mod summary;
 pub mod system;

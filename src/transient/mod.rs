@@ -22,6 +22,7 @@ mod runup;
 mod saw_in_cut;
 mod scenario;
 mod sinusoids;
+mod stretching;
 mod teeth;
 mod verdict_map;
 

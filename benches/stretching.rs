@@ -1,0 +1,67 @@
+//! Cost of the potential of stretching on the basis of `design`, on 30 shapes, and of what is found with it.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use faer::{Col, Mat};
+use sawflutter::plate::{Plate, ReducedStretching, Resolution, Stretching};
+use sawflutter::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::stretched::StretchedBlade;
+
+fn main() {
+    let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
+    let order = plate.degrees_of_freedom();
+    // The cost does not depend on the shapes, as long as every harmonic takes part in each.
+    let shapes = Mat::from_fn(order, 30, |i, k| {
+        ((1 + k) as f64 * (0.7 * i as f64 + 1.0)).sin()
+    });
+    let stretching = Stretching::new(&plate).expect("a potential");
+    let form = || ReducedStretching::new(&stretching, shapes.as_ref()).expect("a form");
+    let reduced = form();
+    let p = Col::from_fn(30, |k| 1e-3 * k as f64);
+    time("relaxed harmonics", 10, || {
+        black_box(Stretching::new(&plate).expect("a potential"));
+    });
+    time("quartic form of 30 shapes", 10, || {
+        black_box(form());
+    });
+    time("its gradient", 100, || {
+        black_box(reduced.gradient(&p).expect("a gradient"));
+    });
+    time("its Hessian", 100, || {
+        black_box(reduced.hessian(&p).expect("a Hessian"));
+    });
+    let blade = StretchedBlade::new(&plate, 30).expect("a blade");
+    let (critical, shape) = blade.pitchforks().expect("speeds").swap_remove(0);
+    let start = blade.leaned(1.001 * critical, &shape).expect("a lean");
+    let range = (start.speed_rad_per_s, rad_per_s(3000.0));
+    let count = |upwards| {
+        blade
+            .branch(&start, upwards, range)
+            .expect("a branch")
+            .equilibria
+            .len()
+    };
+    println!("{} equilibria of the leaned blade:", count(true));
+    time("up to 3000 rpm", 5, || {
+        black_box(count(true));
+    });
+    time("how far flutter rises at one speed", 5, || {
+        let flutter = StretchedBlade::at_speed(&plate, rad_per_s(2872.0), 15).expect("a blade");
+        black_box(flutter.saturation(rad_per_s(2872.0)).expect("a pair"));
+    });
+}
+
+/// Prints the shortest and the middle one of the times: other work on the machine only ever adds.
+fn time(what: &str, samples: usize, work: impl Fn()) {
+    let mut times: Vec<Duration> = (0..samples)
+        .map(|_| {
+            let begun = Instant::now();
+            work();
+            begun.elapsed()
+        })
+        .collect();
+    times.sort();
+    let (shortest, middle) = (times[0], times[samples / 2]);
+    println!("{what}: {shortest:.1?} at least, median {middle:.1?} of {samples}");
+}

@@ -1,0 +1,271 @@
+//! Equilibria along a curve over speed, through its folds.
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale};
+
+use super::equilibrium::{ITERATIONS, LAST};
+use super::{Equilibrium, StretchedBlade, StretchedError, finite};
+
+/// A curve of equilibria.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// One after the other along the curve.
+    pub equilibria: Vec<Equilibrium>,
+    /// Where ∂²V/∂p² is singular, in the order of the curve.
+    pub turns: Vec<Turn>,
+}
+
+/// A place at which a curve of equilibria turns back, or another one crosses it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turn {
+    /// What happens.
+    pub kind: TurnKind,
+    /// There, with the number of negative eigenvalues of the equilibrium before it.
+    pub equilibrium: Equilibrium,
+}
+
+/// What happens where ∂²V/∂p² is singular.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TurnKind {
+    /// The curve turns back in speed.
+    Fold,
+    /// Another curve crosses.
+    Bifurcation,
+}
+
+/// Longest step along the curve, as a share of the range of speeds, or of that size in deflection.
+const LONGEST: f64 = 0.02;
+/// A step of less than this share of the longest is given up.
+const SHORTEST: f64 = 1e-4;
+/// Steps that a correction took so many iterations for are halved, and doubled for fewer than three.
+const MANY: usize = 6;
+/// Most equilibria of a curve.
+const MOST: usize = 4000;
+
+/// A point of the curve with its direction, (p over a size, Ω over another), of unit length.
+struct Place {
+    equilibrium: Equilibrium,
+    direction: Col<f64>,
+}
+
+impl StretchedBlade {
+    /// Follows a curve of equilibria from one of them, towards higher speeds, or else lower ones, until it
+    /// leaves the range of speeds.
+    ///
+    /// # Errors
+    /// [`StretchedError::Value`] for a range that is none or that does not contain the start;
+    /// [`StretchedError::NotFound`] where the curve is lost.
+    pub fn branch(
+        &self,
+        start: &Equilibrium,
+        upwards: bool,
+        (from_rad_per_s, to_rad_per_s): (f64, f64),
+    ) -> Result<Branch, StretchedError> {
+        finite("the lower end of the range in rad/s", from_rad_per_s)?;
+        finite("the upper end of the range in rad/s", to_rad_per_s)?;
+        let speed = start.speed_rad_per_s;
+        if !(from_rad_per_s..=to_rad_per_s).contains(&speed) || from_rad_per_s == to_rad_per_s {
+            return Err(StretchedError::Value {
+                what: "the speed of the start in rad/s",
+                value: speed,
+                allowed: " within the range of speeds, which must not be empty",
+            });
+        }
+        let curve = Curve {
+            blade: self,
+            size: self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt(),
+            range_rad_per_s: to_rad_per_s - from_rad_per_s,
+        };
+        let order = self.force.nrows();
+        let towards = Col::from_fn(order + 1, |i| match (i == order, upwards) {
+            (false, _) => 0.0,
+            (true, true) => 1.0,
+            (true, false) => -1.0,
+        });
+        let mut place = Place {
+            direction: curve.direction(start, &towards)?,
+            equilibrium: start.clone(),
+        };
+        let mut branch = Branch {
+            equilibria: vec![start.clone()],
+            turns: Vec::new(),
+        };
+        let mut step = 0.1 * LONGEST;
+        while branch.equilibria.len() < MOST {
+            let Some((next, iterations)) = curve.advanced(&place, step)? else {
+                step *= 0.5;
+                if step < SHORTEST * LONGEST {
+                    return Err(self.not_found(
+                        &place.equilibrium.coordinates,
+                        place.equilibrium.speed_rad_per_s,
+                    ));
+                }
+                continue;
+            };
+            branch.turns.extend(curve.turn(&place, &next, step)?);
+            let outside = next.equilibrium.speed_rad_per_s;
+            if !(from_rad_per_s..=to_rad_per_s).contains(&outside) {
+                let edge = outside.clamp(from_rad_per_s, to_rad_per_s);
+                let last = self.equilibrium(edge, Some(&next.equilibrium.coordinates))?;
+                branch.turns.retain(|turn| {
+                    let speed = turn.equilibrium.speed_rad_per_s;
+                    (from_rad_per_s..=to_rad_per_s).contains(&speed)
+                });
+                branch.equilibria.push(last);
+                break;
+            }
+            branch.equilibria.push(next.equilibrium.clone());
+            place = next;
+            if iterations < 3 {
+                step = (2.0 * step).min(LONGEST);
+            }
+        }
+        Ok(branch)
+    }
+}
+
+/// The curve in the units of its steps.
+struct Curve<'a> {
+    blade: &'a StretchedBlade,
+    /// Of p, in √kg·m: a thickness of the whole blade.
+    size: f64,
+    range_rad_per_s: f64,
+}
+
+impl Curve<'_> {
+    /// The place a step further along the direction, and the iterations that it took; `None` where none
+    /// is found, or where the direction turns by much.
+    fn advanced(&self, place: &Place, step: f64) -> Result<Option<(Place, usize)>, StretchedError> {
+        let order = place.direction.nrows() - 1;
+        let begun = self.scaled(&place.equilibrium);
+        let mut x = &begun + Scale(step) * &place.direction;
+        for iteration in 1..=ITERATIONS.min(MANY) {
+            let (p, speed) = self.unscaled(&x);
+            let rest = self.blade.residual(&p, speed)?;
+            let along = place.direction.transpose() * (&x - &begun) - step;
+            let right = Col::from_fn(order + 1, |i| if i < order { rest[i] } else { along });
+            let correction = self
+                .bordered(&p, speed, &place.direction)?
+                .partial_piv_lu()
+                .solve(&right);
+            x -= &correction;
+            if !correction.norm_l2().is_finite() {
+                return Ok(None);
+            }
+            if correction.norm_l2() <= LAST * step {
+                let (p, speed) = self.unscaled(&x);
+                let equilibrium = self.blade.at(p, speed)?;
+                let Ok(direction) = self.direction(&equilibrium, &place.direction) else {
+                    return Ok(None);
+                };
+                // Within 25 degrees.
+                let straight = direction.transpose() * &place.direction > 0.9;
+                let next = Place {
+                    equilibrium,
+                    direction,
+                };
+                return Ok(straight.then_some((next, iteration)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The direction of the curve at an equilibrium, on the side of another.
+    fn direction(
+        &self,
+        equilibrium: &Equilibrium,
+        towards: &Col<f64>,
+    ) -> Result<Col<f64>, StretchedError> {
+        let order = towards.nrows() - 1;
+        let Equilibrium {
+            coordinates,
+            speed_rad_per_s,
+            ..
+        } = equilibrium;
+        let matrix = self.bordered(coordinates, *speed_rad_per_s, towards)?;
+        let last = Col::from_fn(order + 1, |i| if i == order { 1.0 } else { 0.0 });
+        let direction = matrix.partial_piv_lu().solve(&last);
+        let length = direction.norm_l2();
+        match length.is_finite() && length > 0.0 {
+            true => Ok(Scale(1.0 / length) * direction),
+            false => Err(self.blade.not_found(coordinates, *speed_rad_per_s)),
+        }
+    }
+
+    /// [∂²V/∂p² · size, ∂²V/∂p∂Ω · range; tᵀ].
+    fn bordered(&self, p: &Col<f64>, speed: f64, t: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
+        let order = p.nrows();
+        let hessian = self.blade.hessian(p, speed)?;
+        let softening = self.blade.softening(p, speed);
+        Ok(Mat::from_fn(order + 1, order + 1, |i, k| {
+            match (i < order, k < order) {
+                (true, true) => hessian[(i, k)] * self.size,
+                (true, false) => softening[i] * self.range_rad_per_s,
+                (false, _) => t[k],
+            }
+        }))
+    }
+
+    /// Where, between two places, ∂²V/∂p² is singular: the step, by false position, at which the
+    /// speed is largest or smallest, or else the eigenvalue that changes its sign is zero.
+    fn turn(&self, from: &Place, to: &Place, step: f64) -> Result<Option<Turn>, StretchedError> {
+        let order = from.direction.nrows() - 1;
+        let counts = [from, to].map(|place| place.equilibrium.negative_eigenvalues);
+        let turns_back = from.direction[order] * to.direction[order] < 0.0;
+        if counts[0] == counts[1] && !turns_back {
+            return Ok(None);
+        }
+        let value = |place: &Place| -> Result<f64, StretchedError> {
+            if turns_back {
+                return Ok(place.direction[order]);
+            }
+            let e = &place.equilibrium;
+            let values = self.blade.stiffnesses(&e.coordinates, e.speed_rad_per_s)?;
+            Ok(values[counts[0].min(counts[1])])
+        };
+        let mut ends = [(0.0, value(from)?), (step, value(to)?)];
+        let scale = ends[0].1.abs().max(ends[1].1.abs());
+        let mut found = to.equilibrium.clone();
+        for _ in 0..ITERATIONS {
+            let [(low, at_low), (high, at_high)] = ends;
+            let middle = low - at_low * (high - low) / (at_high - at_low);
+            let Some((place, _)) = self.advanced(from, middle)? else {
+                break;
+            };
+            let at = value(&place)?;
+            found = place.equilibrium;
+            if at.abs() < LAST * scale {
+                break;
+            }
+            // The end that stays counts half as much the next time (the Illinois rule).
+            ends = match (at < 0.0) == (at_low < 0.0) {
+                true => [(middle, at), (high, 0.5 * at_high)],
+                false => [(low, 0.5 * at_low), (middle, at)],
+            };
+        }
+        found.negative_eigenvalues = counts[0];
+        // Where the curve turns back and the count stays, it touches another at a pitchfork.
+        let kind = match turns_back && counts[0] != counts[1] {
+            true => TurnKind::Fold,
+            false => TurnKind::Bifurcation,
+        };
+        Ok(Some(Turn {
+            kind,
+            equilibrium: found,
+        }))
+    }
+
+    fn scaled(&self, equilibrium: &Equilibrium) -> Col<f64> {
+        let p = &equilibrium.coordinates;
+        Col::from_fn(p.nrows() + 1, |i| match i < p.nrows() {
+            true => p[i] / self.size,
+            false => equilibrium.speed_rad_per_s / self.range_rad_per_s,
+        })
+    }
+
+    fn unscaled(&self, x: &Col<f64>) -> (Col<f64>, f64) {
+        let order = x.nrows() - 1;
+        let p = Col::from_fn(order, |i| x[i] * self.size);
+        (p, x[order] * self.range_rad_per_s)
+    }
+}

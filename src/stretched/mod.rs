@@ -1,0 +1,228 @@
+//! A blade that stretches: where it stands still, small motions about that, and how far flutter rises.
+//!
+//! The blade without damping has the potential V(q) = ½ qᵀK(Ω)q + U₄(q) − fᵀq, U₄ of
+//! [`Stretching`]. Past its first critical speed K is indefinite: the flat blade is no minimum of V, and
+//! a blade that leans to one side is. Each edge of a band of divergence is a pitchfork, at which two such
+//! equilibria leave the flat one; a side force f unfolds it.
+//!
+//! In goes a [`Plate`], held by its guides or a collar, with a number of shapes, its lowest modes at rest; out
+//! come equilibria over speed, in metres through [`StretchedBlade::deflection_m`], the number of negative
+//! eigenvalues of ∂²V/∂q², and the eigenvalues λ of small motions,
+//! λ² + λ 2ΩG + K(Ω) + ∂²U₄/∂q² = 0, in 1/s. Where that number is zero the equilibrium is stable, and
+//! stays so with any damping that stands in space; elsewhere gyroscopic forces may hold the undamped
+//! blade, and such damping lets go of it in the end (Thomson, Tait & Chetaev; see W. T. Thomson & P. G. Tait,
+//! *Treatise on Natural Philosophy*, 1879, §345).
+//!
+//! Equilibria are followed by pseudo-arclength (H. B. Keller, in *Applications of Bifurcation Theory*, 1977, 359–384).
+
+mod branch;
+mod equilibrium;
+mod saturation;
+
+pub use branch::{Branch, Turn, TurnKind};
+pub use equilibrium::Equilibrium;
+pub use saturation::Saturation;
+
+use faer::{Col, Mat, MatRef, Scale, Side};
+
+use crate::plate::{Plate, ReducedStretching, Stretching, StretchingError};
+use crate::scene::rpm;
+use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
+use crate::system::GyroscopicSystem;
+
+/// Why a blade that stretches has no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum StretchedError {
+    /// Heave or tilt that nothing resists.
+    #[error(
+        "nothing holds the blade laterally, so that it stands still nowhere in particular; add a guide, or clamp the bore"
+    )]
+    NotHeld,
+    /// More shapes than functions, or none.
+    #[error("{given} shapes were asked for; give 1 to {most}, of which 20 to 40 are usual")]
+    Shapes {
+        /// Shapes that were asked for.
+        given: usize,
+        /// Functions of the basis.
+        most: usize,
+    },
+    /// Newton's method came to no end.
+    #[error(
+        "no equilibrium was found at {rpm:.1} rpm: forces of {residual:.1e} of the elastic ones are left; start nearer to one, or with a smaller force"
+    )]
+    NotFound {
+        /// Rotation speed.
+        rpm: f64,
+        /// Largest force that is left over the largest elastic force.
+        residual: f64,
+    },
+    /// A speed, a force or a range that is no number, or a range without speeds.
+    #[error("{what} is {value}; give a finite number{allowed}")]
+    Value {
+        /// What was given.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed besides.
+        allowed: &'static str,
+    },
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The potential of stretching could not be computed.
+    #[error(transparent)]
+    Stretching(#[from] StretchingError),
+}
+
+/// A blade that stretches, on a few shapes, under a constant side force.
+#[derive(Debug)]
+pub struct StretchedBlade {
+    plate: Plate,
+    /// Columns, N × r, orthonormal.
+    shapes: Mat<f64>,
+    system: GyroscopicSystem,
+    stretching: ReducedStretching,
+    /// On the shapes, in N/√kg.
+    force: Col<f64>,
+}
+
+impl StretchedBlade {
+    /// The lowest `shapes` modes at rest of the plate without damping; no side force.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotHeld`], [`StretchedError::Shapes`],
+    /// [`StretchedError::Spectrum`] where no eigenvectors are found, [`StretchedError::Stretching`].
+    pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
+        let plate = plate.conservative();
+        let full = held(&plate, shapes)?;
+        let order = full.order();
+        let not_found = || SpectrumError::NoConvergence { order, rpm: 0.0 };
+        let modes = full.stiffness.self_adjoint_eigen(Side::Lower);
+        let modes = modes.map_err(|_| not_found())?;
+        let basis = modes.U().subcols(0, shapes).to_owned();
+        Self::on(plate, &full, basis)
+    }
+
+    /// The lowest `modes` modes at a speed, each with its two phases: their eigenvalues there are those
+    /// of the whole basis, as narrow bands of flutter need.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    pub fn at_speed(
+        plate: &Plate,
+        speed_rad_per_s: f64,
+        modes: usize,
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", speed_rad_per_s)?;
+        let plate = plate.conservative();
+        let full = held(&plate, modes)?;
+        let shift = frequency_scale(&plate);
+        let lowest = lowest_eigenpairs(&full, speed_rad_per_s, modes, shift)?;
+        let phases = lowest.into_iter().flat_map(|(_, q)| {
+            let (re, im) = split(&q);
+            [re, im]
+        });
+        let basis = orthonormal(full.order(), &phases.collect::<Vec<_>>(), INDEPENDENT);
+        Self::on(plate, &full, basis)
+    }
+
+    /// On given shapes, orthonormal columns.
+    fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
+        let stretching = ReducedStretching::new(&Stretching::new(&plate)?, shapes.as_ref())?;
+        Ok(StretchedBlade {
+            system: full.project(shapes.as_ref()),
+            force: Col::zeros(shapes.ncols()),
+            stretching,
+            shapes,
+            plate,
+        })
+    }
+
+    /// The same under a force across the blade at a point, fixed in space.
+    ///
+    /// # Errors
+    /// [`StretchedError::Value`].
+    pub fn pressed(
+        mut self,
+        force_n: f64,
+        (radius_m, angle_rad): (f64, f64),
+    ) -> Result<Self, StretchedError> {
+        finite("the force in N", force_n)?;
+        finite("the radius in m", radius_m)?;
+        finite("the angle", angle_rad)?;
+        self.force = Scale(force_n) * self.shapes_at((radius_m, angle_rad));
+        Ok(self)
+    }
+
+    /// The shapes at a place of the blade, in 1/√kg.
+    fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
+        let values = self.plate.functions_at(radius_m, angle_rad);
+        self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
+    }
+
+    /// The shapes, N × r.
+    pub fn shapes(&self) -> MatRef<'_, f64> {
+        self.shapes.as_ref()
+    }
+
+    /// ∂V/∂p.
+    fn residual(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Col<f64>, StretchedError> {
+        let elastic = self.system.stiffness_at(speed_rad_per_s) * p;
+        Ok(elastic + self.stretching.gradient(p)? - &self.force)
+    }
+
+    /// ∂²V/∂p².
+    fn hessian(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Mat<f64>, StretchedError> {
+        Ok(self.system.stiffness_at(speed_rad_per_s) + self.stretching.hessian(p)?)
+    }
+
+    /// ∂²V/∂p∂Ω.
+    fn softening(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Col<f64> {
+        Scale(2.0 * speed_rad_per_s) * (&self.system.spin * p)
+    }
+
+    /// Eigenvalues of ∂²V/∂p², ascending.
+    fn stiffnesses(&self, p: &Col<f64>, speed: f64) -> Result<Vec<f64>, StretchedError> {
+        let failed = || SpectrumError::NoConvergence {
+            order: p.nrows(),
+            rpm: rpm(speed),
+        };
+        let values = self
+            .hessian(p, speed)?
+            .self_adjoint_eigenvalues(Side::Lower);
+        Ok(values.map_err(|_| failed())?)
+    }
+}
+
+/// Directions nearer to the span of the others are left out.
+const INDEPENDENT: f64 = 1e-7;
+
+/// The matrices of a plate that something holds, and that has as many functions as are asked for.
+fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
+    let full = GyroscopicSystem::of_plate(plate);
+    if !full.free_rigid.is_empty() {
+        return Err(StretchedError::NotHeld);
+    }
+    match (1..=full.order()).contains(&shapes) {
+        true => Ok(full),
+        false => Err(StretchedError::Shapes {
+            given: shapes,
+            most: full.order(),
+        }),
+    }
+}
+
+/// The value, or what is wrong with it.
+fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(StretchedError::Value {
+            what,
+            value,
+            allowed: "",
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,254 @@
+//! Equilibria against critical speeds, closed forms of one shape, and the count of Morse.
+
+use faer::{Col, Mat, Scale, c64};
+
+use super::*;
+use crate::plate::Resolution;
+use crate::scene::{Scene, rad_per_s};
+use crate::spectrum::{SpectralModel, companion_eigenpairs, fastest_growing_of};
+use crate::transient::{Force, Integrator, Newmark, State};
+
+const RESOLUTION: Resolution = Resolution {
+    max_diameters: 8,
+    radial_functions: 5,
+};
+
+fn paper() -> Plate {
+    Plate::new(&Scene::paper(), RESOLUTION)
+}
+
+/// The critical speeds of the whole basis, and those of thirty of its 85 shapes.
+#[test]
+fn pitchforks_are_at_the_critical_speeds() {
+    let plate = paper();
+    let blade = StretchedBlade::new(&plate, 30).unwrap();
+    let critical = SpectralModel::critical_speeds(&plate).unwrap();
+    let pitchforks = blade.pitchforks().unwrap();
+    for (critical, (speed, _)) in critical.iter().zip(&pitchforks).take(4) {
+        let error = speed / critical.speed_rad_per_s - 1.0;
+        // Of Rayleigh and Ritz: never below.
+        assert!((-1e-9..2e-3).contains(&error), "{error:e}");
+    }
+}
+
+/// Along the flat blade every pitchfork is a bifurcation, and no other place is.
+#[test]
+fn the_flat_blade_meets_every_pitchfork() {
+    let blade = StretchedBlade::new(&paper(), 16).unwrap();
+    let start = blade.equilibrium(rad_per_s(1000.0), None).unwrap();
+    assert_eq!(start.negative_eigenvalues, 0);
+    let range = (rad_per_s(900.0), rad_per_s(2400.0));
+    let flat = blade.branch(&start, true, range).unwrap();
+    let expected: Vec<f64> = blade
+        .pitchforks()
+        .unwrap()
+        .into_iter()
+        .map(|p| p.0)
+        .collect();
+    let expected: Vec<f64> = expected.into_iter().filter(|s| *s < range.1).collect();
+    assert_eq!(flat.turns.len(), expected.len());
+    assert!(expected.len() >= 4);
+    for (index, (turn, speed)) in flat.turns.iter().zip(&expected).enumerate() {
+        assert_eq!(turn.kind, TurnKind::Bifurcation);
+        assert_eq!(turn.equilibrium.negative_eigenvalues, index);
+        let found = turn.equilibrium.speed_rad_per_s;
+        assert!((found / speed - 1.0).abs() < 1e-7, "{found} {speed}");
+    }
+    let last = flat.equilibria.last().unwrap();
+    assert_eq!(last.speed_rad_per_s, range.1);
+    assert_eq!(last.coordinates.norm_l2(), 0.0);
+}
+
+/// The leaned curve of the first pitchfork leads down to the flat blade at the critical speed, and up
+/// again on the other side.
+#[test]
+fn the_leaned_blade_comes_back_to_the_flat_one_at_the_critical_speed() {
+    let blade = StretchedBlade::new(&paper(), 16).unwrap();
+    let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
+    let leaned = blade.leaned(1.004 * critical, &shape).unwrap();
+    assert_eq!(leaned.negative_eigenvalues, 0);
+    let range = (0.99 * critical, 1.004 * critical);
+    let curve = blade.branch(&leaned, false, range).unwrap();
+    let turn = &curve.turns[0];
+    assert_eq!((curve.turns.len(), turn.kind), (1, TurnKind::Bifurcation));
+    let error = turn.equilibrium.speed_rad_per_s / critical - 1.0;
+    assert!(error.abs() < 1e-6, "{error:e}");
+    let end = &curve.equilibria.last().unwrap().coordinates;
+    let mirrored = (end + &leaned.coordinates).norm_l2() / end.norm_l2();
+    assert!(mirrored < 1e-6, "{mirrored:e}");
+}
+
+/// Near the pitchfork ε² = −vᵀKv/4U₄(v), and the shape that lean takes is held by twice what the flat
+/// blade lacks: ω² about the one is twice −ω² = λ² about the other.
+#[test]
+fn near_a_pitchfork_lean_and_frequency_follow_the_normal_form() {
+    let blade = StretchedBlade::new(&paper(), 16).unwrap();
+    let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
+    let error = |excess: f64| {
+        let speed = critical * (1.0 + excess);
+        let leaned = blade.leaned(speed, &shape).unwrap();
+        let held = shape.transpose() * blade.system.stiffness_at(speed) * &shape;
+        let square = -held / (4.0 * blade.stretching.energy_j(&shape).unwrap());
+        let lean = leaned.coordinates.squared_norm_l2() / square - 1.0;
+        let flat = blade.equilibrium(speed, None).unwrap();
+        assert_eq!(
+            (flat.negative_eigenvalues, leaned.negative_eigenvalues),
+            (1, 0)
+        );
+        let growing = blade.small_motions(&flat).unwrap();
+        let growing = growing.iter().map(|lambda| lambda.re).fold(0.0, f64::max);
+        let swinging = blade.small_motions(&leaned).unwrap()[0];
+        assert!(swinging.re.abs() < 1e-6 * swinging.im, "{swinging}");
+        [lean, swinging.im.powi(2) / (2.0 * growing.powi(2)) - 1.0]
+    };
+    let (near, nearer) = (error(1e-4), error(1e-5));
+    for (near, nearer) in near.iter().zip(nearer) {
+        assert!(
+            near.abs() < 0.05 && nearer.abs() < 0.2 * near.abs(),
+            "{near:e} {nearer:e}"
+        );
+    }
+}
+
+/// V grows without bound in every direction, so that Σ(−1)^(negative eigenvalues) over all equilibria is
+/// one (Morse): one flat blade before the bands, the flat one and a leaned pair in the first, and another
+/// pair after it.
+#[test]
+fn equilibria_are_as_many_as_morse_counts() {
+    let blade = StretchedBlade::new(&paper(), 16).unwrap();
+    let pitchforks = blade.pitchforks().unwrap();
+    let parity = |e: &Equilibrium| {
+        if e.negative_eigenvalues.is_multiple_of(2) {
+            1
+        } else {
+            -1
+        }
+    };
+    let (first, second) = (&pitchforks[0], &pitchforks[1]);
+    let within = 0.5 * (first.0 + second.0);
+    let past = second.0 * 1.0005;
+    for (speed, shapes) in [(0.9 * first.0, 0), (within, 1), (past, 2)] {
+        let flat = blade.equilibrium(speed, None).unwrap();
+        assert_eq!(flat.negative_eigenvalues, shapes);
+        let mut sum = parity(&flat);
+        for (critical, shape) in &pitchforks[..shapes] {
+            // Followed from near the pitchfork.
+            let near = blade.leaned(critical * 1.0001, shape).unwrap();
+            let curve = blade
+                .branch(&near, true, (near.speed_rad_per_s, speed))
+                .unwrap();
+            let end = curve.equilibria.last().unwrap();
+            assert_eq!(end.speed_rad_per_s, speed);
+            sum += 2 * parity(end);
+        }
+        assert_eq!(sum, 1, "{speed}");
+    }
+}
+
+/// One shape under a side force, κ(Ω)p + γp³ = f: the curve on the side that the force does not press to
+/// turns back where κ = −3(γf²/4)^⅓.
+#[test]
+fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
+    let plate = paper().conservative();
+    let several = StretchedBlade::new(&plate, 16).unwrap();
+    let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
+    let one = several.shapes() * &shape;
+    let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
+    let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one);
+    let blade = blade.unwrap().pressed(2.0, (0.355, 0.4)).unwrap();
+    let unit = Col::from_fn(1, |_| 1.0);
+    let gamma = 4.0 * blade.stretching.energy_j(&unit).unwrap();
+    let force = blade.force[0];
+    let stiffness = |speed: f64| blade.system.stiffness_at(speed)[(0, 0)];
+    let most = 2.0 * critical;
+    let against = -force.signum() * (-stiffness(most) / gamma).sqrt();
+    let start = blade
+        .equilibrium(most, Some(&(Scale(against) * &unit)))
+        .unwrap();
+    let curve = blade.branch(&start, false, (0.0, most)).unwrap();
+    assert_eq!(curve.turns.len(), 1);
+    let turn = &curve.turns[0];
+    assert_eq!(turn.kind, TurnKind::Fold);
+    let expected = -3.0 * (gamma * force * force / 4.0).cbrt();
+    let found = stiffness(turn.equilibrium.speed_rad_per_s);
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    // From rest the blade leans with the force, further with every speed, without a turn.
+    let rest = blade.equilibrium(0.0, None).unwrap();
+    let pressed = blade.branch(&rest, true, (0.0, most)).unwrap();
+    assert!(pressed.turns.is_empty());
+    let at_rim = |e: &Equilibrium| blade.deflection_m(e, 0.355, 0.4);
+    let rises = pressed.equilibria.windows(2);
+    assert!(
+        rises
+            .into_iter()
+            .all(|pair| at_rim(&pair[1]) > at_rim(&pair[0]))
+    );
+    let end = pressed.equilibria.last().unwrap();
+    let p = end.coordinates[0];
+    let rest = stiffness(most) * p + gamma * p.powi(3) - force;
+    assert!(rest.abs() < 1e-8 * force.abs(), "{rest:e}");
+}
+
+#[test]
+fn what_cannot_be_answered_is_refused() {
+    let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
+    let free = StretchedBlade::new(&Plate::new(&free, RESOLUTION), 8);
+    assert!(matches!(free, Err(StretchedError::NotHeld)));
+    let none = StretchedBlade::new(&paper(), 0);
+    assert!(matches!(none, Err(StretchedError::Shapes { given: 0, .. })));
+    let blade = StretchedBlade::new(&paper(), 4).unwrap();
+    assert!(blade.equilibrium(f64::NAN, None).is_err());
+    let start = blade.equilibrium(10.0, None).unwrap();
+    assert!(blade.branch(&start, true, (20.0, 30.0)).is_err());
+    assert!(blade.branch(&start, true, (10.0, 10.0)).is_err());
+    let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
+    let below = blade.leaned(0.9 * critical, &shape);
+    assert!(matches!(below, Err(StretchedError::NotFound { .. })));
+    assert!(blade.pressed(f64::INFINITY, (0.3, 0.0)).is_err());
+}
+
+/// Flutter of the undamped blade from a small motion, by the integrator that keeps the energy, against
+/// the loop of the normal form, in the middle of a band and nearer to its beginning.
+#[test]
+fn flutter_rises_as_far_as_the_normal_form_says() {
+    let plate = paper().conservative();
+    // The band near 2260 rpm, 10 rpm wide.
+    for rpm in [2267.0, 2264.0] {
+        let speed = rad_per_s(rpm);
+        let blade = StretchedBlade::at_speed(&plate, speed, 6).unwrap();
+        let predicted = blade.saturation(speed).unwrap().unwrap();
+        let growth = fastest_growing_of(&plate, speed).unwrap().unwrap().re;
+        assert!((predicted.growth_per_s / growth - 1.0).abs() < 1e-5);
+        let largest = simulated(&blade, &predicted);
+        let error = predicted.amplitude_m / largest - 1.0;
+        assert!(error.abs() < 5e-3, "{predicted:?} {largest}");
+    }
+    // Outside of the band nothing grows.
+    let blade = StretchedBlade::at_speed(&plate, rad_per_s(1000.0), 6).unwrap();
+    assert_eq!(blade.saturation(rad_per_s(1000.0)).unwrap(), None);
+}
+
+/// The largest deflection, at the place where it is predicted, of a motion that grows from a tenth of it.
+fn simulated(blade: &StretchedBlade, predicted: &Saturation) -> f64 {
+    let speed = predicted.speed_rad_per_s;
+    let pairs = companion_eigenpairs(&blade.system, speed).unwrap();
+    let fastest = pairs.iter().max_by(|x, y| x.0.re.total_cmp(&y.0.re));
+    let (lambda, wave) = fastest.unwrap();
+    let reading = blade.shapes_at((predicted.radius_m, predicted.angle_rad));
+    let order = wave.nrows();
+    let at_place = (0..order).map(|i| wave[i] * reading[i]).sum::<c64>().norm();
+    let small = 0.1 * predicted.amplitude_m / at_place;
+    let mut state = State {
+        displacement: Col::from_fn(order, |i| small * wave[i].re),
+        velocity: Col::from_fn(order, |i| small * (wave[i] * *lambda).re),
+    };
+    let forces: [&dyn Force; 1] = [&blade.stretching];
+    let step_s = std::f64::consts::TAU / predicted.frequency_rad_per_s / 60.0;
+    let newmark = Newmark::new(&blade.system, (speed, 0.0), &[], step_s).with_forces(&forces);
+    let mut largest = 0.0_f64;
+    for _ in 0..(5.0 / predicted.growth_per_s / step_s) as usize {
+        state = newmark.step(&state, [&[], &[]]).unwrap();
+        largest = largest.max((reading.transpose() * &state.displacement).abs());
+    }
+    largest
+}
