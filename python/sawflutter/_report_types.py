@@ -612,8 +612,8 @@ class HeatLimit(Entry):
     """Peak of the profile."""
 
     name: str
-    """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves
-    where none dominates."""
+    """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of
+    waves where none dominates."""
 
     nodal_diameters: int
     """Nodal diameters of that wave, or of the one with the largest share."""

@@ -196,6 +196,8 @@ def test_what_cannot_be_placed_is_refused(draft: sf.Scene) -> None:
         draft.replace({"operating_rpm": None, "cut": None}).place(goal="window")
     with pytest.raises(sf.ArgumentError, match="map"):
         draft.place(map=1)
+    with pytest.raises(sf.ArgumentError, match="radius_tolerance_m"):
+        draft.place(radius_tolerance_m=2.0)
 
 
 def test_tradeoff_measures_time_and_error(draft: sf.Scene, tmp_path: Path) -> None:
