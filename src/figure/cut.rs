@@ -210,10 +210,11 @@ fn facts(run: &CutRunEntry) -> String {
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {
         let name = entry.criterion;
-        format!("{name} {:.2}", growth(entry.growth_per_s))
+        // A line ends between two of them.
+        format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
     format!(
-        "largest {}; {} 1/s",
+        "largest {}; {}\u{a0}1/s",
         length(largest_m(run)),
         criteria.collect::<Vec<_>>().join(", ")
     )

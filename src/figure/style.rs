@@ -127,10 +127,10 @@ pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     }
 }
 
-/// The text on as many lines as it takes, broken at spaces.
+/// The text on as many lines as it takes, broken at spaces other than those that do not break.
 pub fn broken(text: &str, em: f64, weight: Weight, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split(' ') {
         let longer = |line: &String| format!("{line} {word}");
         let fits = |line: &&mut String| text_width(&longer(line), em, weight) <= room;
         match lines.last_mut().filter(fits) {

@@ -30,12 +30,12 @@ pub fn unit(path: &str) -> (&'static str, f64) {
     handy.map_or((own, 1.0), |(_, unit, factor)| (unit, *factor))
 }
 
-/// Name, number and unit: "radius of guide 1 250.3 mm".
+/// Name, number and unit: "radius of guide 1: 250.3 mm".
 pub fn in_words(path: &str, value: f64) -> String {
     let (unit, factor) = unit(path);
     let space = if matches!(unit, "" | "°") { "" } else { " " };
     format!(
-        "{} {}{space}{unit}",
+        "{}: {}{space}{unit}",
         name(path),
         four_digits(factor * value)
     )
@@ -69,12 +69,12 @@ mod tests {
         ]
         .map(|(path, value)| in_words(path, value));
         let expected = [
-            "stiffness of guide 1 5.988·10⁸ N/m",
-            "radius of guide 2 250.3 mm",
-            "angle of guide 1 \u{2212}119.9°",
-            "Young's modulus 210.0 GPa",
-            "density 7850 kg/m³",
-            "an.unknown_key 2.000",
+            "stiffness of guide 1: 5.988·10⁸ N/m",
+            "radius of guide 2: 250.3 mm",
+            "angle of guide 1: \u{2212}119.9°",
+            "Young's modulus: 210.0 GPa",
+            "density: 7850 kg/m³",
+            "an.unknown_key: 2.000",
         ];
         assert_eq!(said, expected);
     }

@@ -133,7 +133,7 @@ fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
     is_early.then(|| {
         format!(
-            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a              coarser accuracy goes further",
+            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a coarser accuracy goes further",
             shown_to(3, rpm(end)),
             shown_to(3, rpm(usual))
         )

@@ -74,7 +74,7 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     let shown = chart.speed.values();
     notes.extend(left_out(chart.report, shown, labels.count()));
     if growth::hides_decay(chart.report) {
-        notes.push("growing modes have decaying mirror images, not shown".to_owned());
+        notes.push("decaying mirror images not shown".to_owned());
     }
     let room = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
     let notes = shorten(

@@ -8,12 +8,12 @@ use super::super::style::{
     Weight, text_width,
 };
 use super::{Chart, WIDTH, waves};
-use crate::report::InstabilityKind;
+use crate::report::{CriticalSpeedEntry, InstabilityKind};
 
 /// Baselines of the critical speeds and of the waves that stand still there, and the upper end of the lines to them.
-const CRITICAL_BASELINE: f64 = 79.0;
-const WAVES_BASELINE: f64 = 93.0;
-const CRITICAL_TOP: f64 = 97.0;
+const CRITICAL_BASELINE: f64 = 83.0;
+const WAVES_BASELINE: f64 = 97.0;
+const CRITICAL_TOP: f64 = 101.0;
 /// Room for the waves of a single speed.
 const LEAST_WIDTH: f64 = 44.0;
 
@@ -71,8 +71,14 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     let Some(first) = clusters.first() else {
         return;
     };
-    let captions = ["critical [rpm]", "nodal diameters"];
-    if MARGIN + width(captions[1]) < first.centre - width(&first.label) / 2.0 {
+    let of_speeds = match chart.report.critical_speeds_without_damping {
+        true => "undamped critical [rpm]",
+        false => "critical [rpm]",
+    };
+    let captions = [of_speeds, "nodal diameters"];
+    if MARGIN + width(captions[0]).max(width(captions[1]))
+        < first.centre - width(&first.label) / 2.0
+    {
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
         for (caption, baseline) in captions
             .into_iter()
@@ -83,24 +89,28 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     }
 }
 
-/// The waves that stand still at some critical speeds: "n = 2", "n = 2, 3", "n = 2 … 13"; "2/1" where they have a
-/// nodal circle.
+/// The waves that stand still at some critical speeds, in their order: "n = 2", "n = 3 · 2", "n = 2 … 13".
 fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
-    let entries = chart.report.critical_speeds.iter();
-    let among = entries.filter(|entry| speeds.contains(&entry.rpm));
-    let mut waves: Vec<_> = among
-        .map(|e| (e.nodal_diameters, e.nodal_circles))
-        .collect();
-    waves.sort_unstable();
-    waves.dedup();
-    let names = waves.iter().map(|(diameters, circles)| match circles {
-        0 => diameters.to_string(),
-        _ => format!("{diameters}/{circles}"),
-    });
-    let names: Vec<String> = names.collect();
-    match &names[..] {
-        [first, .., last] if names.len() > 3 => format!("n = {first} … {last}"),
-        _ => format!("n = {}", names.join(", ")),
+    let entries = || chart.report.critical_speeds.iter();
+    let at = |rpm: &f64| entries().find(|entry| entry.rpm == *rpm);
+    let mut waves: Vec<String> = speeds.iter().filter_map(at).map(wave).collect();
+    if waves.windows(2).all(|pair| pair[0] == pair[1]) {
+        waves.truncate(1);
+    }
+    match &waves[..] {
+        [first, .., last] if waves.len() > 3 => format!("n = {first} … {last}"),
+        _ => format!("n = {}", waves.join(" · ")),
+    }
+}
+
+/// "2", "2/1" with a nodal circle, and "4+3" where no wave dominates.
+fn wave(entry: &CriticalSpeedEntry) -> String {
+    let shares = entry.name.split(" + ");
+    let first = |share: &str| share.split(' ').next().unwrap_or_default().to_owned();
+    match entry.nodal_circles {
+        _ if entry.name.contains('%') => shares.map(first).collect::<Vec<_>>().join("+"),
+        0 => entry.nodal_diameters.to_string(),
+        circles => format!("{}/{circles}", entry.nodal_diameters),
     }
 }
 

@@ -69,6 +69,14 @@ fn critical_speeds_have_the_waves_that_stand_still() {
     let drawn = sheet(&busy_report(), CampbellView::default());
     let waves = starting_with(&drawn, "n = ");
     assert_eq!(waves, ["n = 2", "n = 3", "n = 4"]);
+    // The lower one of two whose labels are joined may be that of more diameters.
+    let mut tensioned = busy_report();
+    tensioned.critical_speeds[0].nodal_diameters = 3;
+    let drawn = sheet(&tensioned, CampbellView::default());
+    assert_eq!(starting_with(&drawn, "n = ")[0], "n = 3 · 2");
+    tensioned.critical_speeds[1].name = "2 (66 %) + 3 (34 %)".to_owned();
+    let drawn = sheet(&tensioned, CampbellView::default());
+    assert_eq!(starting_with(&drawn, "n = ")[0], "n = 3 · 2+3");
     assert_eq!(starting_with(&drawn, "nodal diameters").len(), 1);
 }
 

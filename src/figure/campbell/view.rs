@@ -64,7 +64,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     if first < from || to < last {
         notes.push(format!(
-            "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to-rpm shows another part)"
+            "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to-rpm)"
         ));
     }
     let is_shown = |b: &&InstabilityEntry| b.from_rpm <= to && from <= b.to_rpm;
@@ -81,7 +81,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
     let others = shown.saturating_sub(labelled + weak);
     let of_others = match others {
         0 => String::new(),
-        _ => format!("{others} of {shown} bands without a label, see report.json"),
+        _ => format!("{others} of {shown} bands without a label"),
     };
     notes.extend([of_weak, of_others].into_iter().filter(|n| !n.is_empty()));
     notes
