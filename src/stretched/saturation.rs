@@ -52,8 +52,12 @@ struct Pair {
 
 impl StretchedBlade {
     /// How far the fastest flutter at a speed rises, without damping and side force; `None` where none
-    /// grows. Time histories of the paper's saw near 2260 rpm, with the same shapes, rise as far to 0.1 %
-    /// there; at a place that the two waves move by a third of that, where others count, it is 7 % low.
+    /// grows. Over a band the square of it goes from zero at one edge to twice that of the fastest growth
+    /// at the other, where the motion takes ever longer.
+    ///
+    /// Time histories with the same shapes, of six bands of the paper's saw with 0.4 to 3 1/s and 0.7 to
+    /// 1.7 mm, rise as far to 0.2 to 4.3 % at the place named; where the two waves move the blade little,
+    /// others count.
     ///
     /// # Errors
     /// [`StretchedError::Value`], [`StretchedError::Spectrum`].
