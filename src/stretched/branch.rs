@@ -54,7 +54,7 @@ impl StretchedBlade {
     ///
     /// # Errors
     /// [`StretchedError::Value`] for a range that is none or that does not contain the start;
-    /// [`StretchedError::NotFound`] where the curve is lost.
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`] where the curve is lost.
     pub fn branch(
         &self,
         start: &Equilibrium,
@@ -71,6 +71,7 @@ impl StretchedBlade {
                 allowed: " within the range of speeds, which must not be empty",
             });
         }
+        self.directed(&start.coordinates)?;
         let curve = Curve {
             blade: self,
             size: self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt(),

@@ -6,7 +6,7 @@ use faer::{Col, Scale, c64};
 use crate::scene::rpm;
 use crate::spectrum::{companion_eigenpairs, critical_speeds};
 
-use super::{StretchedBlade, StretchedError, finite};
+use super::{StretchedBlade, StretchedError, angles, finite};
 
 /// A place where the blade stands still.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,50 @@ impl StretchedBlade {
     /// Deflection of an equilibrium at a point of the blade.
     pub fn deflection_m(&self, equilibrium: &Equilibrium, radius_m: f64, angle_rad: f64) -> f64 {
         self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
+    }
+
+    /// Largest slope |∇w| of an equilibrium. The potential of stretching holds up to about 0.1.
+    pub fn largest_slope(&self, equilibrium: &Equilibrium) -> f64 {
+        let q = &self.shapes * &equilibrium.coordinates;
+        let at_radius = |radius_m: f64| {
+            let waves = self.slopes_at(&q, radius_m);
+            let at_angle = |angle_rad: f64| {
+                let mut slope = [0.0; 2];
+                for (n, [radial, hoop]) in waves.iter().enumerate() {
+                    let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+                    slope[0] += radial[0] * cos + radial[1] * sin;
+                    slope[1] += n as f64 * (hoop[1] * cos - hoop[0] * sin);
+                }
+                slope[0].hypot(slope[1])
+            };
+            angles().map(at_angle).fold(0.0, f64::max)
+        };
+        self.plate
+            .sampled_radii_m()
+            .map(at_radius)
+            .fold(0.0, f64::max)
+    }
+
+    /// Factors of cos nθ and sin nθ of w′ and of w/r at a radius.
+    fn slopes_at(&self, q: &Col<f64>, radius_m: f64) -> Vec<[[f64; 2]; 2]> {
+        let plate = &self.plate;
+        let size = plate.radial_functions();
+        let of_wave = |n: usize| {
+            let values = plate.basis.evaluate(n, radius_m);
+            let sum = |part: usize, of: &[f64]| match (n, part) {
+                (0, 1) => 0.0,
+                _ => {
+                    let first = plate.offset(n) + part * size;
+                    let terms = of.iter().enumerate().map(|(j, value)| q[first + j] * value);
+                    terms.sum::<f64>() / plate.angular_norm(n)
+                }
+            };
+            [
+                [0, 1].map(|part| sum(part, &values.slope)),
+                [0, 1].map(|part| sum(part, &values.value) / radius_m),
+            ]
+        };
+        (0..=plate.max_diameters()).map(of_wave).collect()
     }
 
     /// The equilibrium that Newton's method finds from a guess; from `None`, from the flat blade.
@@ -82,7 +126,7 @@ impl StretchedBlade {
     /// Newton's method. The other one is −p.
     ///
     /// # Errors
-    /// [`StretchedError::NotFound`], also where vᵀK(Ω)v is not negative: the speed is not above
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`], also where vᵀK(Ω)v is not negative: the speed is not above
     /// the pitchfork, or not near it.
     pub fn leaned(
         &self,
@@ -90,6 +134,7 @@ impl StretchedBlade {
         shape: &Col<f64>,
     ) -> Result<Equilibrium, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
+        self.directed(shape)?;
         let stiffness = self.system.stiffness_at(speed_rad_per_s);
         let held = shape.transpose() * &stiffness * shape;
         let square = -held / (4.0 * self.stretching.energy_j(shape)?);

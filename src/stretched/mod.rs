@@ -38,6 +38,11 @@ pub enum StretchedError {
         "nothing holds the blade laterally, so that it stands still nowhere in particular; add a guide, or clamp the bore"
     )]
     NotHeld,
+    /// A lean that may turn about the axis.
+    #[error(
+        "the blade is the same at every angle, so that it leans in no direction in particular; add a guide, or a side force"
+    )]
+    Axisymmetric,
     /// More shapes than functions, or none.
     #[error("{given} shapes were asked for; give 1 to {most}, of which 20 to 40 are usual")]
     Shapes {
@@ -165,6 +170,16 @@ impl StretchedBlade {
         self.shapes.as_ref()
     }
 
+    /// A leaned blade that nothing in space keeps from turning has a circle of equilibria, which no
+    /// method for single ones finds.
+    fn directed(&self, coordinates: &Col<f64>) -> Result<(), StretchedError> {
+        let turns = self.plate.is_axisymmetric() && self.force.norm_max() == 0.0;
+        match turns && coordinates.norm_max() > 0.0 {
+            true => Err(StretchedError::Axisymmetric),
+            false => Ok(()),
+        }
+    }
+
     /// ∂V/∂p.
     fn residual(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Col<f64>, StretchedError> {
         let elastic = self.system.stiffness_at(speed_rad_per_s) * p;
@@ -211,6 +226,13 @@ fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError
         }),
     }
 }
+
+/// Angles at which deflections and slopes are looked at: more than two for each wave of a usual basis.
+fn angles() -> impl Iterator<Item = f64> {
+    (0..ANGLES).map(|k| std::f64::consts::TAU * k as f64 / ANGLES as f64)
+}
+
+const ANGLES: usize = 72;
 
 /// The value, or what is wrong with it.
 fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {

@@ -17,7 +17,7 @@ use faer::{Col, c64};
 
 use crate::spectrum::companion_eigenpairs;
 
-use super::{StretchedBlade, StretchedError, finite};
+use super::{StretchedBlade, StretchedError, angles, finite};
 
 /// The largest motion of undamped flutter that begins small.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,8 +40,6 @@ pub struct Saturation {
 const PLACES: usize = 64;
 /// Phases of a period: a quartic of sines needs five.
 const PHASES: usize = 8;
-/// Angles of the blade that are looked at.
-const ANGLES: usize = 72;
 
 /// The growing wave and the decaying one, v scaled as the normal form needs it.
 struct Pair {
@@ -157,9 +155,7 @@ impl StretchedBlade {
     /// (r, θ) of places over the blade, and the shapes there.
     fn sites(&self) -> Vec<((f64, f64), Col<f64>)> {
         let radii = self.plate.sampled_radii_m().step_by(4);
-        let places = radii.flat_map(|radius_m| {
-            (0..ANGLES).map(move |k| (radius_m, TAU * k as f64 / ANGLES as f64))
-        });
+        let places = radii.flat_map(|radius_m| angles().map(move |angle| (radius_m, angle)));
         places.map(|place| (place, self.shapes_at(place))).collect()
     }
 }

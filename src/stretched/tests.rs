@@ -189,6 +189,57 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     assert!(rest.abs() < 1e-8 * force.abs(), "{rest:e}");
 }
 
+/// Central differences of the deflection, at the places that are looked at.
+#[test]
+fn the_largest_slope_is_that_of_the_deflection() {
+    let blade = StretchedBlade::new(&paper(), 12).unwrap();
+    let blade = blade.pressed(40.0, (0.355, 1.1)).unwrap();
+    let bent = blade.equilibrium(rad_per_s(800.0), None).unwrap();
+    let step = 1e-5;
+    let mut largest = 0.0_f64;
+    for radius_m in blade.plate.sampled_radii_m() {
+        for angle in angles() {
+            let w = |r: f64, t: f64| blade.deflection_m(&bent, r, t);
+            let radial = w(radius_m + step, angle) - w(radius_m - step, angle);
+            let hoop = w(radius_m, angle + step) - w(radius_m, angle - step);
+            largest = largest.max(radial.hypot(hoop / radius_m) / (2.0 * step));
+        }
+    }
+    let found = blade.largest_slope(&bent);
+    assert!((found / largest - 1.0).abs() < 1e-6, "{found} {largest}");
+}
+
+/// A collar without guides: flat at any speed, but its lean points nowhere, until a force does.
+#[test]
+fn a_lean_that_may_turn_is_refused() {
+    let collar = Scene::paper().edited(|saw| {
+        saw.guides.clear();
+        saw.cut = None;
+        saw.mount = crate::scene::Mount::Collar {
+            diameter_m: 0.24,
+            in_plane: crate::scene::InPlane::Free,
+        };
+    });
+    let blade = StretchedBlade::new(&Plate::new(&collar.unwrap(), RESOLUTION), 12).unwrap();
+    let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
+    assert_eq!(
+        blade
+            .equilibrium(1.1 * critical, None)
+            .unwrap()
+            .negative_eigenvalues,
+        2
+    );
+    let leaned = blade.leaned(1.01 * critical, &shape);
+    assert!(matches!(leaned, Err(StretchedError::Axisymmetric)));
+    let pressed = blade.pressed(5.0, (0.355, 0.3)).unwrap();
+    let rest = pressed.equilibrium(0.0, None).unwrap();
+    let curve = pressed.branch(&rest, true, (0.0, 1.1 * critical)).unwrap();
+    assert!(curve.turns.is_empty());
+    let end = curve.equilibria.last().unwrap();
+    // It leans towards the force, and is a minimum.
+    assert!(end.negative_eigenvalues == 0 && pressed.deflection_m(end, 0.355, 0.3) > 0.0);
+}
+
 #[test]
 fn what_cannot_be_answered_is_refused() {
     let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();

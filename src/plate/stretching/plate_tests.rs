@@ -149,17 +149,17 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
 fn the_potential_converges_in_both_directions() {
     let energy = |resolution: (usize, usize)| {
         let plate = plate(resolution, |_| ());
-        // w = r² cos 2θ / (1 + cos θ/2) / (1 + r), by its Fourier series over 256 points.
+        // w = r² cos 2θ / (1 + cos θ/2) / (1 + r), by its Fourier series over 128 points.
         let parts: Vec<(usize, f64)> = (0..=resolution.0)
             .map(|n| {
-                let sum: f64 = (0..256)
-                    .map(|k| f64::from(k) * std::f64::consts::TAU / 256.0)
+                let sum: f64 = (0..128)
+                    .map(|k| f64::from(k) * std::f64::consts::TAU / 128.0)
                     .map(|angle| {
                         let w = (2.0 * angle).cos() / (1.0 + 0.5 * angle.cos());
                         w * (n as f64 * angle).cos()
                     })
                     .sum();
-                (n, sum / if n == 0 { 256.0 } else { 128.0 })
+                (n, sum / if n == 0 { 128.0 } else { 64.0 })
             })
             .collect();
         let shapes: Vec<Box<dyn Fn(f64) -> f64>> = parts
@@ -178,23 +178,13 @@ fn the_potential_converges_in_both_directions() {
         let stretching = Stretching::new(&plate).unwrap();
         stretching.energy_j(&projected(&plate, &waves)).unwrap()
     };
-    let exact = energy((28, 9));
+    let exact = energy((20, 9));
     // Factors fall as (2 − √3)ⁿ = 0.27ⁿ around, as 0.09ʲ over the radius.
-    for (resolution, most) in [
-        ((6, 9), 2e-2),
-        ((10, 9), 3e-4),
-        ((14, 9), 3e-6),
-        ((20, 9), 1e-8),
-    ] {
+    for (resolution, most) in [((6, 9), 2e-2), ((10, 9), 3e-4), ((14, 9), 3e-6)] {
         let error = energy(resolution) / exact - 1.0;
         assert!(error.abs() < most, "{resolution:?}: {error:e}");
     }
-    for (resolution, most) in [
-        ((28, 3), 2e-2),
-        ((28, 4), 2e-3),
-        ((28, 6), 2e-5),
-        ((28, 8), 2e-7),
-    ] {
+    for (resolution, most) in [((20, 3), 2e-2), ((20, 4), 2e-3), ((20, 6), 2e-5)] {
         let error = energy(resolution) / exact - 1.0;
         assert!(error.abs() < most, "{resolution:?}: {error:e}");
     }
