@@ -46,6 +46,7 @@ fn verdict(report: &CheckReport) -> String {
     let failed = report.criteria.iter().filter(|c| !c.passed).count();
     let limits = match failed {
         0 => "every limit is kept".to_owned(),
+        1 => format!("1 of {} limits is not kept", report.criteria.len()),
         _ => format!("{failed} of {} limits are not kept", report.criteria.len()),
     };
     let numbers = match report.unusual_numbers.is_empty() || report.accept_unusual {

@@ -147,12 +147,17 @@ fn a_scene_without_the_forces_is_refused() {
 /// The exit code is the verdict, for scripts that read nothing else.
 #[test]
 fn a_check_passes_fails_or_is_refused() {
-    let cases: [(&[&str], i32, &str); 7] = [
+    let cases: [(&[&str], i32, &str); 8] = [
         (&["--operating-rpm", "1200"], 0, "PASSED at 1200 rpm"),
         (
             &["--operating-rpm", "1400"],
             1,
             "FAIL 85 % rule: 1400 rpm is 91",
+        ),
+        (
+            &["--operating-rpm", "1400"],
+            1,
+            "FAILED at 1400 rpm: 1 of 3 limits is not kept",
         ),
         (
             &["--operating-rpm", "1200", "--min-critical-rpm", "1600"],
