@@ -320,21 +320,46 @@ impl SpectralModel {
         0.5 * f64::EPSILON * size / square
     }
 
+    /// Every mode of one component of the reduced model; those above `complete_to` are not to be trusted.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub(crate) fn modes_of(
+        &self,
+        component: usize,
+        speed_rad_per_s: f64,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        self.solve_component(component, speed_rad_per_s, f64::INFINITY)
+    }
+
+    fn solve_component(
+        &self,
+        index: usize,
+        speed_rad_per_s: f64,
+        highest_rad_per_s: f64,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        self.counters.cancellation.check()?;
+        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        let component = &self.components[index];
+        let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
+        let mut pairs = component.eigenpairs(&self.plate, index, speed)?;
+        pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
+        Ok(classify(
+            &component.at(speed_rad_per_s).reduced,
+            speed,
+            index,
+            pairs,
+        ))
+    }
+
     fn solve(
         &self,
         speed_rad_per_s: f64,
         highest_rad_per_s: f64,
     ) -> Result<Vec<Mode>, SpectrumError> {
-        let scale = frequency_scale(&self.plate);
-        let speed = speed_rad_per_s.max(SPLITTING * scale);
         let mut modes = Vec::new();
-        for (index, component) in self.components.iter().enumerate() {
-            self.counters.cancellation.check()?;
-            self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-            let system = &component.at(speed_rad_per_s).reduced;
-            let mut pairs = component.eigenpairs(&self.plate, index, speed)?;
-            pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
-            modes.extend(classify(system, speed, index, pairs));
+        for index in 0..self.components.len() {
+            modes.extend(self.solve_component(index, speed_rad_per_s, highest_rad_per_s)?);
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)

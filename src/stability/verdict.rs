@@ -102,7 +102,7 @@ impl Evidence<'_> {
     }
 
     /// The speeds around one at which no instability counts, in rad/s, within the range and no nearer to a
-    /// critical speed than [`CRITICAL_MARGIN`]; `None` where the saw is unstable or at a critical speed, or
+    /// critical speed than 5 %; `None` where the saw is unstable or at a critical speed, or
     /// nothing was computed.
     pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
         let verdict = self.verdict(speed_rad_per_s);
@@ -190,7 +190,7 @@ impl Instability {
 }
 
 /// Re λ at a share of the way between two points of a curve.
-fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
+pub(super) fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
     let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
     let straight = before.0 + share * (after.0 - before.0);

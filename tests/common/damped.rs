@@ -58,10 +58,11 @@ pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), Strin
             .iter()
             .map(|b| {
                 format!(
-                    "{:?} {}–{}, {}",
+                    "{:?} {}–{}, {:?} here, {} at most",
                     b.kind,
                     rpm(b.from_rad_per_s),
                     rpm(b.to_rad_per_s),
+                    b.growth_at(speed),
                     b.peak_growth_per_s
                 )
             })

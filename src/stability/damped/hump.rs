@@ -1,10 +1,11 @@
-//! Bands of a damped blade from the paths of its eigenvalues.
+//! Bands of a damped blade from the curves of its eigenvalues.
+
+use faer::c64;
 
 use super::super::band::{CurvePoint, Instability, InstabilityKind};
+use super::super::interpolation::Cubic;
 use super::super::root::{Look, bracketed};
-use super::link::between;
-use super::spectrum::{Eigenvalue, Solver, Spectrum};
-use super::trace::Path;
+use super::spectrum::Solver;
 use crate::spectrum::SpectrumError;
 use crate::tuned::Tuned;
 
@@ -18,94 +19,46 @@ const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
 /// that becomes two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
 
-/// A stretch of a path on which Re λ > 0.
+/// A stretch of a curve on which Re λ > 0.
 struct Stretch {
     curve: Vec<CurvePoint>,
     /// Whether the range of speeds begins and ends in it.
     cut: [bool; 2],
 }
 
-/// The bands of a path.
+/// The bands of a curve between the first and the last speed of a search.
 pub fn bands(
     solver: &Solver<'_>,
-    spectra: &[Spectrum],
-    path: &Path,
+    component: usize,
+    curve: &[CurvePoint],
+    range: (f64, f64),
 ) -> Result<Vec<Instability>, SpectrumError> {
-    let value =
-        |&(spectrum, value): &(usize, usize)| -> Eigenvalue { spectra[spectrum].values[value] };
-    let grows = |point: &(usize, usize)| {
-        let value = value(point);
-        value.lambda.re >= 0.0 && value.lambda.im <= solver.highest()
-    };
-    let is_noise = |points: &[(usize, usize)]| {
-        let mut growth = points.iter().map(|point| value(point).lambda.re);
-        growth.all(|growth| growth <= solver.noise())
-    };
+    let grows = |point: &CurvePoint| point.lambda.re >= 0.0 && point.lambda.im <= solver.highest();
     let mut bands = Vec::new();
     let mut first = 0;
-    while let Some(start) = (first..path.len()).find(|&k| grows(&path[k])) {
-        let end = (start..path.len()).find(|&k| !grows(&path[k]));
-        let end = end.unwrap_or(path.len());
+    while let Some(start) = (first..curve.len()).find(|&k| grows(&curve[k])) {
+        let end = (start..curve.len()).find(|&k| !grows(&curve[k]));
+        let end = end.unwrap_or(curve.len());
         first = end;
-        if is_noise(&path[start..end]) {
+        let mut growth = curve[start..end].iter().map(|point| point.lambda.re);
+        if growth.all(|growth| growth <= solver.noise()) {
             continue;
         }
-        let stretch = stretch(solver, spectra, path, start..end)?;
+        let mut grown = curve[start..end].to_vec();
+        if let Some(outside) = start.checked_sub(1) {
+            grown.insert(0, onset(solver, component, curve[outside], curve[start])?);
+        }
+        if let Some(outside) = curve.get(end) {
+            grown.push(onset(solver, component, *outside, curve[end - 1])?);
+        }
+        let ends = [grown[0], grown[grown.len() - 1]].map(|point| point.speed_rad_per_s);
+        let stretch = Stretch {
+            curve: with_extrema(solver, component, grown)?,
+            cut: [ends[0] <= range.0, ends[1] >= range.1],
+        };
         bands.extend(parted(stretch, solver.noise()));
     }
     Ok(bands)
-}
-
-/// A stretch from where growth begins to where it ends, with its extrema.
-fn stretch(
-    solver: &Solver<'_>,
-    spectra: &[Spectrum],
-    path: &Path,
-    range: std::ops::Range<usize>,
-) -> Result<Stretch, SpectrumError> {
-    let component = spectra[path[range.start].0].values[path[range.start].1].component;
-    let point = |k: usize| curve_point(&spectra[path[k].0], path[k].1);
-    let mut curve: Vec<CurvePoint> = range.clone().map(point).collect();
-    let (first, last) = (path[range.start].0, path[range.end - 1].0);
-    if range.start > 0 {
-        let outside = point(range.start - 1);
-        curve.insert(0, onset(solver, component, outside, curve[0])?);
-    } else if first > 0 {
-        let speed = 0.5 * (spectra[first - 1].speed + spectra[first].speed);
-        curve.insert(0, moved(curve[0], speed));
-    }
-    let inside = curve[curve.len() - 1];
-    if range.end < path.len() {
-        let outside = point(range.end);
-        curve.push(onset(solver, component, outside, inside)?);
-    } else if last + 1 < spectra.len() {
-        let speed = 0.5 * (spectra[last].speed + spectra[last + 1].speed);
-        curve.push(moved(inside, speed));
-    }
-    Ok(Stretch {
-        curve: with_extrema(solver, component, curve)?,
-        cut: [
-            range.start == 0 && first == 0,
-            range.end == path.len() && last + 1 == spectra.len(),
-        ],
-    })
-}
-
-fn curve_point(spectrum: &Spectrum, value: usize) -> CurvePoint {
-    let value = spectrum.values[value];
-    CurvePoint {
-        speed_rad_per_s: spectrum.speed,
-        lambda: value.lambda,
-        slope: value.slope,
-    }
-}
-
-/// A point moved to the end of its path, which is closer than any resolution.
-fn moved(point: CurvePoint, speed_rad_per_s: f64) -> CurvePoint {
-    CurvePoint {
-        speed_rad_per_s,
-        ..point
-    }
 }
 
 /// Where Re λ = 0 between a point outside a stretch and its neighbour inside.
@@ -173,14 +126,15 @@ fn between_points(
     share: f64,
 ) -> Result<CurvePoint, SpectrumError> {
     let [from, to] = points.map(|p| p.speed_rad_per_s);
-    let ends = points.map(|p| Eigenvalue {
-        lambda: p.lambda,
-        slope: p.slope,
-        component,
-        action: 1,
-    });
     let speed = from + share * (to - from);
-    let expected = between(&ends, to - from, share);
+    let cubic = |part: fn(c64) -> f64| {
+        Cubic {
+            values: points.map(|p| part(p.lambda)),
+            slopes: points.map(|p| part(p.slope) * (to - from)),
+        }
+        .at(share)
+    };
+    let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
     let found = solver.nearest(speed, component, expected)?;
     Ok(CurvePoint {
         speed_rad_per_s: speed,

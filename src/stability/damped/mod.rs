@@ -1,27 +1,23 @@
 //! Bands of a damped blade: stretches of speeds in which an eigenvalue has Re λ > 0.
 //!
-//! Damping leaves no Krein signs to count. Instead every eigenvalue that may grow is followed
-//! over speed as λ(Ω), with as many speeds in between as it takes to match it without doubt
-//! ([`link`]) and to draw its growth ([`trace`]). A band begins and ends where Re λ = 0, where a
-//! complex pair becomes two real eigenvalues or back, and where growth is least between two
-//! humps ([`hump`]). The bands of the undamped twin lend speeds to begin with, and the names of
-//! the modes that meet.
+//! Damping leaves no Krein signs to count. Instead every low eigenvalue is followed over speed as λ(Ω) ([`curve`]), by
+//! pieces of which each told beforehand what was then found. A band begins and ends where Re λ = 0, where a complex pair
+//! becomes two real eigenvalues or back, and where growth is least between two humps ([`hump`]).
 
 mod counts;
+mod curve;
 mod hump;
-mod link;
 mod spectrum;
-mod trace;
 
 use rayon::prelude::*;
 
-use super::band::{CurvePoint, Instability};
-use super::basis::PAST_THE_RANGE;
+use super::band::Instability;
 use super::certificate::Certificate;
 use super::error::AnalysisError;
-use super::undamped::{SEARCH_SPEEDS, undamped_bands, with_critical_speeds};
+use super::pieces::{Piece, Search};
+use super::undamped::with_critical_speeds;
 use crate::campbell::{self, Progress, SpeedSample};
-use crate::spectrum::{Assembled, SpectralModel, SpectrumError, Strategy, clear_range};
+use crate::spectrum::{SpectralModel, SpectrumError, clear_range};
 use crate::tuned::Tuned;
 use counts::Counts;
 pub(super) use counts::counted_in_window;
@@ -31,6 +27,9 @@ use spectrum::{Solver, Spectrum};
 /// are drawn, on a scale of square roots, which shows slow growth beside fast.
 const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 
+/// Parts of a cubic between two points of a curve that are held against straight lines.
+const PARTS: u32 = 4;
+
 /// Modes at `count` even speeds and where bands need more, the bands, and what was checked of them.
 pub(super) fn charted(
     model: &SpectralModel,
@@ -38,20 +37,10 @@ pub(super) fn charted(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
-    let twin = twin_bands(model, range)?;
     let drawn = clear_range(&model.critical, range);
-    let mut speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
+    let speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    // Eigenvalues are simple but for single speeds, also where one of them passes through zero.
-    speeds.extend([range.0, range.1]);
-    speeds.extend(
-        twin.iter()
-            .flat_map(|band| [band.from_rad_per_s, band.peak_rad_per_s, band.to_rad_per_s]),
-    );
-    speeds.extend(middles(model, range));
-    speeds.sort_by(f64::total_cmp);
-    speeds.dedup();
-    let (instabilities, certificate) = bands(model, &speeds)?;
+    let (instabilities, certificate) = bands(model, range)?;
     let mut drawn: Vec<f64> = instabilities.iter().flat_map(drawn_speeds).collect();
     drawn.sort_by(f64::total_cmp);
     drawn.dedup();
@@ -60,47 +49,38 @@ pub(super) fn charted(
     Ok((samples, instabilities, certificate))
 }
 
-/// The bands of the blade without damping.
-fn twin_bands(model: &SpectralModel, range: (f64, f64)) -> Result<Vec<Instability>, SpectrumError> {
-    let plate = model.plate.conservative();
-    if plate.is_axisymmetric() {
-        return Ok(Vec::new());
-    }
-    let twin = Assembled::from(plate);
-    let critical = twin.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
-    let twin = SpectralModel::with_critical(twin, critical, range, Strategy::Bands)?;
-    let (bands, _) = undamped_bands(&twin, range, SEARCH_SPEEDS.count())?;
-    Ok(bands)
-}
+/// Even speeds that the search begins with.
+const SEARCH_SPEEDS: usize = 9;
+/// Relative error allowed of an eigenvalue between two speeds of the search, and of a growth.
+const EIGENVALUE_TOLERANCE: f64 = 1e-3;
+const GROWTH_TOLERANCE: f64 = 5e-3;
 
-/// Half way between neighbouring critical speeds, where a wave may lean over.
-fn middles(model: &SpectralModel, range: (f64, f64)) -> Vec<f64> {
-    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    let middles = critical.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-    middles.filter(|s| (range.0..range.1).contains(s)).collect()
-}
-
-/// Every band between the first and the last of the speeds, by onset.
+/// Every band within a range of speeds, by onset.
 fn bands(
     model: &SpectralModel,
-    speeds: &[f64],
+    range: (f64, f64),
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let solver = Solver::new(model);
-    let given: Result<Vec<Spectrum>, SpectrumError> =
-        speeds.par_iter().map(|&speed| solver.at(speed)).collect();
-    let spectra = trace::refined(&solver, given?)?;
-    let paths = trace::paths(&solver, &spectra);
-    let found: Result<Vec<Vec<Instability>>, SpectrumError> = paths
-        .par_iter()
-        .map(|path| hump::bands(&solver, &spectra, path))
-        .collect();
-    let mut instabilities: Vec<Instability> = found?.into_iter().flatten().collect();
+    let speeds = campbell::even_speeds(range, SEARCH_SPEEDS);
+    let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..model.components.len())
+        .into_par_iter()
+        .map(|component| searched(&solver, component, &speeds))
+        .collect::<Result<_, _>>()?;
+    let mut instabilities = Vec::new();
+    let mut spectra: Vec<Spectrum> = Vec::new();
+    for (pieces, bands) in &searched {
+        instabilities.extend(bands.iter().cloned());
+        // With several components no spectrum of one is that of the saw.
+        if searched.len() == 1 {
+            spectra = solver.spectra(pieces);
+        }
+    }
+    if searched.len() > 1 {
+        let all = speeds.par_iter().map(|&speed| solver.at(speed));
+        spectra = all.collect::<Result<_, _>>()?;
+    }
     instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
-    let range = (speeds.first().copied(), speeds.last().copied());
-    let counts = match range {
-        (Some(from), Some(to)) => Counts::new(model, &solver, &instabilities, (from, to))?,
-        _ => Counts::default(),
-    };
+    let counts = Counts::new(model, &solver, &instabilities, range)?;
     let mut violations = mismatches(&solver, &spectra, &instabilities);
     violations.extend(mismatches(&solver, &counts.spectra, &instabilities));
     let certificate = Certificate {
@@ -113,6 +93,32 @@ fn bands(
         ..Certificate::default()
     };
     Ok((instabilities, certificate))
+}
+
+/// Pieces of one component of the saw, and its bands.
+fn searched(
+    solver: &Solver<'_>,
+    component: usize,
+    speeds: &[f64],
+) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
+    let solve = |speed: f64| solver.sample(speed, component);
+    let search = Search {
+        top_rad_per_s: solver.highest(),
+        tolerance: EIGENVALUE_TOLERANCE,
+        growth_tolerance: GROWTH_TOLERANCE,
+        noise_per_s: solver.noise(),
+        solve: &solve,
+    };
+    let pieces = search.pieces(speeds)?;
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
+        return Ok((pieces, Vec::new()));
+    };
+    let curves = curve::curves(&pieces, solver.highest(), solver.noise());
+    let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
+        .par_iter()
+        .map(|curve| hump::bands(solver, component, curve, (first, last)))
+        .collect();
+    Ok((pieces, found?.into_iter().flatten().collect()))
 }
 
 /// The speed, if there are more or fewer growing modes than bands.
@@ -160,27 +166,30 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
 /// Speeds of a band at which its growth is drawn: its ends, its peak, and as many in between as
 /// straight lines take to follow the curve.
 fn drawn_speeds(band: &Instability) -> Vec<f64> {
-    let curve = &band.curve;
     let tolerance = DRAWN.get() * band.peak_growth_per_s.sqrt();
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for pair in band.curve.windows(2) {
+        let [from, to] = [0, 1].map(|k| pair[k].speed_rad_per_s);
+        points.push((from, pair[0].lambda.re));
+        let inner = (1..PARTS).map(|k| from + (to - from) * f64::from(k) / f64::from(PARTS));
+        points.extend(inner.filter_map(|speed| Some((speed, band.growth_at(speed)?))));
+    }
+    points.extend(band.curve.last().map(|p| (p.speed_rad_per_s, p.lambda.re)));
     let is_straight = |from: usize, to: usize| {
-        let [a, b] = [curve[from], curve[to]];
-        let width = b.speed_rad_per_s - a.speed_rad_per_s;
-        curve[from + 1..to].iter().all(|p| {
-            let share = (p.speed_rad_per_s - a.speed_rad_per_s) / width;
-            let straight = a.lambda.re + share * (b.lambda.re - a.lambda.re);
-            (p.lambda.re.max(0.0).sqrt() - straight.max(0.0).sqrt()).abs() <= tolerance
+        let ([a, rise_from], [b, rise_to]) = (points[from].into(), points[to].into());
+        points[from + 1..to].iter().all(|(speed, growth)| {
+            let share: f64 = (speed - a) / (b - a);
+            let straight = rise_from + share * (rise_to - rise_from);
+            (growth.max(0.0).sqrt() - straight.max(0.0).sqrt()).abs() <= tolerance
         })
     };
-    let is_peak = |p: &CurvePoint| p.speed_rad_per_s == band.peak_rad_per_s;
     let mut drawn = vec![0];
-    for k in 1..curve.len() {
+    for k in 1..points.len() {
         let from = drawn[drawn.len() - 1];
-        if k + 1 == curve.len() || is_peak(&curve[k]) || !is_straight(from, k + 1) {
+        let is_peak = points[k].0 == band.peak_rad_per_s;
+        if k + 1 == points.len() || is_peak || !is_straight(from, k + 1) {
             drawn.push(k);
         }
     }
-    drawn
-        .into_iter()
-        .map(|k| curve[k].speed_rad_per_s)
-        .collect()
+    drawn.into_iter().map(|k| points[k].0).collect()
 }

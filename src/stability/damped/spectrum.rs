@@ -5,15 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::c64;
 
 use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
-use crate::tuned::Tuned;
+use crate::stability::pieces::{Piece, Sample};
 
-/// Eigenvalues up to this multiple of the highest frequency that is sound are followed, so that
-/// one that leaves the sound range is not taken for another that stays.
-const MARGIN: Tuned = Tuned::new("stability/damped/spectrum::MARGIN", 1.3);
 /// Growth below this share of the highest frequency is rounding.
 const NOISE: f64 = 1e-10;
 /// Spectra of one chart, at most: two orders above what a saw takes.
 const MOST_SPECTRA: usize = 12_000;
+
+/// Modes above the highest frequency that is sound among which a search finds a gap to end in.
+const BESIDES: usize = 8;
 
 /// An eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy)]
@@ -22,21 +22,6 @@ pub struct Eigenvalue {
     pub lambda: c64,
     /// dλ/dΩ.
     pub slope: c64,
-    /// Independent component of the blade that it belongs to.
-    pub component: usize,
-    /// Sign of the action, −1 for a reflected wave.
-    pub action: i8,
-}
-
-impl Eigenvalue {
-    /// The conjugate: the same motion.
-    pub fn conj(self) -> Self {
-        Eigenvalue {
-            lambda: self.lambda.conj(),
-            slope: self.slope.conj(),
-            ..self
-        }
-    }
 }
 
 /// The eigenvalues of one speed.
@@ -46,18 +31,6 @@ pub struct Spectrum {
     pub speed: f64,
     /// In no particular order.
     pub values: Vec<Eigenvalue>,
-}
-
-impl Spectrum {
-    /// The eigenvalue of a component next to an expected one.
-    pub fn nearest(&self, component: usize, expected: c64) -> Option<Eigenvalue> {
-        let distance = |v: &Eigenvalue| (v.lambda - expected).norm();
-        self.values
-            .iter()
-            .flat_map(|v| [*v, v.conj()])
-            .filter(|v| v.component == component)
-            .min_by(|x, y| distance(x).total_cmp(&distance(y)))
-    }
 }
 
 /// Computes spectra, and counts them.
@@ -85,33 +58,68 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// The eigenvalue of a component at a speed next to an expected one, or its conjugate.
+    /// The spectra of a search on the one component of a saw.
+    pub fn spectra(&self, pieces: &[Piece]) -> Vec<Spectrum> {
+        let of = |sample: &Sample| {
+            let upper = sample
+                .eigenvalues
+                .iter()
+                .filter(|(z, _)| (0.0..=self.highest()).contains(&z.im));
+            Spectrum {
+                speed: sample.speed_rad_per_s,
+                values: upper
+                    .map(|&(lambda, slope)| Eigenvalue { lambda, slope })
+                    .collect(),
+            }
+        };
+        let first = pieces.first().map(|piece| of(&piece.ends[0]));
+        let others = pieces.iter().map(|piece| of(&piece.ends[1]));
+        first.into_iter().chain(others).collect()
+    }
+
+    /// Those of a component as a sample of a search; `None` once no more may be asked for.
+    pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
+        if self.is_exhausted() {
+            return Ok(None);
+        }
+        let mut modes = self.modes_of(speed, component)?;
+        let is_followed = |mode: &Mode| mode.lambda.im <= self.highest();
+        let followed = modes.iter().filter(|mode| is_followed(mode)).count();
+        modes.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+        modes.truncate(followed + BESIDES);
+        let sloped = modes.iter().map(|mode| {
+            let found = self.eigenvalue(speed, mode);
+            (found.lambda, found.slope)
+        });
+        Ok(Some(Sample::new(speed, sloped)))
+    }
+
+    /// The eigenvalue of a component at a speed next to an expected one.
     pub fn nearest(
         &self,
         speed: f64,
         component: usize,
         expected: c64,
     ) -> Result<Option<Eigenvalue>, SpectrumError> {
-        let modes = self.modes(speed)?;
-        let upper = c64::new(expected.re, expected.im.abs());
-        let distance = |m: &&Mode| (m.lambda - upper).norm();
-        let same = modes.iter().filter(|m| m.component == component);
-        let nearest = same.min_by(|x, y| distance(x).total_cmp(&distance(y)));
-        Ok(nearest.map(|mode| {
-            let found = self.eigenvalue(speed, mode);
-            if expected.im < 0.0 {
-                found.conj()
-            } else {
-                found
-            }
-        }))
+        let modes = self.modes_of(speed, component)?;
+        let distance = |m: &&Mode| (m.lambda - expected).norm();
+        let nearest = modes
+            .iter()
+            .min_by(|x, y| distance(x).total_cmp(&distance(y)));
+        Ok(nearest.map(|mode| self.eigenvalue(speed, mode)))
+    }
+
+    fn modes_of(&self, speed: f64, component: usize) -> Result<Vec<Mode>, SpectrumError> {
+        self.spent.fetch_add(1, Ordering::Relaxed);
+        let mut modes = self.model.modes_of(component, speed)?;
+        modes.retain(|m| m.kind != ModeKind::Rigid);
+        Ok(modes)
     }
 
     fn modes(&self, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.spent.fetch_add(1, Ordering::Relaxed);
         let mut modes = self.model.all_modes(speed)?;
-        let highest = MARGIN.get() * self.highest();
-        modes.retain(|m| m.kind != ModeKind::Rigid && m.lambda.im <= highest);
+        modes.retain(|m| m.kind != ModeKind::Rigid && m.lambda.im <= self.highest());
         Ok(modes)
     }
 
@@ -122,8 +130,6 @@ impl<'a> Solver<'a> {
             lambda: mode.lambda,
             // Where two eigenvalues meet.
             slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
-            component: mode.component,
-            action: mode.action,
         }
     }
 

@@ -1,0 +1,351 @@
+//! Eigenvalues of a damped blade followed over speed, read off the pieces of a search.
+//!
+//! Eigenvalues are simple but for single speeds, at which a complex pair becomes two real ones or back: there curves end
+//! and begin. Between such speeds each is a smooth function λ(Ω), Im λ ≥ 0, and value and slope tell which of one speed
+//! is which of the next, as long as the step is short enough.
+
+use faer::c64;
+
+use crate::stability::band::CurvePoint;
+use crate::stability::group::Sloped;
+use crate::stability::pieces::{Grouped, Piece};
+use crate::stability::verdict::growth_between;
+
+/// One eigenvalue over speed.
+pub type Curve = Vec<CurvePoint>;
+
+/// A match must fit this much better than the next best one.
+const STRICT: f64 = 0.25;
+/// Steps of a group of several eigenvalues over a piece, at least.
+const STEPS: usize = 8;
+/// Share of a piece below which a step is not parted.
+const LEAST_STEP: f64 = 1e-10;
+/// A cubic through points of a curve may be off by this share of the growth in its middle: points cost no eigenproblem.
+const CURVE_TOLERANCE: f64 = 1e-3;
+/// Frequencies below this share of the highest are those of real eigenvalues: a double one is known to the root of
+/// rounding.
+const REAL: f64 = 1e-10;
+
+/// An eigenvalue at the last speed up to which it was followed, and the curve so far.
+type Tip = (Sloped, Curve);
+
+/// The eigenvalues of Im λ ≥ 0 that pieces of a search tell, each followed over speed; `noise_per_s` is a growth that is
+/// rounding.
+pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Curve> {
+    let upper = |all: &[Sloped]| upper(all, REAL * top_rad_per_s);
+    let (mut ended, mut open): (Vec<Curve>, Vec<Tip>) = (Vec::new(), Vec::new());
+    for piece in pieces {
+        let [from, to] = piece.ends.each_ref().map(|end| end.speed_rad_per_s);
+        let ends = piece.ends.each_ref().map(|end| upper(&end.eigenvalues));
+        let mut tips = begun(&mut open, ends[0].clone(), from);
+        ended.extend(open.drain(..).map(|(_, curve)| curve));
+        if piece.groups.is_empty() {
+            let (kept, lost) = linked(tips, ends[1].clone(), to);
+            (open, tips) = (kept, lost);
+        }
+        for Grouped { group, places } in &piece.groups {
+            let at_end = |end: usize| {
+                let all = &piece.ends[end].eigenvalues;
+                let own: Vec<Sloped> = places[end].iter().map(|&place| all[place]).collect();
+                upper(&own)
+            };
+            let own = at_end(0);
+            let (mine, others) = tips.into_iter().partition(|(tip, _)| own.contains(tip));
+            tips = others;
+            let at = |speed: f64| upper(&group.sloped_at(speed));
+            let follower = Follower {
+                at: &at,
+                // A step of rounding could not be parted any more.
+                least_rad_per_s: (LEAST_STEP * (to - from)).max(8.0 * f64::EPSILON * to),
+                noise_per_s,
+                ended: Vec::new(),
+            };
+            let (kept, lost) = follower.across(mine, (from, to), group.size(), at_end(1));
+            open.extend(kept);
+            ended.extend(lost);
+        }
+        ended.extend(tips.into_iter().map(|(_, curve)| curve));
+    }
+    ended.extend(open.into_iter().map(|(_, curve)| curve));
+    ended
+}
+
+/// Those of Im λ ≥ 0, frequencies below `real` being zero.
+fn upper(all: &[Sloped], real: f64) -> Vec<Sloped> {
+    let upper = all.iter().filter(|(z, _)| z.im > -real);
+    let cleared = upper.map(|&(z, slope)| match z.im.abs() <= real {
+        true => (c64::new(z.re, 0.0), c64::new(slope.re, 0.0)),
+        false => (z, slope),
+    });
+    cleared.collect()
+}
+
+/// Curves that end at eigenvalues of a speed, taken from those that are open; the others begin.
+fn begun(open: &mut Vec<Tip>, values: Vec<Sloped>, speed_rad_per_s: f64) -> Vec<Tip> {
+    let tips =
+        values.into_iter().map(
+            |value| match open.iter().position(|(tip, _)| *tip == value) {
+                Some(place) => open.swap_remove(place),
+                None => (value, vec![point(speed_rad_per_s, value)]),
+            },
+        );
+    tips.collect()
+}
+
+fn point(speed_rad_per_s: f64, (lambda, slope): Sloped) -> CurvePoint {
+    let is_finite = slope.re.is_finite() && slope.im.is_finite();
+    CurvePoint {
+        speed_rad_per_s,
+        lambda,
+        // Where two eigenvalues meet.
+        slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
+    }
+}
+
+fn extended((_, mut curve): Tip, value: Sloped, speed_rad_per_s: f64) -> Tip {
+    curve.push(point(speed_rad_per_s, value));
+    (value, curve)
+}
+
+/// Eigenvalues of one group over a piece.
+struct Follower<'a> {
+    /// Eigenvalues of Im λ ≥ 0 at a speed.
+    at: &'a dyn Fn(f64) -> Vec<Sloped>,
+    least_rad_per_s: f64,
+    noise_per_s: f64,
+    ended: Vec<Curve>,
+}
+
+impl Follower<'_> {
+    /// The curves at the end of the piece, where its eigenvalues are `last`, and those that have ended.
+    fn across(
+        mut self,
+        mut tips: Vec<Tip>,
+        (from, to): (f64, f64),
+        size: usize,
+        last: Vec<Sloped>,
+    ) -> (Vec<Tip>, Vec<Curve>) {
+        let steps = if size == 1 { 1 } else { STEPS };
+        let speed = |k: usize| from + (to - from) * k as f64 / steps as f64;
+        for k in 1..steps {
+            tips = self.step(tips, [speed(k - 1), speed(k)], (self.at)(speed(k)));
+        }
+        tips = self.step(tips, [speed(steps - 1), to], last);
+        (tips, self.ended)
+    }
+
+    fn step(&mut self, tips: Vec<Tip>, [a, b]: [f64; 2], found: Vec<Sloped>) -> Vec<Tip> {
+        let matched = matched(&tips, &found, b - a);
+        if b - a <= self.least_rad_per_s {
+            let (kept, lost) = linked(tips, found, b);
+            self.ended.extend(lost.into_iter().map(|(_, curve)| curve));
+            return kept;
+        }
+        match matched {
+            Some(places) if self.is_drawn(&tips, &found, &places, [a, b]) => {
+                let tips = tips.into_iter().zip(places);
+                tips.map(|(tip, place)| extended(tip, found[place], b))
+                    .collect()
+            }
+            _ => {
+                let middle = 0.5 * (a + b);
+                let tips = self.step(tips, [a, middle], (self.at)(middle));
+                self.step(tips, [middle, b], found)
+            }
+        }
+    }
+
+    /// Whether what points at the ends of a step say of growth is met in between.
+    fn is_drawn(&self, tips: &[Tip], found: &[Sloped], places: &[usize], [a, b]: [f64; 2]) -> bool {
+        let pairs = tips.iter().zip(places);
+        let pairs = pairs.map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
+        let growing: Vec<[CurvePoint; 2]> = pairs
+            .filter(|[first, last]| first.lambda.re.max(last.lambda.re) > 0.0)
+            .collect();
+        growing.is_empty()
+            || [0.5, 0.25, 0.75].into_iter().all(|share| {
+                let between = (self.at)(a + share * (b - a));
+                growing.iter().all(|pair| {
+                    let told = growth_between(pair, share);
+                    let off = between.iter().map(|(z, _)| (z.re - told).abs());
+                    let size = told.max(pair[0].lambda.re).max(pair[1].lambda.re);
+                    let allowed = CURVE_TOLERANCE * size + self.noise_per_s;
+                    off.fold(f64::INFINITY, f64::min) <= allowed
+                })
+            })
+    }
+}
+
+/// Which of the eigenvalues found continues each curve: λ changes as the mean of both slopes says, and the slopes are
+/// alike, which tells two paths apart that cross in the middle of the step. `None` where that is not certain.
+fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
+    if tips.len() != found.len() {
+        return None;
+    }
+    let misfit = |x: &Sloped, y: &Sloped| {
+        let change = y.0 - x.0 - (x.1 + y.1) * (0.5 * width);
+        let is_alike = (x.0.im == 0.0) == (y.0.im == 0.0);
+        match is_alike {
+            true => change.norm() + 0.25 * width * (x.1 - y.1).norm(),
+            false => f64::INFINITY,
+        }
+    };
+    let mut taken = vec![false; found.len()];
+    let mut places = Vec::new();
+    for (tip, _) in tips {
+        let all: Vec<f64> = found.iter().map(|value| misfit(tip, value)).collect();
+        let best = (0..all.len()).min_by(|&i, &k| all[i].total_cmp(&all[k]))?;
+        let others = (0..all.len()).filter(|&k| k != best).map(|k| all[k]);
+        let next = others.fold(f64::INFINITY, f64::min);
+        let is_certain = all[best].is_finite() && (all[best] <= STRICT * next);
+        if !is_certain || std::mem::replace(&mut taken[best], true) {
+            return None;
+        }
+        places.push(best);
+    }
+    Some(places)
+}
+
+/// Curves carried on by the nearest eigenvalues, real ones by real ones, and the curves for which none is left; the
+/// eigenvalues that are left begin curves.
+fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>, Vec<Tip>) {
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, ((z, _), _)) in tips.iter().enumerate() {
+        for (k, (other, _)) in found.iter().enumerate() {
+            if (z.im == 0.0) == (other.im == 0.0) {
+                pairs.push(((z - other).norm(), i, k));
+            }
+        }
+    }
+    pairs.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let mut of_tip: Vec<Option<usize>> = vec![None; tips.len()];
+    let mut is_taken = vec![false; found.len()];
+    for (_, i, k) in pairs {
+        if of_tip[i].is_none() && !is_taken[k] {
+            of_tip[i] = Some(k);
+            is_taken[k] = true;
+        }
+    }
+    let (mut kept, mut lost) = (Vec::new(), Vec::new());
+    for (tip, place) in tips.into_iter().zip(of_tip) {
+        match place {
+            Some(k) => kept.push(extended(tip, found[k], speed_rad_per_s)),
+            None => lost.push(tip),
+        }
+    }
+    let new = found.iter().zip(&is_taken).filter(|(_, taken)| !**taken);
+    kept.extend(new.map(|(value, _)| (*value, vec![point(speed_rad_per_s, *value)])));
+    (kept, lost)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stability::pieces::{Sample, Search};
+
+    /// Curves of eigenvalues in closed form over 0 to 10 rad/s, and how many speeds were asked.
+    fn followed(eigenvalues: &(dyn Fn(f64) -> Vec<Sloped> + Sync)) -> (Vec<Curve>, usize) {
+        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let solve = |speed: f64| {
+            asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            // One wave above all that is looked at.
+            let above = (c64::new(-1.0, 50.0), c64::new(0.0, 0.0));
+            let all = eigenvalues(speed).into_iter().chain([above]);
+            Ok(Some(Sample::new(speed, all.filter(|(z, _)| z.im >= 0.0))))
+        };
+        let search = Search {
+            top_rad_per_s: 20.0,
+            tolerance: 1e-3,
+            growth_tolerance: 0.01,
+            noise_per_s: 1e-9,
+            solve: &solve,
+        };
+        let speeds: Vec<f64> = (0..9).map(|k| 1.25 * f64::from(k)).collect();
+        let curves = curves(&search.pieces(&speeds).unwrap(), 20.0, 1e-9);
+        (curves, asked.into_inner())
+    }
+
+    /// Where growth begins and ends, by straight lines.
+    fn growing(curves: &[Curve]) -> Vec<[f64; 2]> {
+        let mut found = Vec::new();
+        for curve in curves {
+            let grows: Vec<f64> = curve
+                .iter()
+                .filter(|p| p.lambda.re > 0.0)
+                .map(|p| p.speed_rad_per_s)
+                .collect();
+            if let [first, .., last] = grows.as_slice() {
+                found.push([*first, *last]);
+            }
+        }
+        found
+    }
+
+    /// 5i − d ± √(w² − (Ω − Ω₀)²): two waves that coalesce within a band of 1e-6 of the distance of the first speeds.
+    #[test]
+    fn a_band_far_narrower_than_the_first_steps_is_found() {
+        let (centre, half, decay) = (4.321_987, 1e-6, 1e-8);
+        let pair = move |speed: f64| {
+            let away = speed - centre;
+            let root = c64::new(half * half - away * away, 0.0).sqrt();
+            let mean = c64::new(-decay, 5.0);
+            vec![(mean + root, -away / root), (mean - root, away / root)]
+        };
+        let (curves, asked) = followed(&pair);
+        let bands = growing(&curves);
+        assert_eq!(bands.len(), 1, "{bands:?}");
+        let edge = (half * half - decay * decay).sqrt();
+        for (found, exact) in bands[0].iter().zip([centre - edge, centre + edge]) {
+            assert!((found - exact).abs() < 0.05 * half, "{found} {exact}");
+        }
+        assert!(asked < 80, "{asked} speeds");
+    }
+
+    /// ±√(Ω − 3)(7 − Ω) − 0.01: a wave stops, diverges and oscillates again. The growing curve is real, and ends where the
+    /// two real eigenvalues meet.
+    #[test]
+    fn a_pair_that_turns_real_begins_and_ends_curves() {
+        let pair = |speed: f64| {
+            let square = (speed - 3.0) * (7.0 - speed);
+            let root = c64::new(square, 0.0).sqrt();
+            let slope = (10.0 - 2.0 * speed) / (2.0 * root);
+            let decay = c64::new(-0.01, 0.0);
+            vec![(decay + root, slope), (decay - root, -slope)]
+        };
+        let (curves, asked) = followed(&pair);
+        let bands = growing(&curves);
+        assert_eq!(bands.len(), 1, "{bands:?}");
+        let [first, last] = bands[0];
+        assert!(
+            (first - 3.0).abs() < 1e-3 && (last - 7.0).abs() < 1e-3,
+            "{first} {last}"
+        );
+        let real = |curve: &&Curve| curve.iter().all(|p| p.lambda.im == 0.0);
+        assert_eq!(curves.iter().filter(real).count(), 2);
+        assert!(asked < 60, "{asked} speeds");
+    }
+
+    /// Three waves cross in frequency and keep their decay: none is taken for another, and nothing grows.
+    #[test]
+    fn waves_that_only_cross_stay_themselves() {
+        let waves = |speed: f64| {
+            let wave = |decay: f64, from: f64, slope: f64| {
+                (c64::new(-decay, from + slope * speed), c64::new(0.0, slope))
+            };
+            vec![
+                wave(0.1, 4.0, 0.5),
+                wave(0.2, 9.0, -0.5),
+                wave(0.3, 6.0, 0.1),
+            ]
+        };
+        let (curves, _) = followed(&waves);
+        let below = curves.iter().filter(|curve| curve[0].lambda.im < 20.0);
+        let whole: Vec<&Curve> = below.collect();
+        assert_eq!(whole.len(), 3);
+        for curve in whole {
+            let first = curve[0].lambda.re;
+            assert!(curve.iter().all(|p| (p.lambda.re - first).abs() < 1e-6));
+        }
+        assert!(growing(&curves).is_empty());
+    }
+}
