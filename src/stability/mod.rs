@@ -35,6 +35,7 @@ mod maximum;
 mod onsets;
 mod out_of_reach;
 mod pair_continuation;
+mod partition;
 mod pieces;
 mod proof;
 mod root;

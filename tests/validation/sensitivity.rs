@@ -16,7 +16,7 @@ const RESOLUTION: Resolution = Resolution {
 };
 
 fn analysis_of(scene: &Scene) -> Analysis {
-    dense_analysis(scene, RESOLUTION, [300.0, 2350.0], 40)
+    dense_analysis(scene, RESOLUTION, [300.0, 2350.0], 20)
 }
 
 /// The scene with one number moved by a share of the change that a sensitivity speaks of.

@@ -241,7 +241,8 @@ fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::pieces::{Sample, Search};
+    use crate::stability::partition::Sample;
+    use crate::stability::pieces::Search;
 
     /// Curves of eigenvalues in closed form over 0 to 10 rad/s, and how many speeds were asked.
     fn followed(eigenvalues: &(dyn Fn(f64) -> Vec<Sloped> + Sync)) -> (Vec<Curve>, usize) {

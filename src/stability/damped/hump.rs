@@ -22,6 +22,8 @@ const LEAST_BAND: f64 = 1e-9;
 /// A stretch of a curve on which Re λ > 0.
 struct Stretch {
     curve: Vec<CurvePoint>,
+    /// Speeds of extrema, of which the eigenvalue was computed: what lies between is told by the search.
+    extrema: Vec<f64>,
     /// Whether the range of speeds begins and ends in it.
     cut: [bool; 2],
 }
@@ -52,8 +54,10 @@ pub fn bands(
             grown.push(onset(solver, component, *outside, curve[end - 1])?);
         }
         let ends = [grown[0], grown[grown.len() - 1]].map(|point| point.speed_rad_per_s);
+        let (curve, extrema) = with_extrema(solver, component, grown)?;
         let stretch = Stretch {
-            curve: with_extrema(solver, component, grown)?,
+            curve,
+            extrema,
             cut: [ends[0] <= range.0, ends[1] >= range.1],
         };
         bands.extend(parted(stretch, solver.noise()));
@@ -75,13 +79,14 @@ fn onset(
     root(solver, component, [outside, inside], |p| p.lambda.re)
 }
 
-/// A curve with every speed at which its growth is largest or smallest.
+/// A curve with every speed at which its growth is largest or smallest, and these speeds.
 fn with_extrema(
     solver: &Solver<'_>,
     component: usize,
     curve: Vec<CurvePoint>,
-) -> Result<Vec<CurvePoint>, SpectrumError> {
+) -> Result<(Vec<CurvePoint>, Vec<f64>), SpectrumError> {
     let mut full = Vec::with_capacity(curve.len());
+    let mut extrema = Vec::new();
     for k in 0..curve.len() {
         full.push(curve[k]);
         let Some(&next) = curve.get(k + 1) else {
@@ -93,11 +98,12 @@ fn with_extrema(
             let found = root(solver, component, [curve[k], next], |p| p.slope.re)?;
             let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
             if !ends.contains(&found.speed_rad_per_s) {
+                extrema.push(found.speed_rad_per_s);
                 full.push(found);
             }
         }
     }
-    Ok(full)
+    Ok((full, extrema))
 }
 
 /// The point between two points of a path at which a number of it is zero.
@@ -154,7 +160,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
             stretch.cut[0] && ends[0] == 0,
             stretch.cut[1] && ends[1] == last,
         ];
-        band(&stretch.curve[ends[0]..=ends[1]], cut)
+        band(&stretch.curve[ends[0]..=ends[1]], &stretch.extrema, cut)
     });
     humps
         .flatten()
@@ -197,11 +203,14 @@ fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<
 }
 
 /// The band of one hump.
-fn band(curve: &[CurvePoint], cut: [bool; 2]) -> Option<Instability> {
+fn band(curve: &[CurvePoint], extrema: &[f64], cut: [bool; 2]) -> Option<Instability> {
     let (first, last) = (curve.first()?, curve.last()?);
     let growth = |p: &&CurvePoint| p.lambda.re;
+    let is_computed = |p: &&CurvePoint| extrema.contains(&p.speed_rad_per_s);
     let peak = curve
         .iter()
+        .filter(is_computed)
+        .chain([first, last])
         .max_by(|x, y| growth(x).total_cmp(&growth(y)))?;
     let kind = match peak.lambda.im == 0.0 {
         true => InstabilityKind::Divergence,

@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::c64;
 
 use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
-use crate::stability::pieces::{Piece, Sample};
+use crate::stability::partition::Sample;
+use crate::stability::pieces::Piece;
 
 /// Growth below this share of the highest frequency is rounding.
 const NOISE: f64 = 1e-10;

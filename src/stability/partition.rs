@@ -1,0 +1,169 @@
+//! Which eigenvalues of two speeds may coalesce between them, and which stay apart.
+
+use faer::c64;
+
+use super::group::Sloped;
+
+/// Frequencies or growths nearer than this share of the highest frequency are not told apart.
+const LEAST_STEP: f64 = 1e-9;
+/// Two eigenvalues may meet where their difference, continued by its slope, falls below this share of itself.
+const MEETING: f64 = 0.3;
+
+/// The low eigenvalues of a damped saw at a speed, with their conjugates.
+#[derive(Debug, Clone)]
+pub struct Sample {
+    pub speed_rad_per_s: f64,
+    /// By frequency; conjugates lie symmetrically about the middle.
+    pub eigenvalues: Vec<Sloped>,
+}
+
+impl Sample {
+    /// From eigenvalues of Im λ ≥ 0.
+    pub fn new(speed_rad_per_s: f64, upper: impl Iterator<Item = Sloped>) -> Self {
+        let mut eigenvalues: Vec<Sloped> = upper
+            .flat_map(|(z, slope)| {
+                let conjugate = (z.im > 0.0).then(|| (z.conj(), slope.conj()));
+                [Some((z, slope)), conjugate].into_iter().flatten()
+            })
+            .collect();
+        let order = |x: &Sloped, y: &Sloped| {
+            let side = |z: c64| if z.im < 0.0 { -z.re } else { z.re };
+            let by_frequency = x.0.im.total_cmp(&y.0.im);
+            by_frequency.then(side(x.0).total_cmp(&side(y.0)))
+        };
+        eigenvalues.sort_by(order);
+        Sample {
+            speed_rad_per_s,
+            eigenvalues,
+        }
+    }
+
+    fn middle(&self) -> usize {
+        self.eigenvalues.len() / 2
+    }
+}
+
+/// Places of the eigenvalues of a group in the samples at both ends.
+pub type Places = [Vec<usize>; 2];
+
+/// Groups from the real axis up: between them neighbours stay apart, by values and slopes from both ends. `None`
+/// where nothing closes above the highest frequency.
+pub fn partition(ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> {
+    let [a, b] = ends.map(|end| end.speed_rad_per_s);
+    let middles = ends.map(|end| end.middle());
+    let count = middles
+        .iter()
+        .zip(ends)
+        .map(|(middle, end)| end.eigenvalues.len() - middle)
+        .min()?;
+    let by_frequency = ends.map(|end| (0..end.eigenvalues.len()).collect::<Vec<_>>());
+    let sides = [0, 1].map(|end| Side {
+        z: &ends[end].eigenvalues,
+        width: [b - a, a - b][end],
+        least: LEAST_STEP * top_rad_per_s,
+    });
+    let is_cut = [0, 1].map(|end| sides[end].cuts(&by_frequency[end], |z| z.im));
+    let mut cuts: Vec<usize> = Vec::new();
+    let mut is_closed = false;
+    for j in (0..count).filter(|&j| is_cut[0][middles[0] + j] && is_cut[1][middles[1] + j]) {
+        cuts.push(j);
+        let above = |end: usize| ends[end].eigenvalues[middles[end] + j].0.im > top_rad_per_s;
+        if above(0) && above(1) {
+            is_closed = true;
+            break;
+        }
+    }
+    let lowest = cuts.first().copied().filter(|_| is_closed)?;
+    let mut parts = about_the_axis(
+        &sides,
+        middles.map(|m| (m - lowest, m + lowest)),
+        top_rad_per_s,
+    );
+    parts.extend(
+        cuts.windows(2)
+            .map(|pair| middles.map(|middle| (middle + pair[0]..middle + pair[1]).collect())),
+    );
+    Some(parts)
+}
+
+/// The same of what is next to the real axis, by growth. What decays faster than the highest frequency is left out.
+fn about_the_axis(
+    sides: &[Side<'_>; 2],
+    ranges: [(usize, usize); 2],
+    top_rad_per_s: f64,
+) -> Vec<Places> {
+    let by_growth = [0, 1].map(|end| {
+        let mut places: Vec<usize> = (ranges[end].0..ranges[end].1).collect();
+        let growth = |place: usize| sides[end].z[place].0.re;
+        places.sort_by(|&x, &y| growth(x).total_cmp(&growth(y)));
+        places
+    });
+    let count = by_growth[0].len();
+    let is_cut = [0, 1].map(|end| sides[end].cuts(&by_growth[end], |z| z.re));
+    let mut bounds = vec![0];
+    bounds.extend((1..count).filter(|&j| is_cut[0][j] && is_cut[1][j]));
+    bounds.push(count);
+    let parts = bounds.windows(2).map(|pair| {
+        by_growth
+            .each_ref()
+            .map(|places| places[pair[0]..pair[1]].to_vec())
+    });
+    let is_seen = |places: &Places| {
+        let mut all = [0, 1].into_iter().flat_map(|end| {
+            let places = places[end].iter();
+            places.map(move |&place| sides[end].z[place].0.re)
+        });
+        all.any(|growth| growth >= -top_rad_per_s)
+    };
+    parts.filter(is_seen).collect()
+}
+
+/// The eigenvalues at one end of a piece, and how far the other end is, negative from the upper one.
+struct Side<'a> {
+    z: &'a [Sloped],
+    width: f64,
+    /// Neighbours nearer than this are not told apart.
+    least: f64,
+}
+
+impl Side<'_> {
+    /// Before which places of an order the eigenvalues from there on stay above those below over half of the piece, by a
+    /// part of them and its slope, where none meets one from the other side.
+    fn cuts(&self, order: &[usize], part: fn(c64) -> f64) -> Vec<bool> {
+        let count = order.len();
+        let mut is_cut: Vec<bool> = (0..count).map(|place| place > 0).collect();
+        for share in [0.0, 0.25, 0.5] {
+            let at = |k: &usize| part(self.z[*k].0) + share * self.width * part(self.z[*k].1);
+            let values: Vec<f64> = order.iter().map(at).collect();
+            let mut lowest_above = vec![f64::INFINITY; count];
+            let mut lowest = f64::INFINITY;
+            for place in (0..count).rev() {
+                lowest = lowest.min(values[place]);
+                lowest_above[place] = lowest;
+            }
+            let least = if share == 0.0 { self.least } else { 0.0 };
+            let mut highest = f64::NEG_INFINITY;
+            for place in 0..count {
+                is_cut[place] &= lowest_above[place] - highest > least;
+                highest = highest.max(values[place]);
+            }
+        }
+        for first in 0..count {
+            // No cut lies between two that meet; from the last that meets the first one on.
+            let last = (first + 1..count)
+                .rev()
+                .find(|&k| self.meet(order[first], order[k]));
+            is_cut[first + 1..=last.unwrap_or(first)].fill(false);
+        }
+        is_cut
+    }
+
+    /// Whether the difference of two eigenvalues, continued by its slope over half of the piece, comes near zero in the
+    /// complex plane: two waves beside their coalescence may differ in growth alone.
+    fn meet(&self, i: usize, k: usize) -> bool {
+        let (difference, slope) = (self.z[i].0 - self.z[k].0, self.z[i].1 - self.z[k].1);
+        let rate = slope.norm_sqr().max(f64::MIN_POSITIVE);
+        let share = (-(difference * slope.conj()).re / rate / self.width).clamp(0.0, 0.5);
+        (difference + slope * (share * self.width)).norm() < MEETING * difference.norm()
+    }
+}
