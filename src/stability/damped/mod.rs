@@ -53,7 +53,7 @@ pub(super) fn charted(
 const SEARCH_SPEEDS: usize = 9;
 /// Relative error allowed of an eigenvalue between two speeds of the search, and of a growth.
 const EIGENVALUE_TOLERANCE: f64 = 1e-3;
-const GROWTH_TOLERANCE: f64 = 5e-3;
+const GROWTH_TOLERANCE: f64 = 1e-3;
 
 /// Every band within a range of speeds, by onset.
 fn bands(
