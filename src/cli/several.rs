@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::report::{OperatingEntry, Report, StabilityState};
+use crate::report::{OperatingEntry, Report};
 use crate::scene::Scene;
 use anyhow::bail;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::common::{Output, is_standard_input};
 use super::in_words;
 
-use crate::summary::{shortened, wrapped};
+use crate::summary::{Answer, shortened, wrapped};
 
 /// What is written beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
@@ -103,15 +103,15 @@ impl Row {
     }
 }
 
-/// Whether a saw can run at its operating speed, as its summary says.
+/// Whether a saw can run at its operating speed, as its summary says, in few words.
 fn verdict(operating: &OperatingEntry) -> &'static str {
-    match operating.verdict {
-        StabilityState::Stable if operating.at_critical_rpm.is_some() => "at critical",
-        StabilityState::Stable if operating.within_limit == Some(false) => "past the limit",
-        StabilityState::Stable => "stable",
-        StabilityState::Divergence => "divergence",
-        StabilityState::Flutter => "flutter",
-        StabilityState::OutsideSweep => "outside sweep",
+    match Answer::new(operating) {
+        Answer::Runs => "stable",
+        Answer::PastRule => "past the limit",
+        Answer::AtCritical => "at critical",
+        Answer::Divergence => "divergence",
+        Answer::Flutter => "flutter",
+        Answer::OutsideSweep => "outside sweep",
     }
 }
 

@@ -7,6 +7,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 
 use super::reply::Refusal;
+use super::told::Told;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
@@ -31,6 +32,7 @@ struct Chart<'a> {
     /// Name of the chart when its modes are asked for.
     chart: usize,
     milliseconds: f64,
+    told: Told,
     report: &'a Report,
 }
 
@@ -91,6 +93,7 @@ impl Charts {
         serde_json::to_string(&Chart {
             chart,
             milliseconds,
+            told: Told::new(&report),
             report: &report,
         })
         .map_err(|error| Refusal::of(&error))

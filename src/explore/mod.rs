@@ -15,5 +15,6 @@ mod pages;
 mod reply;
 mod server;
 mod task;
+mod told;
 
 pub use server::{Options, serve};

@@ -7,43 +7,97 @@ use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, S
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
 
-/// Whether the saw can run at its speed, and at which others.
-pub fn answer(text: &mut String, report: &Report) -> Result {
-    writeln!(text)?;
-    match &report.operating {
-        Some(operating) => at_operating_speed(text, report, operating)?,
-        None => up_to(text, report)?,
-    }
-    flutter(text, report)
+/// Whether a saw can run at its speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "explore", derive(serde::Serialize))]
+#[cfg_attr(feature = "explore", serde(rename_all = "snake_case"))]
+pub enum Answer {
+    /// It is stable and keeps the rule.
+    Runs,
+    /// It is stable, but breaks the rule.
+    PastRule,
+    /// It is stable, but at a critical speed.
+    AtCritical,
+    /// It diverges.
+    Divergence,
+    /// It flutters.
+    Flutter,
+    /// The sweep does not reach its speed.
+    OutsideSweep,
 }
 
-fn at_operating_speed(text: &mut String, report: &Report, operating: &OperatingEntry) -> Result {
-    let word = match operating.verdict {
-        StabilityState::Stable if operating.within_limit != Some(false) => "YES",
-        StabilityState::Stable if operating.at_critical_rpm.is_some() => {
-            "STABLE, but AT A CRITICAL SPEED"
+impl Answer {
+    /// For an operating speed.
+    pub fn new(operating: &OperatingEntry) -> Self {
+        match operating.verdict {
+            StabilityState::Divergence => Answer::Divergence,
+            StabilityState::Flutter => Answer::Flutter,
+            StabilityState::OutsideSweep => Answer::OutsideSweep,
+            StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
+            StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
+            StabilityState::Stable => Answer::Runs,
         }
-        StabilityState::Stable => "STABLE, but past the usual limit",
-        StabilityState::Divergence => "NO, UNSTABLE: divergence",
-        StabilityState::Flutter => "NO, UNSTABLE: flutter",
-        StabilityState::OutsideSweep => "UNKNOWN: outside the sweep",
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            Answer::Runs => "YES",
+            Answer::PastRule => "STABLE, but past the usual limit",
+            Answer::AtCritical => "STABLE, but AT A CRITICAL SPEED",
+            Answer::Divergence => "NO, UNSTABLE: divergence",
+            Answer::Flutter => "NO, UNSTABLE: flutter",
+            Answer::OutsideSweep => "UNKNOWN: outside the sweep",
+        }
+    }
+}
+
+/// The answer to whether a saw can run at its speed, and at which others, line by line. The first
+/// line is the answer, the others are its reasons; a line may have breaks, behind which it is indented.
+pub fn answer(report: &Report) -> Vec<String> {
+    let mut lines = match &report.operating {
+        Some(operating) => at_operating_speed(report, operating),
+        None => up_to(report),
     };
-    writeln!(text, "Can it run at {:.0} rpm? {word}", operating.rpm)?;
-    if operating.verdict == StabilityState::OutsideSweep {
-        writeln!(text, "  widen `sweep` so that it holds operating_rpm")?;
+    lines.extend(flutter(report));
+    lines
+}
+
+fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String> {
+    let answer = Answer::new(operating);
+    let asked = format!("Can it run at {:.0} rpm?", operating.rpm);
+    let mut lines = vec![format!("{asked} {}", answer.in_words())];
+    let around = operating.inside_instability;
+    let band = around.and_then(|index| report.instabilities.get(index));
+    lines.extend(band.map(inside));
+    if answer == Answer::OutsideSweep {
+        lines.push("  widen `sweep` so that it holds operating_rpm".to_owned());
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
-        writeln!(text, "  {}", fastest(report, growth, hz))?;
+        lines.push(format!("  {}", fastest(report, growth, hz)));
     }
     if let Some([from, to]) = operating.safe_window_rpm {
-        writeln!(
-            text,
+        lines.push(format!(
             "  window without instability: {from:.1} to {to:.1} rpm{}",
             end_of_window(report, to)
-        )?;
+        ));
     }
-    at_critical_speed(text, report, operating)?;
-    rule(text, operating)
+    lines.extend(at_critical_speed(report, operating));
+    lines.extend(rule(operating));
+    lines
+}
+
+/// The band that makes the saw unstable where it runs.
+fn inside(band: &InstabilityEntry) -> String {
+    let kind = match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
+    };
+    let waves = band.name.as_ref();
+    let waves = waves.map_or(String::new(), |name| format!(",\n    {name}"));
+    format!(
+        "  inside the band of {kind} from {:.1} to {:.1} rpm{waves}",
+        band.from_rpm, band.to_rpm
+    )
 }
 
 fn fastest(report: &Report, growth: f64, hz: f64) -> String {
@@ -70,10 +124,8 @@ fn fastest(report: &Report, growth: f64, hz: f64) -> String {
     }
 }
 
-fn at_critical_speed(text: &mut String, report: &Report, operating: &OperatingEntry) -> Result {
-    let Some(rpm) = operating.at_critical_rpm else {
-        return Ok(());
-    };
+fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<String> {
+    let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
     let line = format!(
@@ -81,55 +133,52 @@ fn at_critical_speed(text: &mut String, report: &Report, operating: &OperatingEn
          ten times as far as at rest, or more",
         100.0 * CRITICAL_MARGIN
     );
-    writeln!(text, "{}", wrapped(&line))
+    Some(wrapped(&line))
 }
 
 /// The 85 % rule.
-fn rule(text: &mut String, operating: &OperatingEntry) -> Result {
-    let Some(ratio) = operating.of_lowest_critical else {
-        return Ok(());
-    };
+fn rule(operating: &OperatingEntry) -> Option<String> {
+    let ratio = operating.of_lowest_critical?;
     let verdict = match operating.within_limit {
         Some(false) => "breaks",
         _ => "keeps",
     };
-    writeln!(
-        text,
+    Some(format!(
         "  {:.0} % of the lowest critical speed {verdict} the {:.0} % rule (at most {:.0} rpm)",
         100.0 * ratio,
         100.0 * operating.limit,
         operating.limit * operating.rpm / ratio
-    )
+    ))
 }
 
-fn up_to(text: &mut String, report: &Report) -> Result {
+fn up_to(report: &Report) -> Vec<String> {
     let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
     let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
     let from = report.campbell.from_rpm;
-    match first {
+    let answer = match first {
         Some(first) if first > from => {
-            writeln!(text, "No instability from {from:.0} to {first:.1} rpm")?;
+            format!("No instability from {from:.0} to {first:.1} rpm")
         }
-        Some(first) => writeln!(text, "Unstable from {first:.1} rpm on")?,
-        None => writeln!(
-            text,
+        Some(first) => format!("Unstable from {first:.1} rpm on"),
+        None => format!(
             "No instability from {from:.0} to {:.0} rpm, the end of the sweep",
             report.campbell.to_rpm
-        )?,
-    }
-    if let Some(critical) = report.critical_speeds.first() {
-        writeln!(
-            text,
+        ),
+    };
+    let lowest = report.critical_speeds.first().map(|critical| {
+        format!(
             "  lowest critical speed {:.1} rpm ({})",
             critical.rpm, critical.name
-        )?;
-    }
-    writeln!(text, "  (no operating_rpm in the scene to hold against it)")
+        )
+    });
+    let lacking = "  (no operating_rpm in the scene to hold against it)".to_owned();
+    let lines = [Some(answer), lowest, Some(lacking)];
+    lines.into_iter().flatten().collect()
 }
 
-fn flutter(text: &mut String, report: &Report) -> Result {
+fn flutter(report: &Report) -> Vec<String> {
     let threshold = report.flutter_threshold_per_s;
-    match report.flutter_speed_rpm {
+    let speed = match report.flutter_speed_rpm {
         Some(rpm) => {
             let is_its = |band: &&InstabilityEntry| {
                 band.kind == InstabilityKind::Flutter
@@ -138,24 +187,17 @@ fn flutter(text: &mut String, report: &Report) -> Result {
             let band = report.instabilities.iter().find(is_its);
             let error = band.and_then(|band| band.estimated_relative_error);
             let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
-            writeln!(
-                text,
-                "Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)"
-            )?;
+            format!("Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)")
         }
-        None => writeln!(
-            text,
+        None => format!(
             "No flutter of {threshold} 1/s or more up to {:.0} rpm",
             report.campbell.to_rpm
-        )?,
-    }
-    match report.first_merge_rpm {
-        Some(rpm) => writeln!(
-            text,
-            "First flutter band, including weak ones: {rpm:.0} rpm"
         ),
-        None => Ok(()),
-    }
+    };
+    let first = report
+        .first_merge_rpm
+        .map(|rpm| format!("First flutter band, including weak ones: {rpm:.0} rpm"));
+    [Some(speed), first].into_iter().flatten().collect()
 }
 
 /// What ends a window.

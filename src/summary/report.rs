@@ -26,7 +26,10 @@ impl Report {
 fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
     unusual_numbers(text, &report.unusual_numbers)?;
-    answer(text, report)?;
+    writeln!(text)?;
+    for line in answer(report) {
+        writeln!(text, "{line}")?;
+    }
     in_cut(text, report)?;
     modes(text, report)?;
     critical_speeds(text, report)?;

@@ -12,6 +12,8 @@ const LEAST_STRETCH = 1e-3;
 
 export class Charts {
   report = null;
+  // Whether its saw can run at its speed, in the program's word.
+  #answer = null;
   pinned = null;
   // Another report that is shown beside this one, on the same axes.
   #other = null;
@@ -66,8 +68,9 @@ export class Charts {
     this.redraw();
   }
 
-  show(report, pinned) {
+  show(report, answer, pinned) {
     this.report = report;
+    this.#answer = answer;
     this.pinned = pinned;
     this.pointed &&= samePoint(report, this.pointed);
     this.redraw();
@@ -187,8 +190,8 @@ export class Charts {
       verticalLine(ctx, x(this.pinned.critical_speeds[0].rpm), box, this.colours.standing, scale, [1, 3]);
     }
     if (operating) {
-      const good = operating.within_limit !== false && operating.verdict === "stable";
-      verticalLine(ctx, x(operating.rpm), box, good ? this.colours.ink : this.colours.alarm, 1.6 * scale, []);
+      const colour = ["flutter", "divergence"].includes(this.#answer) ? this.colours.alarm : this.colours.ink;
+      verticalLine(ctx, x(operating.rpm), box, colour, 1.6 * scale, []);
     }
   }
 

@@ -94,7 +94,7 @@ function onChart(chart, request) {
   if (request.text !== JSON.stringify(state.scene)) watchAge();
   latest = chart;
   refusedKey = null;
-  pinned.begin(chart.report);
+  pinned.begin(chart);
   form.refuse(null);
   say("");
   document.body.classList.remove("stale");
@@ -142,7 +142,7 @@ async function weigh(chart) {
 
 // The chart, and what is held against it.
 function compare() {
-  pinned.showWith(latest.report, by("side").checked && pinned.isNamed);
+  pinned.showWith(latest, by("side").checked && pinned.isNamed);
   tell();
 }
 
@@ -186,16 +186,16 @@ function onBusy(busy, draft) {
 }
 
 function tell() {
-  const { report, milliseconds } = latest;
-  verdict(by("verdict"), report);
-  facts(by("facts"), report, pinned.report);
+  const { report, told, milliseconds } = latest;
+  verdict(by("verdict"), told);
+  facts(by("facts"), told.facts, pinned.facts);
   if (document.querySelector(".numbers").open) tables(by("tables"), report);
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
   list(by("unusual"), report.unusual_numbers);
   list(by("warnings"), report.warnings);
-  by("campbell").setAttribute("aria-label", `Campbell diagram. ${by("verdict").textContent}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
+  by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.lines.join(". ")}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
 }
 
 function list(place, sentences) {
@@ -221,7 +221,7 @@ function pin() {
 
 // Holds later changes against the saw as it is now; without a name, until another one is pinned.
 function hold(name) {
-  pinned.pin(latest.report, name);
+  pinned.pin(latest, name);
   compare();
   buttons();
 }

@@ -6,7 +6,7 @@ import { clone } from "./scene.js";
 
 export class Pinned {
   // What is shown before anything was pinned by hand is the saw that the page began with.
-  report = null;
+  #chart = null;
   name = "";
   #charts = null;
 
@@ -19,13 +19,18 @@ export class Pinned {
     place.append(this.title, this.campbell, this.growth);
   }
 
-  begin(report) {
-    this.report ??= clone(report);
+  begin(chart) {
+    this.#chart ??= clone(chart);
   }
 
-  pin(report, name) {
-    this.report = clone(report);
+  pin(chart, name) {
+    this.#chart = clone(chart);
     this.name = name;
+  }
+
+  // The numbers that changes are held against.
+  get facts() {
+    return this.#chart.told.facts;
   }
 
   get isNamed() {
@@ -33,16 +38,16 @@ export class Pinned {
   }
 
   #differs(report) {
-    return JSON.stringify(this.report.scene) !== JSON.stringify(report.scene);
+    return JSON.stringify(this.#chart.report.scene) !== JSON.stringify(report.scene);
   }
 
   // Both saws on the same axes, or the present one alone.
-  showWith(report, beside) {
+  showWith({ report, told }, beside) {
     this.place.hidden = !beside;
     this.place.parentElement.classList.toggle("two", beside);
-    this.present.shareAxes(beside ? this.report : null);
+    this.present.shareAxes(beside ? this.#chart.report : null);
     // Side by side nothing lies over each other.
-    this.present.show(report, !beside && this.#differs(report) ? this.report : null);
+    this.present.show(report, told.answer, !beside && this.#differs(report) ? this.#chart.report : null);
     if (!beside) return;
     this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
       onHover: () => {},
@@ -52,7 +57,7 @@ export class Pinned {
     this.campbell.ariaLabel = `Campbell diagram of ${this.name}`;
     this.#charts.resize();
     this.#charts.shareAxes(report, this.present.stretch);
-    this.#charts.show(this.report, null);
+    this.#charts.show(this.#chart.report, this.#chart.told.answer, null);
   }
 
   zoomed(speeds) {

@@ -1,51 +1,26 @@
 // What the chart says, in words and tables.
 
-import { node, write } from "./dom.js";
-import { numbered, rpm, shown } from "./words.js";
+import { node } from "./dom.js";
+import { numbered, shown } from "./words.js";
 
-const firstCritical = (report) => report.critical_speeds[0]?.rpm ?? null;
-
-// Rise at which the first critical speed is that of operation, or the blade buckles before.
-function toleratedRise({ membrane }) {
-  const heat = membrane?.heat;
-  if (!heat || heat.past_critical_when_cold) return null;
-  return (heat.operating_limit ?? heat.buckling)?.rise_k ?? null;
+// The answer of the program and its reasons, in its own words.
+export function verdict(place, { answer, lines }) {
+  place.className = answer ?? "";
+  const [headline, ...reasons] = lines;
+  if (place.textContent.trim() === lines.join(" ")) return;
+  place.replaceChildren(
+    node("strong", { textContent: headline }), " ",
+    node("span", { className: "reasons" }, ...reasons.flatMap((reason) => [node("span", { textContent: reason }), " "])));
 }
 
-export function verdict(place, report) {
-  const { operating, flutter_speed_rpm, flutter_threshold_per_s, instabilities } = report;
-  const band = operating && operating.inside_instability !== null ? instabilities[operating.inside_instability] : null;
-  const good = operating && operating.within_limit === true && operating.verdict === "stable";
-  place.className = operating ? (good ? "good" : "bad") : "";
-  const share = operating?.of_lowest_critical;
-  const rule = operating && share !== null
-    ? `${Math.round(operating.rpm)} rpm is ${(100 * share).toFixed(1)} % of the lowest critical speed: `
-      + `${operating.within_limit ? "within" : "beyond"} the ${100 * operating.limit} % rule`
-    : "No operating speed to hold against the 85 % rule";
-  const inside = band ? `, and inside a ${band.kind} band`
-    : operating?.verdict === "outside_sweep" ? ", and outside the sweep"
-      : typeof operating?.at_critical_rpm === "number" ? `, and at the critical speed ${rpm(operating.at_critical_rpm)}` : "";
-  const flutter = flutter_speed_rpm === null
-    ? `No flutter of ${flutter_threshold_per_s} 1/s or more up to ${Math.round(report.campbell.to_rpm)} rpm`
-    : `Flutter (${flutter_threshold_per_s} 1/s or more) from ${Math.round(flutter_speed_rpm)} rpm`;
-  write(place, `${good ? "✓ " : operating ? "✗ " : ""}${rule}${inside}. ${flutter}.`);
-}
-
-// The numbers that a change is judged by, against those of the pinned saw.
-export function facts(place, report, pinned) {
-  const rows = [
-    ["First critical", firstCritical, rpm],
-    ["Flutter speed", (r) => r.flutter_speed_rpm, rpm],
-    ["First merging", (r) => r.first_merge_rpm, rpm],
-    ["Fastest growth", (r) => r.instabilities.reduce((top, band) => Math.max(top, band.peak_growth_per_s), 0), (v) => `${shown(v, 3)} 1/s`],
-    ["Of critical", (r) => r.operating?.of_lowest_critical ?? null, (v) => (v === null ? "–" : `${(100 * v).toFixed(1)} %`)],
-  ];
-  if (report.membrane?.heat) rows.push(["Tolerated rise", toleratedRise, (v) => (v === null ? "–" : `${shown(v, 3)} K`)]);
-  place.replaceChildren(...rows.map(([name, value, words]) => {
-    const [before, now] = [words(value(pinned)), words(value(report))];
-    const changed = before !== now;
-    const text = changed ? `${before.replace(/ (rpm|1\/s|%|K)$/, "")} → ${now}` : now;
-    return node("div", { className: changed ? "fact changed" : "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
+// The numbers that a change is judged by, against those of another saw.
+export function facts(place, now, before) {
+  const told = ({ words, unit }) => `${words} ${unit}`.trimEnd();
+  place.replaceChildren(...now.map((fact) => {
+    const other = before.find(({ name }) => name === fact.name);
+    const changed = other !== undefined && told(other) !== told(fact);
+    const text = changed ? `${other.words} → ${told(fact)}` : told(fact);
+    return node("div", { className: changed ? "fact changed" : "fact" }, node("dt", { textContent: fact.name }), node("dd", { textContent: text }));
   }));
 }
 

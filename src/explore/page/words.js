@@ -83,9 +83,6 @@ export function shown(value, digits = 6) {
   return String(Number(value.toPrecision(digits)));
 }
 
-export const rpm = (value) =>
-  value === null || value === undefined ? "none" : `${value < 100 ? value.toFixed(1) : Math.round(value)} rpm`;
-
 // A part of the scene, by its key.
 export const partName = (key) => (key === "runup" ? "run-up" : key.replaceAll("_", " "));
 

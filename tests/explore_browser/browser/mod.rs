@@ -180,6 +180,8 @@ impl Page {
 
     /// Clicks a button that saves a file, and reads what the browser has put on the disk.
     pub async fn download(&self, name: &str) -> Vec<u8> {
+        // One that was saved before would be taken for the new one.
+        let _ = std::fs::remove_file(self.folder.path().join(name));
         self.find(&format!("[data-save={name:?}]"))
             .await
             .click()

@@ -1,0 +1,127 @@
+//! What a chart says in words: the answer of the summary, and the numbers that a change is judged by.
+
+use serde::Serialize;
+
+use crate::report::{HeatEntry, Report};
+use crate::summary::{Answer, answer};
+use crate::text::shown_to;
+
+/// In words of the summary.
+#[derive(Serialize)]
+pub struct Told {
+    /// Whether the saw can run at its speed; null without one.
+    answer: Option<Answer>,
+    /// The same in words, and its reasons.
+    lines: Vec<String>,
+    facts: Vec<Fact>,
+}
+
+/// A number that a change is judged by.
+#[derive(Serialize)]
+struct Fact {
+    name: &'static str,
+    words: String,
+    unit: &'static str,
+}
+
+impl Told {
+    /// Of a report.
+    pub fn new(report: &Report) -> Self {
+        let on_one_line = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        Told {
+            answer: report.operating.as_ref().map(Answer::new),
+            lines: answer(report).into_iter().map(on_one_line).collect(),
+            facts: facts(report),
+        }
+    }
+}
+
+fn facts(report: &Report) -> Vec<Fact> {
+    let speed = |name, rpm: Option<f64>| Fact {
+        name,
+        words: rpm.map_or("none".to_owned(), |rpm| match rpm < 100.0 {
+            true => format!("{rpm:.1}"),
+            false => format!("{rpm:.0}"),
+        }),
+        unit: if rpm.is_some() { "rpm" } else { "" },
+    };
+    let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
+    let share = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
+    let mut facts = vec![
+        speed(
+            "First critical",
+            report.critical_speeds.first().map(|critical| critical.rpm),
+        ),
+        speed("Flutter speed", report.flutter_speed_rpm),
+        speed("First merging", report.first_merge_rpm),
+        Fact {
+            name: "Fastest growth",
+            words: shown_to(3, peaks.fold(0.0, f64::max)),
+            unit: "1/s",
+        },
+        known(
+            "Of critical",
+            share.map(|share| format!("{:.1}", 100.0 * share)),
+            "%",
+        ),
+    ];
+    let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
+    facts.extend(heat.map(|heat| {
+        let rise = tolerated_rise_k(heat).map(|rise_k| shown_to(3, rise_k));
+        known("Tolerated rise", rise, "K")
+    }));
+    facts
+}
+
+fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact {
+    let unit = if words.is_some() { unit } else { "" };
+    let words = words.unwrap_or_else(|| "–".to_owned());
+    Fact { name, words, unit }
+}
+
+/// Rise at which the first critical speed is that of operation, or the blade buckles before.
+fn tolerated_rise_k(heat: &HeatEntry) -> Option<f64> {
+    let limit = heat.operating_limit.as_ref().or(heat.buckling.as_ref());
+    let limit = limit.filter(|_| !heat.past_critical_when_cold);
+    limit.map(|limit| limit.rise_k)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::scene::{Accuracy, Scene};
+    use crate::stability::Analysis;
+
+    /// The page is told the answer that the program prints, line for line.
+    #[test]
+    fn the_answer_is_that_of_the_summary() {
+        for (rpm, wanted) in [
+            (Some(900.0), json!("runs")),
+            (Some(1800.0), json!("past_rule")),
+            (Some(1500.0), json!("at_critical")),
+            (Some(2400.0), json!("flutter")),
+            (Some(5000.0), json!("outside_sweep")),
+            (None, Value::Null),
+        ] {
+            let scene = Scene::paper().edited(|file| {
+                (file.accuracy, file.operating_rpm) = (Accuracy::Draft, rpm);
+            });
+            let report = Analysis::new(&scene.unwrap()).unwrap().report();
+            let told = serde_json::to_value(Told::new(&report)).unwrap();
+            let printed = report.summary();
+            let printed: Vec<&str> = printed.split_whitespace().collect();
+            let lines = told["lines"].as_array().unwrap();
+            let words: Vec<&str> = lines
+                .iter()
+                .flat_map(|line| line.as_str().unwrap().split(' '))
+                .collect();
+            assert_eq!(told["answer"], wanted, "{rpm:?}: {lines:?}");
+            assert!(
+                printed.windows(words.len()).any(|window| window == words),
+                "{lines:?}"
+            );
+        }
+    }
+}
