@@ -21,6 +21,7 @@ files! {
     "talk.js": SCRIPT, "page/talk.js";
     "scene.js": SCRIPT, "page/scene.js";
     "kept.js": SCRIPT, "page/kept.js";
+    "link.js": SCRIPT, "page/link.js";
     "beginnings.js": SCRIPT, "page/beginnings.js";
     "branches.js": SCRIPT, "page/branches.js";
     "files.js": SCRIPT, "page/files.js";

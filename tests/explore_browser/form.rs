@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::browser::{Key, Page, drag, hand, let_go, run, same};
+use crate::browser::{Key, PAD, Page, drag, hand, let_go, run, same};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
@@ -275,6 +275,62 @@ fn a_number_that_may_be_one_of_two_is_asked_about() {
         let scene = page.value("sawflutter.state.scene").await;
         assert_eq!(scene["operating_rpm"], json!(1800));
         assert_eq!(scene["blade"]["thickness_m"], json!(0.00285));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn taking_back_in_a_field_takes_the_scene_back() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let thickness = "[sawflutter.state.scene.blade.thickness_m, document.getElementById('blade.thickness_m').value]";
+        page.enter("blade.thickness_m", "3").await;
+        page.settle().await;
+        let field = page.find("[id='blade.thickness_m']").await;
+        // What is only typed is taken back as in every field; then the scene is.
+        field.send_keys("9").await.unwrap();
+        field.send_keys(Key::Control + "z").await.unwrap();
+        assert_eq!(page.value(thickness).await, json!([0.003, "3"]));
+        let field = page.find("[id='blade.thickness_m']").await;
+        field.send_keys(Key::Control + "z").await.unwrap();
+        page.settle().await;
+        assert_eq!(page.value(thickness).await, json!([0.0028, "2.8"]));
+        let field = page.find("[id='blade.thickness_m']").await;
+        field.send_keys(Key::Control + "y").await.unwrap();
+        page.settle().await;
+        assert_eq!(page.value(thickness).await, json!([0.003, "3"]));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let radius = "sawflutter.state.scene.guides[0].radius_m";
+        let edge = |name: &str| format!("{radius} === 0.5 * sawflutter.state.scene.blade.{name}");
+        drag(&page, PAD, 12, (30, 0)).await;
+        let_go(&page).await;
+        page.settle().await;
+        assert_eq!(page.value(&edge("outer_diameter_m")).await, json!(true));
+        // Into the middle of the bore.
+        let way = page
+            .value(&format!(
+                "['#drawing', {PAD:?}].map((part) => document.querySelector(part).getBoundingClientRect())\
+                 .map((box) => [box.left + box.width / 2, box.top + box.height / 2])"
+            ))
+            .await;
+        let [to, from]: [[f64; 2]; 2] = serde_json::from_value(way).unwrap();
+        let step = [0, 1].map(|k| ((to[k] - from[k]) / 10.0).round() as i64);
+        drag(&page, PAD, 10, (step[0], step[1])).await;
+        let_go(&page).await;
+        page.settle().await;
+        assert_eq!(page.value(&edge("inner_diameter_m")).await, json!(true));
+        assert_eq!(page.text("#fault").await, "");
         page.close().await;
     });
 }

@@ -6,6 +6,23 @@ use serde_json::json;
 
 use crate::browser::{PATIENCE, Page, run};
 
+const THICKNESS: &str = "sawflutter.state.scene.blade.thickness_m";
+
+impl Page {
+    /// Waits for the chart of a page that was opened.
+    async fn shown(&self) {
+        self.wait("window.sawflutter?.computed.length > 0").await;
+        self.settle().await;
+    }
+
+    /// Loads the page again.
+    async fn reload(&self) {
+        self.script("delete window.sawflutter").await;
+        self.driver.refresh().await.unwrap();
+        self.shown().await;
+    }
+}
+
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn edits_survive_a_reload_and_travel_in_the_address() {
@@ -14,27 +31,116 @@ fn edits_survive_a_reload_and_travel_in_the_address() {
         page.settle().await;
         page.enter("blade.thickness_m", "3").await;
         page.settle().await;
-        let thickness = "sawflutter.state.scene.blade.thickness_m";
-        let shown = "window.sawflutter?.computed.length > 0";
-        page.script("sawflutter.leave()").await;
-        page.driver.refresh().await.unwrap();
-        page.wait(shown).await;
-        page.settle().await;
-        assert_eq!(page.value(thickness).await, json!(0.003));
+        page.reload().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.003));
         let restored = page.value("document.querySelector('#restored').hidden");
         assert_eq!(restored.await, json!(false));
         page.screenshot("1280-restored.png").await;
 
         page.script("document.querySelector('#link').click()").await;
         page.wait("location.hash.startsWith('#scene=')").await;
-        page.script("document.querySelector('#over').click()").await;
+        let address = page.driver.current_url().await.unwrap();
+        page.reload().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.003));
+        // Edits that come after the link are not lost to it.
+        page.enter("blade.thickness_m", "3.2").await;
         page.settle().await;
-        assert_eq!(page.value(thickness).await, json!(0.0028));
-        page.script("sawflutter.leave()").await;
-        page.driver.refresh().await.unwrap();
-        page.wait(shown).await;
+        assert_eq!(page.value("location.hash").await, json!(""));
+        page.reload().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0032));
+        // Pasted over the address of the page, which asks first, for it was edited.
+        let (_, hash) = address.split_once('#').unwrap();
+        page.script("window.confirm = (asked) => { window.asked = asked; return true; }")
+            .await;
+        page.script(&format!("location.hash = '#{hash}'")).await;
+        page.wait(&format!("{THICKNESS} === 0.003")).await;
         page.settle().await;
-        assert_eq!(page.value(thickness).await, json!(0.003));
+        let asked = page.value("window.asked").await;
+        assert!(asked.as_str().unwrap().contains("Undo"), "{asked}");
+        page.script("document.querySelector('#undo').click()").await;
+        page.settle().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0032));
+
+        page.script("document.querySelector('#restored').hidden = false; document.querySelector('#over').click()")
+            .await;
+        page.settle().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0028));
+        page.reload().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0028));
+        page.close().await;
+    });
+}
+
+/// Each tab has edits of its own; a new one goes on with those that no open tab has.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn two_tabs_keep_their_edits_apart() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.enter("blade.thickness_m", "3").await;
+        page.settle().await;
+        let first = page.driver.window().await.unwrap();
+        let second = page.another_tab().await;
+        page.shown().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0028));
+        page.enter("blade.thickness_m", "3.4").await;
+        page.settle().await;
+        for (tab, thickness) in [(&first, 0.003), (&second, 0.0034)] {
+            page.driver.switch_to_window(tab.clone()).await.unwrap();
+            page.reload().await;
+            assert_eq!(page.value(THICKNESS).await, json!(thickness));
+        }
+        page.driver.close_window().await.unwrap();
+        page.driver.switch_to_window(first).await.unwrap();
+        page.another_tab().await;
+        page.shown().await;
+        assert_eq!(page.value(THICKNESS).await, json!(0.0034));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn another_saw_takes_the_place_of_an_edited_one_only_when_asked() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let choose = |k: usize| {
+            format!(
+                "document.getElementById('examples').value = {k}, document.getElementById('examples').dispatchEvent(new Event('change'))"
+            )
+        };
+        let name = "sawflutter.state.scene.name";
+        page.script("window.asked = 0; window.answer = false; window.confirm = () => { window.asked += 1; return window.answer; }")
+            .await;
+        // A saw as it was opened is replaced without a question.
+        page.script(&choose(2)).await;
+        page.settle().await;
+        let opened = page.value(name).await;
+        assert_eq!(page.value("window.asked").await, json!(0));
+        // Numbers are not held against those of another saw.
+        assert!(!page.text("#facts").await.contains(" → "));
+        page.enter("blade.thickness_m", "3.1").await;
+        page.settle().await;
+        assert!(page.text("#facts").await.contains(" → "));
+        page.script(&choose(1)).await;
+        assert_eq!(page.value(name).await, opened);
+        page.script("window.answer = true").await;
+        page.script(&choose(1)).await;
+        page.settle().await;
+        assert_ne!(page.value(name).await, opened);
+        assert_eq!(page.value("window.asked").await, json!(2));
+        // Nothing is lost where the browser keeps the edits: it does not ask whether to leave.
+        page.enter("blade.thickness_m", "3.1").await;
+        page.settle().await;
+        let leaves = "dispatchEvent(new Event('beforeunload', { cancelable: true }))";
+        assert_eq!(page.value(leaves).await, json!(true));
+        page.script("Storage.prototype.setItem = () => { throw new Error('full'); }")
+            .await;
+        page.enter("blade.thickness_m", "3.2").await;
+        page.settle().await;
+        assert_eq!(page.value(leaves).await, json!(false));
         page.close().await;
     });
 }

@@ -2,18 +2,7 @@
 
 use serde_json::json;
 
-use crate::browser::{PAD, Page, WindowHandle, drag, let_go, run};
-
-impl Page {
-    /// Opens the page in a tab more, and goes there.
-    async fn another_tab(&self) -> WindowHandle {
-        let address = self.driver.current_url().await.unwrap();
-        let tab = self.driver.new_tab().await.unwrap();
-        self.driver.switch_to_window(tab.clone()).await.unwrap();
-        self.driver.goto(address.as_str()).await.unwrap();
-        tab
-    }
-}
+use crate::browser::{PAD, Page, drag, let_go, run};
 
 /// A browser opens six connections to one server: a page that held one for good would leave none
 /// for the seventh tab.

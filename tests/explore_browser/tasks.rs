@@ -235,6 +235,7 @@ fn inches_and_examples_show_the_same_saws() {
         let count = page
             .value("document.querySelectorAll('#examples option').length - 1")
             .await;
+        page.script("window.confirm = () => true").await;
         for k in [1, count.as_u64().unwrap() - 1] {
             page.value(&format!(
                 "(document.getElementById('examples').value = {k}, document.getElementById('examples').dispatchEvent(new Event('change')))"

@@ -211,7 +211,7 @@ export class Blade {
         pad.tangential_length_m = metres(Math.max(2 * Math.abs(across), LEAST_SIDE_M));
       } else {
         const [u, v] = [x - grip[0], y - grip[1]];
-        pad.radius_m = metres(Math.hypot(u, v));
+        pad.radius_m = within(Math.hypot(u, v), scene);
         pad.angle_deg = angleOf(u, v);
       }
     }
@@ -235,7 +235,7 @@ export class Blade {
           pad.tangential_length_m = larger(pad.tangential_length_m, -along);
         } else {
           pad.angle_deg = degrees(pad.angle_deg + along * STEP_DEG);
-          pad.radius_m = metres(Math.max(pad.radius_m + out * STEP_M, 0));
+          pad.radius_m = within(pad.radius_m + out * STEP_M, scene);
         }
       }
     };
@@ -243,6 +243,7 @@ export class Blade {
   }
 }
 
+// The middle of a thing stays on the blade.
 function within(radius, scene) {
   const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
   return Math.min(Math.max(metres(radius), a), b);

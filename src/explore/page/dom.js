@@ -10,3 +10,11 @@ export function node(tag, properties = {}, ...children) {
   made.append(...children);
   return made;
 }
+
+export function download(name, blob) {
+  const link = node("a", { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}

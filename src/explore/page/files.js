@@ -1,7 +1,7 @@
 // Scenes from files, examples and addresses, and files of the scene.
 
-import { node } from "./dom.js";
-import { carried, download, link } from "./kept.js";
+import { download, node } from "./dom.js";
+import { bare, carried, link } from "./link.js";
 import { clone } from "./scene.js";
 import { measured, read, saved } from "./talk.js";
 
@@ -9,10 +9,14 @@ export class Files {
   // The scene as it was last saved to a file, or as the program was started with.
   #onDisk;
 
-  // `say(words)` is for what went wrong.
-  constructor(state, kept, begun, say) {
-    Object.assign(this, { state, kept, begun, say });
+  // The scene that the address carries.
+  #linked = null;
+
+  // `say(words)` is for what went wrong, `onReplaced()` for another saw than before.
+  constructor(state, kept, begun, { say, onReplaced }) {
+    Object.assign(this, { state, kept, begun, say, onReplaced });
     this.saved(begun.scene);
+    addEventListener("hashchange", () => this.#paste());
   }
 
   // The scene is on the disk.
@@ -22,6 +26,24 @@ export class Files {
 
   get isSaved() {
     return JSON.stringify(this.state.scene) === this.#onDisk;
+  }
+
+  // Whether another saw may take the place of this one.
+  #mayReplace(name) {
+    return this.isSaved || confirm(`Open “${name}” in place of the saw as you have changed it? “Undo” brings that back.`);
+  }
+
+  // Of the scene as it is now; what was linked before is another one.
+  changed(scene) {
+    this.kept.keep(scene);
+    if (this.#linked !== JSON.stringify(scene)) bare();
+  }
+
+  // Another saw in place of this one.
+  #open(scene) {
+    this.saved(scene);
+    this.onReplaced();
+    this.replace(clone(scene));
   }
 
   replace(scene) {
@@ -37,9 +59,7 @@ export class Files {
     list.addEventListener("change", () => {
       const example = examples[Number(list.value)];
       list.value = "";
-      if (!example) return;
-      this.saved(example);
-      this.replace(clone(example));
+      if (example && this.#mayReplace(example.name)) this.#open(example);
     });
   }
 
@@ -67,8 +87,7 @@ export class Files {
         return;
       }
       const scene = await read(text);
-      this.saved(scene);
-      this.replace(scene);
+      if (this.#mayReplace(file.name)) this.#open(scene);
     } catch (error) {
       this.say(`${file.name} was not opened, the scene is as it was: ${error.message}`);
     }
@@ -81,6 +100,7 @@ export class Files {
       this.say("The scene is too long for an address; save it as a file instead.");
       return;
     }
+    this.#linked = JSON.stringify(this.state.scene);
     history.replaceState(null, "", address);
     try {
       await navigator.clipboard.writeText(address);
@@ -91,23 +111,41 @@ export class Files {
     setTimeout(() => (button.textContent = "Link"), 3000);
   }
 
-  // The scene of the address, or that of an earlier visit with unsaved edits: then `note` is shown.
+  // The scene of the address, or an edited one that this tab goes on with: then `note` is shown.
   async restore(note) {
-    try {
-      const text = await carried();
-      if (text !== null) return this.replace(await read(text));
-    } catch (error) {
-      this.say(`The scene in the address cannot be read: ${error.message}`);
-    }
-    const earlier = this.kept.restored();
+    const linked = await this.#carried();
+    const earlier = await this.kept.restored(linked);
+    if (linked !== null) return this.#openLinked(linked);
     if (earlier === null || JSON.stringify(earlier) === JSON.stringify(this.begun.scene)) return undefined;
     note.hidden = false;
     return this.replace(earlier);
   }
 
+  async #carried() {
+    try {
+      const text = await carried();
+      return text === null ? null : await read(text);
+    } catch (error) {
+      this.say(`The scene in the address cannot be read: ${error.message}`);
+      bare();
+      return null;
+    }
+  }
+
+  #openLinked(scene) {
+    this.#linked = JSON.stringify(scene);
+    this.#open(scene);
+  }
+
+  // An address with a scene that was pasted over that of the page.
+  async #paste() {
+    const scene = await this.#carried();
+    if (scene === null || JSON.stringify(scene) === JSON.stringify(this.state.scene)) return;
+    if (this.#mayReplace(scene.name)) this.#openLinked(scene);
+    else bare();
+  }
+
   startOver() {
-    this.kept.forget();
-    this.saved(this.begun.scene);
-    this.replace(clone(this.begun.scene));
+    this.#open(this.begun.scene);
   }
 }

@@ -213,8 +213,13 @@ export class Form {
       if (message) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     };
-    this.fields.set(path, { path, element, show, error, words });
-    show(get(this.state.scene, path));
+    const shows = (value) => {
+      show(value);
+      // What is of the scene, to tell it from what is being typed.
+      if (!control.matches("select")) control.defaultValue = control.value;
+    };
+    this.fields.set(path, { path, element, show: shows, error, words });
+    shows(get(this.state.scene, path));
     return element;
   }
 
@@ -231,7 +236,7 @@ export class Form {
     const input = node("input", { id: path, type: "text" });
     input.addEventListener("change", () => this.state.set(path, input.value));
     const row = node("div", { className: "field wide", title: schema.description ?? "" }, node("label", { htmlFor: path, textContent: key }), input);
-    return this.#register(path, row, (value) => document.activeElement !== input && (input.value = value ?? ""));
+    return this.#register(path, row, (value) => isWritten(input) && (input.value = value ?? ""));
   }
 
   #lines(path, key) {
@@ -241,7 +246,7 @@ export class Form {
       this.state.set(path, lines.length > 0 ? lines : undefined);
     });
     const row = node("div", { className: "field wide" }, node("label", { htmlFor: path, textContent: key }), area);
-    const shows = (value) => document.activeElement !== area && (area.value = (value ?? []).join("\n"));
+    const shows = (value) => isWritten(area) && (area.value = (value ?? []).join("\n"));
     return this.#details(`${path}:lines`, key, "", this.#register(path, row, shows));
   }
 
@@ -257,7 +262,7 @@ export class Form {
     });
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
     const row = node("div", { className: "field wide", title: schema.description ?? "" }, label, input);
-    const shows = (value) => document.activeElement !== input && (input.value = (value ?? []).map((number) => shown(number * scale)).join(", "));
+    const shows = (value) => isWritten(input) && (input.value = (value ?? []).map((number) => shown(number * scale)).join(", "));
     return this.#register(path, row, shows);
   }
 
@@ -301,6 +306,9 @@ export class Form {
     }, (allowed) => this.refusals.told(path, { typed: get(this.state.scene, path), whole }, allowed));
   }
 }
+
+// Whether a field may be written to: nothing is being typed in it.
+const isWritten = (field) => document.activeElement !== field || field.value === field.defaultValue;
 
 // "guides[0].radius_m" is "guides 1: radius": no two fields sound alike.
 function inWords(path, name) {

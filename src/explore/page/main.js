@@ -39,14 +39,14 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   if (draft) return;
   pointed.hint();
   buttons();
-  kept.keep(scene);
+  files.changed(scene);
   tasks.changed();
 });
 const blade = new Blade(by("drawing"), state);
 const pointed = new Pointed({
   canvas: by("motion"), words: by("mode"), film: by("film"), mark: blade.mark, colours: () => colours, scene: () => state.scene,
 });
-const files = new Files(state, kept, begun, say);
+const files = new Files(state, kept, begun, { say, onReplaced: () => pinned.reset() });
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), charts);
@@ -63,8 +63,6 @@ seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
 seen.open = (file) => files.open(file);
-// A browser that is driven cannot answer whether to leave.
-seen.leave = () => files.saved();
 
 function onZoom(speeds) {
   by("zoomed").hidden = speeds === null;
@@ -240,6 +238,12 @@ function measure(on) {
   }
 }
 
+// A text that is not yet, or not at all, of the scene: it has an undo of its own.
+function isBeingTyped(element) {
+  if (!element.matches("input[type=text], textarea")) return false;
+  return !by("fields").contains(element) || element.value !== element.defaultValue;
+}
+
 function wire() {
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
@@ -261,7 +265,7 @@ function wire() {
     if (event.dataTransfer.files[0]) files.open(event.dataTransfer.files[0]);
   });
   addEventListener("beforeunload", (event) => {
-    if (!files.isSaved) event.preventDefault();
+    if (!files.isSaved && !kept.works) event.preventDefault();
   });
   by("open").addEventListener("change", async (event) => {
     if (event.target.files[0]) await files.open(event.target.files[0]);
@@ -272,7 +276,7 @@ function wire() {
     button.addEventListener("click", () => files.save(button.dataset.save));
   }
   addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.target.matches("input[type=text], textarea")) return;
+    if (!(event.ctrlKey || event.metaKey) || isBeingTyped(event.target)) return;
     const undo = event.key === "z" && !event.shiftKey;
     const redo = event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
     if (undo) state.undo();

@@ -5,7 +5,7 @@ import { node } from "./dom.js";
 import { clone } from "./scene.js";
 
 export class Pinned {
-  // What is shown before anything was pinned by hand is the saw that the page began with.
+  // Before anything was pinned by hand, numbers are held against the saw that the page began with.
   #chart = null;
   name = "";
   #charts = null;
@@ -21,6 +21,11 @@ export class Pinned {
 
   begin(chart) {
     this.#chart ??= clone(chart);
+  }
+
+  // Another saw is held against itself, where none was pinned by hand.
+  reset() {
+    if (!this.isNamed) this.#chart = null;
   }
 
   pin(chart, name) {
@@ -47,7 +52,7 @@ export class Pinned {
     this.place.parentElement.classList.toggle("two", beside);
     this.present.shareAxes(beside ? this.#chart.report : null);
     // Side by side nothing lies over each other.
-    this.present.show(report, told.answer, !beside && this.#differs(report) ? this.#chart.report : null);
+    this.present.show(report, told.answer, !beside && this.isNamed && this.#differs(report) ? this.#chart.report : null);
     if (!beside) return;
     this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
       onHover: () => {},

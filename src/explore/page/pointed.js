@@ -1,8 +1,7 @@
 // The mode of the point that is looked at: in words, moving on the blade, and as a film.
 
 import { Blade } from "./blade.js";
-import { node, write } from "./dom.js";
-import { download } from "./kept.js";
+import { download, node, write } from "./dom.js";
 import { Motion } from "./motion.js";
 import { mode } from "./talk.js";
 import { krein, numbered, shown } from "./words.js";

@@ -2,8 +2,7 @@
 // Each is a tab with what the program prints, its figures, and its report to save.
 
 import * as beginnings from "./beginnings.js";
-import { node } from "./dom.js";
-import { download } from "./kept.js";
+import { download, node } from "./dom.js";
 import { get, set } from "./scene.js";
 import { Refused, task } from "./talk.js";
 import { numberOf, partName, shown, tidy, unitOf, whichOf } from "./words.js";

@@ -106,6 +106,15 @@ impl Page {
         page
     }
 
+    /// Opens the page in a tab more, and goes there.
+    pub async fn another_tab(&self) -> WindowHandle {
+        let address = self.driver.current_url().await.unwrap();
+        let tab = self.driver.new_tab().await.unwrap();
+        self.driver.switch_to_window(tab.clone()).await.unwrap();
+        self.driver.goto(address.as_str()).await.unwrap();
+        tab
+    }
+
     /// Starts the program once more, at the address that the page knows.
     pub async fn start_again(&mut self, arguments: &[&str]) {
         let address = self.driver.current_url().await.unwrap();

@@ -124,6 +124,12 @@ impl WebDriver {
         self.post("window", content).await.map(drop)
     }
 
+    /// Closes the tab that is driven; another one must be switched to.
+    pub async fn close_window(&self) -> Answer<()> {
+        let path = format!("/session/{}/window", self.session);
+        command(self.port, "DELETE", &path, None).await.map(drop)
+    }
+
     /// A command of Chromium's own protocol.
     pub async fn chromium(&self, name: &str, parameters: Value) -> Answer<Value> {
         let content = json!({ "cmd": name, "params": parameters });
