@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::reply::Refusal;
+use super::reply::{Refusal, SavedFile};
 use super::told::Told;
+use super::under_way::UnderWay;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
@@ -38,7 +39,11 @@ struct Chart<'a> {
 
 /// The latest charts of every page, for the modes on them.
 #[derive(Default)]
-pub struct Charts(Mutex<Kept>);
+pub struct Charts {
+    kept: Mutex<Kept>,
+    /// The charts that are being computed.
+    pub under_way: UnderWay,
+}
 
 #[derive(Default)]
 struct Kept {
@@ -50,6 +55,7 @@ struct Kept {
 struct KeptChart {
     name: usize,
     page: String,
+    fidelity: Fidelity,
     analysis: Arc<Analysis>,
 }
 
@@ -75,20 +81,20 @@ impl Charts {
             }
             Fidelity::Scene => Detail::Full,
         };
-        let analysis = Analysis::with_options(
-            &scene,
-            AnalysisOptions {
-                detail,
-                ..AnalysisOptions::default()
-            },
-        )?;
+        let options = AnalysisOptions {
+            detail,
+            ..AnalysisOptions::default()
+        };
+        let analysis = || Analysis::with_options(&scene, options);
+        let watched = self.under_way.watched(page, analysis);
+        let analysis = watched.map_err(|error| Refusal::of(&error))??;
         let mut report = analysis.report();
         if fidelity == Fidelity::Draft {
             // Half of what would be sent, and not shown.
             let at_rest = report.modes_at_rest.iter_mut();
             at_rest.for_each(|mode| mode.shape.clear());
         }
-        let chart = self.keep(page, analysis);
+        let chart = self.keep(page, fidelity, analysis);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         serde_json::to_string(&Chart {
             chart,
@@ -109,11 +115,24 @@ impl Charts {
         SensitivityEntry::all(&analysis).map_err(|error| Refusal::of(&error))
     }
 
-    fn kept(&self) -> MutexGuard<'_, Kept> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    /// A file as `sawflutter analyze` writes it for a scene: of the chart of this name, where it is that scene's
+    /// and still kept; otherwise of one that is computed anew.
+    ///
+    /// # Errors
+    /// [`Refusal`] of a scene, or of a computation that fails or is stopped.
+    pub fn file(&self, kind: SavedFile, chart: usize, scene: &str) -> Result<Vec<u8>, Refusal> {
+        let scene = Scene::from_json(scene)?;
+        let kept = self.kept_chart(chart, |kept| {
+            kept.fidelity == Fidelity::Scene && kept.analysis.scene.file() == scene.file()
+        });
+        kind.content(&scene, kept)
     }
 
-    fn keep(&self, page: &str, analysis: Analysis) -> usize {
+    fn kept(&self) -> MutexGuard<'_, Kept> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn keep(&self, page: &str, fidelity: Fidelity, analysis: Analysis) -> usize {
         let mut kept = self.kept();
         kept.made += 1;
         let name = kept.made;
@@ -125,6 +144,7 @@ impl Charts {
         kept.latest.push_back(KeptChart {
             name,
             page: page.to_owned(),
+            fidelity,
             analysis: Arc::new(analysis),
         });
         if kept.latest.len() > OF_ALL {
@@ -140,15 +160,27 @@ impl Charts {
 
     /// A chart by its name, while it is kept.
     pub fn named(&self, name: usize) -> Option<Arc<Analysis>> {
+        self.kept_chart(name, |_| true)
+    }
+
+    fn kept_chart(
+        &self,
+        name: usize,
+        is_wanted: impl Fn(&KeptChart) -> bool,
+    ) -> Option<Arc<Analysis>> {
         let kept = self.kept();
-        let found = kept.latest.iter().find(|chart| chart.name == name);
+        let mut charts = kept.latest.iter();
+        let found = charts.find(|chart| chart.name == name && is_wanted(chart));
         found.map(|chart| chart.analysis.clone())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
+    use crate::spectrum::Progress;
 
     /// A page that is looked at keeps its chart, however many another one asks for meanwhile.
     #[test]
@@ -171,5 +203,34 @@ mod tests {
             [1, 2, 3, 4, 5].map(is_kept),
             [true, false, false, false, false]
         );
+    }
+
+    /// The file of a chart that is kept is that of one that is computed anew, and solves nothing.
+    #[test]
+    fn a_file_is_made_of_the_chart_that_is_kept() {
+        let charts = Charts::default();
+        let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
+        let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
+        charts.chart("one", &scene, Fidelity::Scene).unwrap();
+        let file = |chart: usize| {
+            let solved = Arc::new(AtomicUsize::new(0));
+            let seen = solved.clone();
+            let progress =
+                Progress::new(move |stage| seen.store(stage.eigenproblems, Ordering::Relaxed));
+            let made = || charts.file(SavedFile::Report, chart, &scene);
+            let made = progress.watched(made).unwrap().unwrap();
+            (made, solved.load(Ordering::Relaxed))
+        };
+        let (kept, computed) = (file(1), file(2));
+        assert!(kept.0 == computed.0);
+        assert!(kept.1 == 0 && computed.1 > 0, "{} {}", kept.1, computed.1);
+        // A chart of another scene is not taken for it.
+        let other = Scene::paper().edited(|file| file.blade.thickness_m = 3e-3);
+        let other = other
+            .unwrap()
+            .edited(|file| file.accuracy = Accuracy::Draft);
+        let other = serde_json::to_string(other.unwrap().file()).unwrap();
+        let made = charts.file(SavedFile::Report, 1, &other).unwrap();
+        assert!(made != kept.0);
     }
 }

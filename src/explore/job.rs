@@ -49,7 +49,7 @@ impl Drop for CancelOnDrop {
 impl Jobs {
     /// Runs a computation when its turn comes. Dropping the future, which is what the server
     /// does when the browser has closed the request, takes it out of the queue or asks it to
-    /// stop; the next one begins once it has.
+    /// stop; the next one begins at once, while it comes to its end.
     ///
     /// `None` where the program is ending.
     pub async fn run<T: Send + 'static>(
@@ -61,11 +61,10 @@ impl Jobs {
             done: false,
         };
         let stop = guard.stop.clone();
-        let turn = self.turn.0.clone().acquire_owned().await.ok()?;
+        // The turn ends with the wish for the work: what nobody waits for holds up nothing.
+        let _turn = self.turn.0.acquire().await.ok()?;
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {
-            // The turn ends with the work, not with the wish for it.
-            let _turn = turn;
             let done = stop.watched(work).ok();
             let tally = match stop.is_cancelled() {
                 true => &count.stopped,
@@ -100,22 +99,32 @@ mod tests {
     }
 
     /// A computation that would never end by itself ends when nobody waits for it any more, and the
-    /// one queued behind it begins.
+    /// next one begins without waiting for that end.
     #[test]
-    fn what_nobody_waits_for_is_stopped_and_makes_room() {
+    fn what_nobody_waits_for_is_stopped_and_holds_up_nothing() {
         let jobs = Jobs::default();
-        let next = runtime().block_on(async {
-            let endless = jobs.run(|| {
+        let may_end = Arc::new(std::sync::Mutex::new(()));
+        let held = may_end.lock().unwrap();
+        // Its end waits for what it still runs.
+        let runtime = runtime();
+        let next = runtime.block_on(async {
+            let may_end = may_end.clone();
+            let endless = jobs.run(move || {
                 while !Cancellation::current().is_cancelled() {
                     std::thread::sleep(Duration::from_millis(1));
                 }
+                drop(may_end.lock());
             });
             let gave_up = tokio::time::timeout(Duration::from_millis(20), endless).await;
             assert!(gave_up.is_err(), "the computation ended by itself");
             jobs.run(|| Cancellation::current().is_cancelled()).await
         });
         assert_eq!(next, Some(false));
-        assert_eq!(jobs.counts(), [1, 1]);
+        assert_eq!(jobs.counts(), [1, 0]);
+        drop(held);
+        while jobs.counts() != [1, 1] {
+            std::thread::sleep(Duration::from_millis(1));
+        }
     }
 
     #[test]

@@ -16,5 +16,6 @@ mod reply;
 mod server;
 mod task;
 mod told;
+mod under_way;
 
 pub use server::{Options, serve};

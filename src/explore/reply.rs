@@ -1,5 +1,7 @@
 //! What the page is sent besides charts: what it begins with, files, and why a scene was refused.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use super::examples::examples;
@@ -150,16 +152,18 @@ impl SavedFile {
         }
     }
 
-    /// Its bytes for a scene.
+    /// Its bytes for a scene, of its analysis where that is known.
     ///
     /// # Errors
-    /// [`Refusal`] of a scene or of a computation that fails or is stopped.
-    pub fn content(self, scene: &str) -> Result<Vec<u8>, Refusal> {
-        let scene = Scene::from_json(scene)?;
+    /// [`Refusal`] of a computation that fails or is stopped.
+    pub fn content(self, scene: &Scene, known: Option<Arc<Analysis>>) -> Result<Vec<u8>, Refusal> {
         if self == SavedFile::Scene {
             return pretty(scene.file());
         }
-        let report = Analysis::new(&scene)?.report();
+        let report = match known {
+            Some(analysis) => analysis.report(),
+            None => Analysis::new(scene)?.report(),
+        };
         let undrawn = |error: FigureError| Refusal::of(&error);
         match self {
             SavedFile::Scene | SavedFile::Report => pretty(&report),

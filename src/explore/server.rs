@@ -118,6 +118,7 @@ fn router(desk: Desk, door: Door) -> Router {
         .route("/read", post(read))
         .route("/measured/{name}", post(measured))
         .route("/jobs", get(jobs))
+        .route("/progress", get(progress))
         .route("/chart/{fidelity}", post(chart))
         .route("/mode", post(mode_shape))
         .route("/task/{task}", post(task))
@@ -145,6 +146,21 @@ async fn jobs(State(desk): State<Desk>) -> Response {
 
 /// Header with the name of the page that asks.
 const PAGE: &str = "sawflutter-page";
+/// Header with the name of the chart that the page shows.
+const CHART: &str = "sawflutter-chart";
+
+fn text(headers: &HeaderMap, name: &str) -> String {
+    let text = headers.get(name).and_then(|text| text.to_str().ok());
+    text.unwrap_or_default().to_owned()
+}
+
+/// What the chart of the page is at that is being computed; null where none is.
+async fn progress(State(desk): State<Desk>, headers: HeaderMap) -> Response {
+    let stage = desk.charts.under_way.stage(&text(&headers, PAGE));
+    let stage = stage
+        .map(|stage| serde_json::json!({ "what": stage.what, "done": stage.done, "of": stage.of, "eigenproblems": stage.eigenproblems }));
+    json(StatusCode::OK, &stage)
+}
 
 /// The chart of the scene that is sent.
 async fn chart(
@@ -154,8 +170,7 @@ async fn chart(
     scene: String,
 ) -> Response {
     let charts = desk.charts.clone();
-    let page = headers.get(PAGE).and_then(|page| page.to_str().ok());
-    let page = page.unwrap_or_default().to_owned();
+    let page = text(&headers, PAGE);
     let work = move || charts.chart(&page, &scene, fidelity);
     match desk.jobs.run(work).await {
         Some(Ok(text)) => json_text(StatusCode::OK, text),
@@ -213,11 +228,19 @@ async fn influence(State(desk): State<Desk>, asked: String) -> Response {
 }
 
 /// A file as `sawflutter analyze` writes it for the scene that is sent.
-async fn save(State(desk): State<Desk>, Path(name): Path<String>, scene: String) -> Response {
+async fn save(
+    State(desk): State<Desk>,
+    Path(name): Path<String>,
+    headers: HeaderMap,
+    scene: String,
+) -> Response {
     let Some(kind) = SavedFile::named(&name) else {
         return StatusCode::NOT_FOUND.into_response();
     };
-    match desk.jobs.run(move || kind.content(&scene)).await {
+    let charts = desk.charts.clone();
+    let chart = text(&headers, CHART).parse().unwrap_or_default();
+    let work = move || charts.file(kind, chart, &scene);
+    match desk.jobs.run(work).await {
         Some(Ok(content)) => ([(header::CONTENT_TYPE, kind.media_type())], content).into_response(),
         Some(Err(refusal)) => refused(&refusal),
         None => StatusCode::SERVICE_UNAVAILABLE.into_response(),

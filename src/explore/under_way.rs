@@ -1,0 +1,74 @@
+//! How far the charts are that are being computed.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::spectrum::{Progress, Stage};
+
+/// The stage of the latest chart of each page.
+#[derive(Default)]
+pub struct UnderWay {
+    begun: AtomicUsize,
+    stages: Stages,
+}
+
+type Stages = Arc<Mutex<HashMap<String, (usize, Stage)>>>;
+
+impl UnderWay {
+    /// What the chart of a page is at; `None` where none is computed.
+    pub fn stage(&self, page: &str) -> Option<Stage> {
+        locked(&self.stages).get(page).map(|(_, stage)| *stage)
+    }
+
+    /// Does work that computes a chart of a page.
+    ///
+    /// # Errors
+    /// When the system gives no more threads.
+    pub fn watched<T: Send>(
+        &self,
+        page: &str,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, rayon::ThreadPoolBuildError> {
+        let number = 1 + self.begun.fetch_add(1, Ordering::Relaxed);
+        let (stages, page_of) = (self.stages.clone(), page.to_owned());
+        locked(&stages).insert(page_of.clone(), (number, Stage::default()));
+        let progress = Progress::new(move |stage| {
+            // One that was given up may still be ending.
+            if let Some(latest) = locked(&stages).get_mut(&page_of)
+                && latest.0 == number
+            {
+                latest.1 = stage;
+            }
+        });
+        let done = progress.watched(work);
+        let mut stages = locked(&self.stages);
+        if stages.get(page).is_some_and(|latest| latest.0 == number) {
+            stages.remove(page);
+        }
+        done
+    }
+}
+
+fn locked(stages: &Stages) -> MutexGuard<'_, HashMap<String, (usize, Stage)>> {
+    stages.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chart_is_under_way_until_it_is_done_and_a_later_one_takes_its_place() {
+        let charts = UnderWay::default();
+        let is_known = |page| charts.stage(page).is_some();
+        assert!(!is_known("one"));
+        let inner = || {
+            assert!(is_known("one") && !is_known("another"));
+            charts.watched("one", || assert!(is_known("one"))).unwrap();
+            assert!(!is_known("one"));
+        };
+        charts.watched("one", inner).unwrap();
+        assert!(!is_known("one"));
+    }
+}
