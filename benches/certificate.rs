@@ -3,13 +3,16 @@
 //! What the certificate adds is the symmetric eigenproblem of the critical speeds on the
 //! whole basis; comparing two counts at each speed is free.
 
+mod timing;
+
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::chart;
+
+use timing::time;
 
 fn main() {
     let plate = || Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
@@ -23,18 +26,4 @@ fn main() {
         let model = SpectralModel::new(plate(), range, Strategy::Reduced).expect("a model");
         black_box(chart(&model, range, 101, &|_, _| ()).expect("a chart"));
     });
-}
-
-/// Prints the shortest and the middle one of the times: other work on the machine only ever adds.
-fn time(what: &str, samples: usize, work: impl Fn()) {
-    let mut times: Vec<Duration> = (0..samples)
-        .map(|_| {
-            let begun = Instant::now();
-            work();
-            begun.elapsed()
-        })
-        .collect();
-    times.sort();
-    let (shortest, middle) = (times[0], times[samples / 2]);
-    println!("{what}: {shortest:.1?} at least, median {middle:.1?} of {samples}");
 }

@@ -1,5 +1,7 @@
 //! The radii at which the strains of a deflection are known.
 
+use std::ops::Range;
+
 use faer::Col;
 
 use crate::plate::Plate;
@@ -20,7 +22,9 @@ pub struct Nodes {
     functions: [Vec<[Vec<f64>; 2]>; 2],
     /// √(ρh₀ π(1+δ_n0)).
     norms: Vec<f64>,
-    radial_functions: usize,
+    /// Unknowns of the cosines and of the sines of each n.
+    unknowns: Vec<[Range<usize>; 2]>,
+    degrees_of_freedom: usize,
 }
 
 impl Nodes {
@@ -50,7 +54,10 @@ impl Nodes {
             norms: (0..=plate.max_diameters())
                 .map(|n| plate.angular_norm(n))
                 .collect(),
-            radial_functions: plate.basis.count(),
+            unknowns: (0..=plate.max_diameters())
+                .map(|n| unknowns(plate, n))
+                .collect(),
+            degrees_of_freedom: plate.degrees_of_freedom(),
         }
     }
 
@@ -61,7 +68,7 @@ impl Nodes {
 
     /// Number of unknowns of the plate.
     pub fn degrees_of_freedom(&self) -> usize {
-        self.radial_functions * (2 * self.norms.len() - 1)
+        self.degrees_of_freedom
     }
 
     /// Polynomial degree of what is interpolated.
@@ -106,7 +113,7 @@ impl Nodes {
     pub fn slopes(&self, deflection: &Col<f64>) -> Slopes {
         let mut slopes = Slopes::none(self.norms.len() - 1, self.len());
         for (n, norm) in self.norms.iter().enumerate() {
-            let (cosines, sines) = self.unknowns(n);
+            let [cosines, sines] = &self.unknowns[n];
             let given = |index: usize| deflection[index] != 0.0;
             if !cosines.clone().chain(sines.clone()).any(given) {
                 continue;
@@ -114,14 +121,14 @@ impl Nodes {
             // c cos nθ + s sin nθ is (c − is)/2 e^{inθ} and its conjugate.
             let half = if n == 0 { 1.0 / norm } else { 0.5 / norm };
             for (node, [slope, over_r]) in self.functions[usize::from(n == 1)].iter().enumerate() {
-                let sum = |unknowns: &std::ops::Range<usize>, values: &[f64]| {
+                let sum = |unknowns: &Range<usize>, values: &[f64]| {
                     let terms = unknowns.clone().zip(values);
                     half * terms.map(|(i, value)| deflection[i] * value).sum::<f64>()
                 };
-                let radial = [sum(&cosines, slope), -sum(&sines, slope)];
+                let radial = [sum(cosines, slope), -sum(sines, slope)];
                 // i n (c − is) = n s + i n c.
                 let n = n as f64;
-                let hoop = [n * sum(&sines, over_r), n * sum(&cosines, over_r)];
+                let hoop = [n * sum(sines, over_r), n * sum(cosines, over_r)];
                 slopes.set(n as usize, node, radial, hoop);
             }
         }
@@ -133,7 +140,7 @@ impl Nodes {
     pub fn work(&self, forces: &Slopes) -> Col<f64> {
         let mut work = Col::zeros(self.degrees_of_freedom());
         for (n, norm) in self.norms.iter().enumerate() {
-            let (cosines, sines) = self.unknowns(n);
+            let [cosines, sines] = &self.unknowns[n];
             for (node, [slope, over_r]) in self.functions[usize::from(n == 1)].iter().enumerate() {
                 let [radial, hoop] = forces
                     .at(n, node)
@@ -150,22 +157,17 @@ impl Nodes {
         work
     }
 
-    /// Unknowns of the cosines and of the sines of n.
-    fn unknowns(&self, n: usize) -> (std::ops::Range<usize>, std::ops::Range<usize>) {
-        let size = self.radial_functions;
-        match n {
-            0 => (0..size, size..size),
-            _ => {
-                let first = size * (2 * n - 1);
-                (first..first + size, first + size..first + 2 * size)
-            }
-        }
-    }
-
     /// Strains that are zero.
     pub fn no_strain(&self) -> Strain {
         Strain::none(2 * (self.norms.len() - 1), self.len())
     }
+}
+
+/// Unknowns of the cosines and of the sines of n; n = 0 has no sines.
+fn unknowns(plate: &Plate, n: usize) -> [Range<usize>; 2] {
+    let (first, size) = (plate.offset(n), plate.radial_functions());
+    let sines = if n == 0 { 0 } else { size };
+    [first..first + size, first + size..first + size + sines]
 }
 
 /// Points of [−1, 1], ascending.
