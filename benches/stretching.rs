@@ -1,12 +1,15 @@
 //! Cost of the potential of stretching on the basis of `design`, on 30 shapes, and of what is found with it.
 
+mod timing;
+
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
 use faer::{Col, Mat};
 use sawflutter::plate::{Plate, ReducedStretching, Resolution, Stretching};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::stretched::StretchedBlade;
+
+use timing::time;
 
 fn main() {
     let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
@@ -46,22 +49,20 @@ fn main() {
     time("up to 3000 rpm", 5, || {
         black_box(count(true));
     });
+    let pressed = blade.clone().pressed(5.0, (0.355, 0.0)).expect("a force");
+    let speeds: Vec<f64> = (0..100).map(|k| rad_per_s(30.0 * f64::from(k))).collect();
+    time("100 equilibria up to 3000 rpm", 5, || {
+        let mut p = pressed.flat();
+        for speed in &speeds {
+            p = pressed
+                .settled(*speed, &p)
+                .expect("an equilibrium")
+                .coordinates;
+        }
+        black_box(&p);
+    });
     time("how far flutter rises at one speed", 5, || {
         let flutter = StretchedBlade::at_speed(&plate, rad_per_s(2872.0), 15).expect("a blade");
         black_box(flutter.saturation(rad_per_s(2872.0)).expect("a pair"));
     });
-}
-
-/// Prints the shortest and the middle one of the times: other work on the machine only ever adds.
-fn time(what: &str, samples: usize, work: impl Fn()) {
-    let mut times: Vec<Duration> = (0..samples)
-        .map(|_| {
-            let begun = Instant::now();
-            work();
-            begun.elapsed()
-        })
-        .collect();
-    times.sort();
-    let (shortest, middle) = (times[0], times[samples / 2]);
-    println!("{what}: {shortest:.1?} at least, median {middle:.1?} of {samples}");
 }

@@ -42,6 +42,7 @@ pub mod check;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+pub mod deflect;
 #[cfg(feature = "explore")]
 mod explore;
 pub mod figure;

@@ -11,6 +11,7 @@ __all__ = [
     "campbell_csv",
     "check",
     "cut",
+    "deflect",
     "fit",
     "functions_at",
     "matrices",
@@ -56,6 +57,14 @@ def check(
     min_critical_rpm: SupportsFloat | None = None,
     max_rim_m_per_s: SupportsFloat = 100.0,
     accept_unusual: bool = False,
+    progress: _Progress = None,
+) -> str: ...
+def deflect(
+    scene: str,
+    *,
+    force_n: SupportsFloat | None = None,
+    angle_deg: SupportsFloat | None = None,
+    to_rpm: SupportsFloat | None = None,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...

@@ -20,6 +20,7 @@ from .results import (
     CampbellResults,
     CheckResults,
     CutResults,
+    DeflectResults,
     FitResults,
     PlaceResults,
     RunUpResults,
@@ -281,6 +282,55 @@ class Questions:
         with reporting(progress, "steps") as told:
             text = _native.runup(scene._text, progress=told)
         return RunUpResults.computed(text)
+
+    def run_deflect(
+        self,
+        *,
+        force_n: Number = None,
+        angle_deg: Number = None,
+        to_rpm: Number = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number = None,
+        progress: Progress = None,
+    ) -> DeflectResults:
+        """Follows where the blade stands while its speed slowly rises and falls.
+
+        Parameters
+        ----------
+        force_n : float, optional
+            Constant force across the blade at its rim, fixed in space; that of the scene's
+            ``runup`` by default, or 1 N.
+        angle_deg : float, optional
+            Its angle; that of the scene's ``runup`` by default, or 0.
+        to_rpm : float, optional
+            Last speed; the end of the scene's sweep by default.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        DeflectResults
+
+        Raises
+        ------
+        ArgumentError
+            Where a number is none.
+        AnalysisError
+            Where nothing holds the blade, or no equilibrium was found.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().run_deflect(to_rpm=1000, accuracy="draft")
+        >>> found.beyond_thickness_rpm is None
+        True
+        """
+        scene = self.with_accuracy(accuracy, tolerance)
+        with reporting(progress, "equilibria") as told:
+            text = _native.deflect(
+                scene._text, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm, progress=told
+            )
+        return DeflectResults.computed(text)
 
     def run_washboard(
         self,

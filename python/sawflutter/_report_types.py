@@ -26,6 +26,8 @@ CutCriterion: TypeAlias = Literal["eigenvalues", "time_history", "moving_tooth_l
 
 Verdict: TypeAlias = Literal["stable", "unstable"]
 
+TurnKind: TypeAlias = Literal["fold", "bifurcation"]
+
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds", "critical_speeds_single"]
@@ -1178,6 +1180,171 @@ class CutReport(Entry):
 
     warnings: tuple[str, ...]
     """Remarks on the forces and on the validity of the result."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Arc(Entry):
+    """Stable equilibria. All lists have one entry a speed."""
+
+    rpm: FloatArray
+    """Rotation speeds, rising or falling."""
+
+    deflection_m: FloatArray
+    """Deflection at the probe."""
+
+    largest_deflection_m: FloatArray
+    """Largest deflection of any place of the blade, without its sign."""
+
+    largest_slope: FloatArray
+    """Largest slope of the blade."""
+
+    frequencies_hz: FloatArray
+    """Frequencies of small motions about the deflected blade in space, ascending, up to
+    `campbell.complete_to_hz`."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Jump(Entry):
+    """A place at which the blade leaves an equilibrium that ceases to be stable."""
+
+    kind: TurnKind
+    """A fold, at which the equilibrium ceases to exist, or a bifurcation, at which another one
+    crosses it."""
+
+    rpm: float
+    """Rotation speed."""
+
+    from_m: float
+    """Deflection at the probe before it."""
+
+    to_m: float
+    """Deflection at the probe after it."""
+
+    largest_from_m: float
+    """Largest deflection of any place before it."""
+
+    largest_to_m: float
+    """Largest deflection of any place after it."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SlowSweep(Entry):
+    """Stable equilibria over a speed that rises, or falls, so slowly that the blade stands
+    still."""
+
+    arcs: tuple[Arc, ...]
+    """Stretches from one jump to the next, in the order of the sweep."""
+
+    jumps: tuple[Jump, ...]
+    """What ends each stretch but the last."""
+
+    valid_until_rpm: float | None
+    """Speed from which on slopes of the blade exceed 0.1 and the model does not hold; nothing
+    beyond it is given. Null where they do not."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Turn(Entry):
+    """A fold or a bifurcation."""
+
+    kind: TurnKind
+    """Which of the two."""
+
+    rpm: float
+    """Rotation speed."""
+
+    deflection_m: float
+    """Deflection at the probe."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EquilibriumCurve(Entry):
+    """A curve of equilibria. All lists have one entry an equilibrium, in the order of the
+    curve."""
+
+    rpm: FloatArray
+    """Rotation speeds; they need not ascend."""
+
+    deflection_m: FloatArray
+    """Deflection at the probe."""
+
+    largest_deflection_m: FloatArray
+    """Largest deflection of any place of the blade, without its sign."""
+
+    negative_eigenvalues: IntArray
+    """Directions in which the potential energy falls: 0 where the equilibrium is stable."""
+
+    turns: tuple[Turn, ...]
+    """Where the curve turns back in speed, or another one crosses it."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DeflectReport(Entry):
+    """deflect.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
+    degrees_of_freedom: int
+    """Size of the basis."""
+
+    shapes: int
+    """Shapes of that basis that the deflection is made of."""
+
+    estimated_relative_error: float | None
+    """Relative change of the deflection with half as many modes more, at most; null where the
+    blade stays flat."""
+
+    from_rpm: float
+    """First speed."""
+
+    to_rpm: float
+    """Last speed."""
+
+    force_n: float
+    """Force across the blade at its rim, fixed in space."""
+
+    force_angle_deg: float
+    """Its angle, positive with the rotation."""
+
+    probe_radius_m: float
+    """Distance of the probe from the axis."""
+
+    probe_angle_deg: float
+    """Angle of the probe."""
+
+    beyond_thickness_rpm: float | None
+    """Speed, while it rises, up to which no place of the blade is deflected by more than its
+    thickness; null where none is at any speed."""
+
+    up: SlowSweep
+    """Stable equilibria while the speed rises."""
+
+    down: SlowSweep
+    """Stable equilibria while the speed falls."""
+
+    curves: tuple[EquilibriumCurve, ...]
+    """Curves of equilibria that were found, unstable ones included. That there is no other one
+    is not proven."""
+
+    critical_speeds: tuple[CriticalSpeed, ...]
+    """Critical speeds of the flat blade, up to the last speed."""
+
+    instabilities: tuple[Instability, ...]
+    """Bands in which the flat blade is unstable, by the linear model."""
+
+    campbell: Campbell
+    """Branches of the flat blade over the same speeds."""
+
+    warnings: tuple[str, ...]
+    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -19,6 +19,7 @@ from ._report_types import (
     CheckReport,
     Criterion,
     CutReport,
+    DeflectReport,
     Instability,
     Mode,
     RunUpReport,
@@ -283,6 +284,42 @@ class RunUpResults(Result, RunUpReport):
         return f"{facts}; bands that more than double a motion: {at}"
 
 
+class DeflectResults(Result, DeflectReport):
+    """Where the blade stands while its speed slowly rises and falls."""
+
+    command = "deflect"
+    figure_names = ("deflect.svg", "deflect.png")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Stable equilibria, one row each, without the frequencies; needs pandas."""
+        with extra("pandas"):
+            import pandas as pd
+
+        rows = []
+        for direction, sweep in {"up": self.up, "down": self.down}.items():
+            for number, arc in enumerate(sweep.arcs):
+                table = {
+                    "direction": direction,
+                    "arc": number,
+                    "rpm": arc.rpm,
+                    "deflection_m": arc.deflection_m,
+                    "largest_deflection_m": arc.largest_deflection_m,
+                    "largest_slope": arc.largest_slope,
+                }
+                rows.append(pd.DataFrame(table))
+        return pd.concat(rows, ignore_index=True)
+
+    def chart(self) -> Chart:
+        """Deflection at the probe over speed."""
+        from .plot.histories import deflection
+
+        return deflection(self, self._facts())
+
+    def _facts(self) -> str:
+        jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
+        return f"{self.force_n:g} N across the rim, {jumps}, {len(self.down.jumps)} while it falls"
+
+
 class WashboardResults(Result, WashboardReport):
     """Whether the teeth set the blade swinging, each on the surface left by the one before."""
 
@@ -309,6 +346,7 @@ _KINDS: tuple[type[Result], ...] = (
     CampbellResults,
     CheckResults,
     CutResults,
+    DeflectResults,
     FitResults,
     PlaceResults,
     RunUpResults,
@@ -345,6 +383,7 @@ __all__ = [
     "CampbellResults",
     "CheckResults",
     "CutResults",
+    "DeflectResults",
     "FitResults",
     "PlaceResults",
     "Result",

@@ -3,11 +3,12 @@
 
 use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
+use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::place::{Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
-    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, RunUpReport, SensitivityEntry,
-    WashboardReport,
+    CheckReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport, RunUpReport,
+    SensitivityEntry, WashboardReport,
 };
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -140,6 +141,29 @@ pub fn runup(py: Python<'_>, scene: &str, progress: Option<Bound<'_, PyAny>>) ->
         scene.needed_runup()?;
         let found = RunningUp::new(&scene, &|done, of| meter.show(done, of))?;
         json(&RunUpReport::new(&found))
+    })
+}
+
+/// `deflect.json` of a scene, under a force, up to a speed.
+#[pyfunction]
+#[pyo3(signature = (scene, *, force_n=None, angle_deg=None, to_rpm=None, progress=None))]
+pub fn deflect(
+    py: Python<'_>,
+    scene: &str,
+    force_n: Option<f64>,
+    angle_deg: Option<f64>,
+    to_rpm: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let options = DeflectOptions {
+        force_n,
+        angle_deg,
+        to_rpm,
+    };
+    options.checked(&scene).map_err(Failure::from)?;
+    compute(py, progress, move |_| {
+        json(&DeflectReport::new(&Deflecting::new(&scene, &options)?))
     })
 }
 

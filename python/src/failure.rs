@@ -4,6 +4,7 @@ use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 use sawflutter::check::CheckError;
+use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
 use sawflutter::fit::FitError;
 use sawflutter::place::PlaceError;
@@ -162,6 +163,17 @@ impl From<TransientError> for Failure {
     fn from(error: TransientError) -> Self {
         match error {
             TransientError::Scene(source) => source.into(),
+            other => Failure::Failed(other.to_string()),
+        }
+    }
+}
+
+impl From<DeflectError> for Failure {
+    fn from(error: DeflectError) -> Self {
+        match error {
+            DeflectError::Refused(source) => source.into(),
+            DeflectError::Scene(source) => source.into(),
+            DeflectError::Analysis(source) => source.into(),
             other => Failure::Failed(other.to_string()),
         }
     }

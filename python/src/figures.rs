@@ -4,7 +4,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
-    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
+    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, Report, RunUpReport,
+    WashboardReport,
 };
 use sawflutter::study::StudyReport;
 use serde::de::DeserializeOwned;
@@ -23,6 +24,7 @@ fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
         of::<Report>,
         of::<CutReport>,
         of::<RunUpReport>,
+        of::<DeflectReport>,
         of::<WashboardReport>,
         of::<CheckReport>,
         of::<FitReport>,
@@ -64,6 +66,7 @@ pub fn summary(command: &str, report: &str) -> PyResult<String> {
         "check" => of!(CheckReport),
         "cut" => of!(CutReport),
         "runup" => of!(RunUpReport),
+        "deflect" => of!(DeflectReport),
         "washboard" => of!(WashboardReport),
         "fit" => of!(FitReport),
         "place" => of!(PlaceReport),

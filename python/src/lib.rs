@@ -15,7 +15,9 @@ use sawflutter::text::{Kind, OtherEncodings, read_path};
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::commands::{analyze, check, cut, fit, modes, place, runup, tradeoff, washboard};
+    use super::commands::{
+        analyze, check, cut, deflect, fit, modes, place, runup, tradeoff, washboard,
+    };
     #[pymodule_export]
     use super::figures::{campbell_csv, palette, picture, summary};
     #[pymodule_export]

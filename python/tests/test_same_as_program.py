@@ -59,6 +59,20 @@ def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_pa
                 assert content is None or (tmp_path / picture).read_bytes() == content, picture
 
 
+def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    path = scenes / "paper.json"
+    found = sf.Scene.load(path).run_deflect(force_n=2.0, to_rpm=1600, accuracy="draft")
+    options = ["--force-n", 2, "--to-rpm", 1600, "--accuracy", "draft"]
+    for program in programs:
+        done = ran(program, "deflect", path, *options, "--out", tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.decode().startswith(found.summary())
+        same(tmp_path, "deflect.json", found.to_json().encode())
+        for picture in found.figure_names:
+            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+    assert len(found.to_dataframe()) > 20
+
+
 def test_the_report_of_washboarding(
     programs: list[str], scenes: Path, resaw: sf.Scene, tmp_path: Path
 ) -> None:

@@ -25,8 +25,8 @@ def test_the_generated_types_are_up_to_date(monkeypatch: pytest.MonkeyPatch) -> 
 def test_every_object_of_the_reports_has_a_class_with_a_docstring() -> None:
     reports = json.loads(_native.schema())["reports"]
     assert set(reports) == {
-        "analyze", "check", "cut", "fit", "modes", "place", "runup", "study", "tradeoff",
-        "washboard",
+        "analyze", "check", "cut", "deflect", "fit", "modes", "place", "runup", "study",
+        "tradeoff", "washboard",
     }  # fmt: skip
     for name in vars(_report_types):
         of = getattr(_report_types, name)

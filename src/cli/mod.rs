@@ -4,6 +4,7 @@ mod analyze;
 mod check;
 mod common;
 mod cut;
+mod deflect;
 #[cfg(feature = "explore")]
 mod explore;
 mod export;
@@ -50,6 +51,9 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
+    /// Where does the blade stand when it leans, and when does it jump? deflect.json and a figure
+    #[command(after_help = deflect::EXAMPLES)]
+    Deflect(deflect::Arguments),
     /// Do the teeth set the blade swinging, each on the surface left by the one before?
     #[command(after_help = washboard::EXAMPLES)]
     Washboard(washboard::Arguments),
@@ -91,6 +95,7 @@ Examples:
   sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
   sawflutter explore --open             # drag the guides in your browser
   sawflutter runup                      # what does it do on the way up?
+  sawflutter deflect                    # how far does it lean when it is unstable?
   sawflutter schema > scene.schema.json # let your editor complete scene keys
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
@@ -147,6 +152,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Deflect(arguments)) => deflect::run(&arguments),
         Some(Command::Washboard(arguments)) => washboard::run(&arguments),
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),

@@ -3,11 +3,12 @@
 use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::{
-    FigureError, campbell, check, cut, cut_map, fit, in_cut, membrane, place, render, response_map,
-    root_loci, runup, spline_orbit, study, washboard,
+    FigureError, campbell, check, cut, cut_map, deflect, fit, in_cut, membrane, place, render,
+    response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CutReport, FitReport, PlaceReport, Report, RunUpReport, WashboardReport,
+    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, Report, RunUpReport,
+    WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -139,6 +140,14 @@ impl Figures for RunUpReport {
     fn figures(&self) -> Vec<Figure> {
         let sheets = [runup::sheet(self), response_map::sheet(self)];
         named(Self::NAMES, sheets.map(Some))
+    }
+}
+
+impl Figures for DeflectReport {
+    const NAMES: &'static [[&'static str; 2]] = &[["deflect.png", "deflect.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(deflect::sheet(self))])
     }
 }
 

@@ -18,6 +18,7 @@ mod cut_map;
 #[cfg(test)]
 mod cutting_tests;
 mod declutter;
+mod deflect;
 mod drawn;
 #[cfg(test)]
 mod drawn_tests;

@@ -13,6 +13,7 @@ mod chart;
 mod check;
 mod csv;
 mod cut;
+mod deflect;
 mod excitation;
 mod fit;
 #[cfg(feature = "explore")]
@@ -38,6 +39,9 @@ pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::cut::{
     ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
     CutVerdict, ToothPassingEntry, Verdict, VerdictMapEntry,
+};
+pub use self::deflect::{
+    ArcEntry, DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry, TurnEntry,
 };
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};

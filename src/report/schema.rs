@@ -5,7 +5,8 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
 use super::{
-    CheckReport, CutReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport, WashboardReport,
+    CheckReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport,
+    WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -17,6 +18,7 @@ pub fn json_schema() -> Value {
         "analyze": of::<Report>(),
         "check": of::<CheckReport>(),
         "cut": of::<CutReport>(),
+        "deflect": of::<DeflectReport>(),
         "fit": of::<FitReport>(),
         "modes": of::<Vec<ModeEntry>>(),
         "place": of::<PlaceReport>(),

@@ -2,6 +2,8 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::equilibrium::{ITERATIONS, LAST};
 use super::{Equilibrium, StretchedBlade, StretchedError, finite};
@@ -25,7 +27,8 @@ pub struct Turn {
 }
 
 /// What happens where ∂²V/∂p² is singular.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum TurnKind {
     /// The curve turns back in speed.
     Fold,
@@ -39,6 +42,17 @@ const LONGEST: f64 = 0.02;
 const SHORTEST: f64 = 1e-4;
 /// Steps that a correction took so many iterations for are halved, and doubled for fewer than three.
 const MANY: usize = 6;
+/// Where a curve is left, beside the ends of the range of speeds.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    /// Most equilibria.
+    equilibria: usize,
+    /// Most turns.
+    turns: usize,
+}
+
+/// Most equilibria of a curve that is drawn.
+const SHOWN: usize = 500;
 /// Most equilibria of a curve.
 const MOST: usize = 4000;
 
@@ -59,7 +73,68 @@ impl StretchedBlade {
         &self,
         start: &Equilibrium,
         upwards: bool,
+        range: (f64, f64),
+    ) -> Result<Branch, StretchedError> {
+        self.followed(
+            start,
+            upwards,
+            range,
+            End {
+                equilibria: MOST,
+                turns: usize::MAX,
+            },
+        )
+    }
+
+    /// The same, up to the first turn.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::branch`].
+    pub fn branch_to_turn(
+        &self,
+        start: &Equilibrium,
+        upwards: bool,
+        range: (f64, f64),
+    ) -> Result<Branch, StretchedError> {
+        self.followed(
+            start,
+            upwards,
+            range,
+            End {
+                equilibria: MOST,
+                turns: 1,
+            },
+        )
+    }
+
+    /// The same, of so many equilibria at most as show what a picture can.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::branch`].
+    pub fn curve(
+        &self,
+        start: &Equilibrium,
+        upwards: bool,
+        range: (f64, f64),
+    ) -> Result<Branch, StretchedError> {
+        self.followed(
+            start,
+            upwards,
+            range,
+            End {
+                equilibria: SHOWN,
+                turns: usize::MAX,
+            },
+        )
+    }
+
+    /// Follows a curve as far as asked.
+    fn followed(
+        &self,
+        start: &Equilibrium,
+        upwards: bool,
         (from_rad_per_s, to_rad_per_s): (f64, f64),
+        end: End,
     ) -> Result<Branch, StretchedError> {
         finite("the lower end of the range in rad/s", from_rad_per_s)?;
         finite("the upper end of the range in rad/s", to_rad_per_s)?;
@@ -74,7 +149,7 @@ impl StretchedBlade {
         self.directed(&start.coordinates)?;
         let curve = Curve {
             blade: self,
-            size: self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt(),
+            size: self.size(),
             range_rad_per_s: to_rad_per_s - from_rad_per_s,
         };
         let order = self.force.nrows();
@@ -92,7 +167,7 @@ impl StretchedBlade {
             turns: Vec::new(),
         };
         let mut step = 0.1 * LONGEST;
-        while branch.equilibria.len() < MOST {
+        while branch.equilibria.len() < end.equilibria && branch.turns.len() < end.turns {
             let Some((next, iterations)) = curve.advanced(&place, step)? else {
                 step *= 0.5;
                 if step < SHORTEST * LONGEST {

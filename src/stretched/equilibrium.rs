@@ -84,8 +84,7 @@ impl StretchedBlade {
         guess: Option<&Col<f64>>,
     ) -> Result<Equilibrium, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
-        let flat = || Col::zeros(self.force.nrows());
-        let mut p = guess.cloned().unwrap_or_else(flat);
+        let mut p = guess.cloned().unwrap_or_else(|| self.flat());
         for _ in 0..ITERATIONS {
             let rest = self.residual(&p, speed_rad_per_s)?;
             let step = self
@@ -135,13 +134,26 @@ impl StretchedBlade {
     ) -> Result<Equilibrium, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
         self.directed(shape)?;
+        let near = self.leaned_near(speed_rad_per_s, shape)?;
+        self.equilibrium(speed_rad_per_s, Some(&near))
+    }
+
+    /// εv of [`StretchedBlade::leaned`], not corrected.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotFound`] where vᵀK(Ω)v is not negative.
+    pub fn leaned_near(
+        &self,
+        speed_rad_per_s: f64,
+        shape: &Col<f64>,
+    ) -> Result<Col<f64>, StretchedError> {
         let stiffness = self.system.stiffness_at(speed_rad_per_s);
         let held = shape.transpose() * &stiffness * shape;
         let square = -held / (4.0 * self.stretching.energy_j(shape)?);
         if !(square > 0.0 && square.is_finite()) {
             return Err(self.not_found(shape, speed_rad_per_s));
         }
-        self.equilibrium(speed_rad_per_s, Some(&(Scale(square.sqrt()) * shape)))
+        Ok(Scale(square.sqrt()) * shape)
     }
 
     pub(super) fn at(

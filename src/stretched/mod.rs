@@ -18,16 +18,23 @@
 mod branch;
 mod equilibrium;
 mod saturation;
+mod settled;
+mod sites;
+mod sweep;
 
 pub use branch::{Branch, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
 pub use saturation::Saturation;
+pub use sites::Sites;
+pub use sweep::Sweep;
 
 use faer::{Col, Mat, MatRef, Scale, Side};
 
 use crate::plate::{Plate, ReducedStretching, Stretching, StretchingError};
 use crate::scene::rpm;
-use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
+use crate::spectrum::{
+    SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
+};
 use crate::system::GyroscopicSystem;
 
 /// Why a blade that stretches has no answer.
@@ -80,7 +87,7 @@ pub enum StretchedError {
 }
 
 /// A blade that stretches, on a few shapes, under a constant side force.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StretchedBlade {
     plate: Plate,
     /// Columns, N × r, orthonormal.
@@ -131,6 +138,50 @@ impl StretchedBlade {
         Self::on(plate, &full, basis)
     }
 
+    /// Shapes for equilibria up to a speed under a force at a point of the blade: those that lean at a critical
+    /// speed up to there, the static deflection under the force, and the lowest `modes` modes at rest.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    pub fn up_to(
+        plate: &Plate,
+        to_rad_per_s: f64,
+        (radius_m, angle_rad): (f64, f64),
+        modes: usize,
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", to_rad_per_s)?;
+        let plate = plate.conservative();
+        let full = held(&plate, modes)?;
+        let order = full.order();
+        let not_found = || SpectrumError::NoConvergence { order, rpm: 0.0 };
+        let rest = full.stiffness.self_adjoint_eigen(Side::Lower);
+        let rest = rest.map_err(|_| not_found())?;
+        let critical = critical_speeds(&full)?.into_iter();
+        let leaning = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
+        let mut shapes: Vec<Col<f64>> = leaning.map(|c| c.shape).collect();
+        let values = plate.functions_at(radius_m, angle_rad);
+        let force = rest.U().transpose() * Col::from_fn(order, |i| values[i]);
+        let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
+        shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
+        shapes.extend((0..modes).map(|k| rest.U().col(k).to_owned()));
+        let basis = orthonormal(order, &shapes, INDEPENDENT);
+        Self::on(plate, &full, basis)
+    }
+
+    /// How much an equilibrium changes with more shapes, among which these are: ‖Δq‖ over ‖q‖.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::equilibrium`].
+    pub fn change_with(
+        &self,
+        finer: &StretchedBlade,
+        equilibrium: &Equilibrium,
+    ) -> Result<f64, StretchedError> {
+        let guess = finer.shapes.transpose() * (&self.shapes * &equilibrium.coordinates);
+        let found = finer.equilibrium(equilibrium.speed_rad_per_s, Some(&guess))?;
+        Ok((&found.coordinates - &guess).norm_l2() / found.coordinates.norm_l2())
+    }
+
     /// On given shapes, orthonormal columns.
     fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
         let stretching = ReducedStretching::new(&Stretching::new(&plate)?, shapes.as_ref())?;
@@ -159,10 +210,26 @@ impl StretchedBlade {
         Ok(self)
     }
 
+    /// The same without a side force.
+    pub fn unforced(mut self) -> Self {
+        self.force.fill(0.0);
+        self
+    }
+
+    /// No deflection.
+    pub fn flat(&self) -> Col<f64> {
+        Col::zeros(self.force.nrows())
+    }
+
     /// The shapes at a place of the blade, in 1/√kg.
     fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
         let values = self.plate.functions_at(radius_m, angle_rad);
         self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
+    }
+
+    /// Coordinates of a deflection of a thickness of the whole blade, in √kg·m.
+    fn size(&self) -> f64 {
+        self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt()
     }
 
     /// The shapes, N × r.
@@ -226,6 +293,9 @@ fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError
         }),
     }
 }
+
+/// Von Kármán's strains hold for slopes up to about this.
+pub const LARGEST_SLOPE: f64 = 0.1;
 
 /// Angles at which deflections and slopes are looked at: more than two for each wave of a usual basis.
 fn angles() -> impl Iterator<Item = f64> {

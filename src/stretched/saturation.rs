@@ -17,7 +17,7 @@ use faer::{Col, c64};
 
 use crate::spectrum::companion_eigenpairs;
 
-use super::{StretchedBlade, StretchedError, angles, finite};
+use super::{StretchedBlade, StretchedError, finite};
 
 /// The largest motion of undamped flutter that begins small.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +78,7 @@ impl StretchedBlade {
             let mean = self.mean_potential_j(&pair, (cos, second))?;
             // Ū r⁴ = 2σ r² sin cos.
             let size = (pair.lambda.re * (2.0 * turn).sin() / mean).sqrt();
-            for ((u, v), (place, _)) in readings.iter().zip(&sites) {
+            for ((u, v), (place, _)) in readings.iter().zip(sites.iter()) {
                 let amplitude = 2.0 * size * (u * cos + v * second).norm();
                 if amplitude > largest.0 {
                     largest = (amplitude, *place);
@@ -150,13 +150,6 @@ impl StretchedBlade {
             sum += self.stretching.energy_j(&p)?;
         }
         Ok(sum / PHASES as f64)
-    }
-
-    /// (r, θ) of places over the blade, and the shapes there.
-    fn sites(&self) -> Vec<((f64, f64), Col<f64>)> {
-        let radii = self.plate.sampled_radii_m().step_by(4);
-        let places = radii.flat_map(|radius_m| angles().map(move |angle| (radius_m, angle)));
-        places.map(|place| (place, self.shapes_at(place))).collect()
     }
 }
 

@@ -189,6 +189,72 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     assert!(rest.abs() < 1e-8 * force.abs(), "{rest:e}");
 }
 
+/// One shape under a side force: a blade that leans against the force jumps, as the speed falls, where
+/// κ = −3(γf²/4)^⅓, and to the side of the force, where it would be had the speed risen.
+#[test]
+fn a_sweep_jumps_where_the_cubic_folds() {
+    let plate = paper().conservative();
+    let several = StretchedBlade::new(&plate, 16).unwrap();
+    let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
+    let one = several.shapes() * &shape;
+    let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
+    let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one);
+    let blade = blade.unwrap().pressed(2.0, (0.355, 0.4)).unwrap();
+    let unit = Col::from_fn(1, |_| 1.0);
+    let gamma = 4.0 * blade.stretching.energy_j(&unit).unwrap();
+    let force = blade.force[0];
+    let most = 2.0 * critical;
+    let range = (0.0, most);
+    let up = blade.sweep(&blade.flat(), true, range).unwrap();
+    assert!(up.ends.is_empty());
+    let high = -blade.system.stiffness_at(most)[(0, 0)];
+    let against = Scale(-force.signum() * (high / gamma).sqrt()) * &unit;
+    let down = blade.sweep(&against, false, range).unwrap();
+    assert_eq!((down.arcs.len(), down.ends.len()), (2, 1));
+    let fold = &down.ends[0];
+    assert_eq!(fold.kind, TurnKind::Fold);
+    let found = blade.system.stiffness_at(fold.equilibrium.speed_rad_per_s)[(0, 0)];
+    let expected = -3.0 * (gamma * force * force / 4.0).cbrt();
+    assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+    let landed = &down.arcs[1][0];
+    let p = landed.coordinates[0];
+    let rest = blade.system.stiffness_at(landed.speed_rad_per_s)[(0, 0)] * p + gamma * p.powi(3);
+    assert!((rest / force - 1.0).abs() < 1e-6, "{rest} {force}");
+    assert!(p * force > 0.0);
+}
+
+/// With damping in space every motion ends in an equilibrium (Thomson, Tait & Chetaev): the blade that is pushed
+/// off its flat state within a band, and the one between bands, where without damping gyroscopic forces hold it.
+#[test]
+fn with_damping_in_space_motions_end_in_stable_equilibria() {
+    let blade = StretchedBlade::new(&paper(), 12).unwrap();
+    let blade = blade.pressed(0.5, (0.355, 0.4)).unwrap();
+    let pitchforks = blade.clone().unforced().pitchforks().unwrap();
+    let between = 0.5 * (pitchforks[1].0 + pitchforks[2].0);
+    let within = 0.5 * (pitchforks[0].0 + pitchforks[1].0);
+    for speed in [within, between] {
+        let mut damped = blade.system.clone();
+        damped.damping = Some(Scale(6.0) * Mat::<f64>::identity(12, 12));
+        let loads = [blade.force.clone()];
+        let forces: [&dyn Force; 1] = [&blade.stretching];
+        let newmark = Newmark::new(&damped, (speed, 0.0), &loads, 2e-3).with_forces(&forces);
+        let mut state = State::rest(12);
+        for _ in 0..30_000 {
+            state = newmark.step(&state, [&[1.0], &[1.0]]).unwrap();
+        }
+        assert!(state.velocity.norm_l2() < 1e-6 * state.displacement.norm_l2());
+        let ended = blade.equilibrium(speed, Some(&state.displacement)).unwrap();
+        assert_eq!(ended.negative_eigenvalues, 0);
+        let apart = (&ended.coordinates - &state.displacement).norm_l2();
+        assert!(apart < 1e-5 * ended.coordinates.norm_l2(), "{apart:e}");
+        // What lies lower than the flat blade is where a motion without inertia goes, too, or one like it.
+        let settled = blade.settled(speed, &blade.flat()).unwrap();
+        let flat = blade.equilibrium(speed, None).unwrap();
+        let at = |e: &Equilibrium| blade.potential_j(&e.coordinates, speed).unwrap();
+        assert!(at(&settled) < at(&flat) && at(&ended) < at(&flat));
+    }
+}
+
 /// Central differences of the deflection, at the places that are looked at.
 #[test]
 fn the_largest_slope_is_that_of_the_deflection() {

@@ -6,6 +6,7 @@ mod answer;
 mod bands;
 mod check;
 mod cut;
+mod deflect;
 mod excitation;
 mod fit;
 mod in_cut;

@@ -10,6 +10,7 @@ mod pressed;
 
 mod analyze;
 mod cutting;
+mod deflect;
 mod design;
 #[cfg(feature = "explore")]
 mod explore;

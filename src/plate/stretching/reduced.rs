@@ -76,8 +76,32 @@ impl ReducedStretching {
     /// [`StretchingError::Length`].
     pub fn hessian(&self, coordinates: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
         let tension = &self.quartic * self.products(coordinates)?;
-        let slope = self.product_slopes(coordinates);
-        Ok(self.symmetric(&tension) + slope.transpose() * (&self.quartic * &slope))
+        let mut hessian = self.symmetric(&tension);
+        let p = coordinates;
+        // ∂z/∂pₐ has one entry for each b: a product with Q costs a sum of r of its columns.
+        for a in 0..self.order {
+            let mut tension = vec![0.0; self.quartic.nrows()];
+            for b in 0..self.order {
+                let share = if a == b { 2.0 * p[a] } else { p[b] };
+                let column = self.quartic.col_as_slice(pair(a, b));
+                for (sum, stiffness) in tension.iter_mut().zip(column) {
+                    *sum += share * stiffness;
+                }
+            }
+            for b in 0..=a {
+                let along: f64 = (0..self.order)
+                    .map(|c| {
+                        let share = if b == c { 2.0 * p[b] } else { p[c] };
+                        share * tension[pair(b, c)]
+                    })
+                    .sum();
+                hessian[(a, b)] += along;
+                if a != b {
+                    hessian[(b, a)] += along;
+                }
+            }
+        }
+        Ok(hessian)
     }
 
     /// z.
@@ -92,16 +116,6 @@ impl ReducedStretching {
         Ok(Col::from_fn(products.len(), |i| products[i]))
     }
 
-    /// ∂z/∂p.
-    fn product_slopes(&self, p: &Col<f64>) -> Mat<f64> {
-        let mut slopes = Mat::zeros(self.quartic.nrows(), self.order);
-        for (i, (a, b)) in pairs(self.order).enumerate() {
-            slopes[(i, a)] += p[b];
-            slopes[(i, b)] += p[a];
-        }
-        slopes
-    }
-
     /// S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair at its two places, twice at one.
     fn symmetric(&self, tension: &Col<f64>) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.order, self.order);
@@ -111,6 +125,12 @@ impl ReducedStretching {
         }
         matrix
     }
+}
+
+/// Place of a pair among the products.
+fn pair(a: usize, b: usize) -> usize {
+    let (more, less) = (a.max(b), a.min(b));
+    more * (more + 1) / 2 + less
 }
 
 /// Pairs a ≥ b.

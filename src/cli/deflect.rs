@@ -1,0 +1,59 @@
+//! `sawflutter deflect`.
+
+use crate::deflect::{DeflectError, Deflecting, Options};
+use crate::report::DeflectReport;
+use clap::Args;
+
+use super::common::{Common, number, of_option};
+use super::pictures::drawn;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter deflect                                # the built-in saw
+  sawflutter deflect my-saw.json --force-n 10       # your own saw, pressed more
+  sawflutter deflect --force-n 0                    # which way the blade buckles
+  sawflutter deflect --to-rpm 2000 --accuracy draft # faster
+  sawflutter deflect --json | jq '.up.jumps[]'      # for scripts
+
+The blade stretches where it bends by more than a part of its thickness, and leans to
+one side where the flat blade is unstable. The deflection is read at the scene's `probe`.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Constant force across the blade at its rim; by default that of the scene's run-up, or 1 N
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    force_n: Option<f64>,
+    /// Angle of the force, fixed in space; by default that of the scene's run-up, or 0
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = number)]
+    angle_deg: Option<f64>,
+    /// Last speed; by default the end of the scene's sweep
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    to_rpm: Option<f64>,
+}
+
+/// Follows the equilibria, writes the files and prints the summary.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.common.scene()?;
+    let options = Options {
+        force_n: arguments.force_n,
+        angle_deg: arguments.angle_deg,
+        to_rpm: arguments.to_rpm,
+    };
+    options.checked(&scene).map_err(of_option)?;
+    let folder = arguments.common.folder()?;
+    let found = watched(|_| Deflecting::new(&scene, &options))?;
+    let found = found.map_err(|error| match error {
+        DeflectError::Refused(refused) => of_option(refused),
+        other => other.into(),
+    })?;
+    let report = DeflectReport::new(&found);
+    let json = serde_json::to_string_pretty(&report)?;
+    let mut files = drawn(&report)?;
+    files.push(("deflect.json", json.clone().into_bytes()));
+    arguments
+        .common
+        .print(&folder, &files, &[], &json, || report.summary())
+}

@@ -1,0 +1,80 @@
+//! The side force, and how far the speed rises.
+
+use crate::plate::Plate;
+use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
+use crate::stretched::{StretchedBlade, StretchedError};
+
+/// What is asked of a blade that leans.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// Force across the blade at its rim, fixed in space; by default that of the scene's run-up, or 1 N.
+    pub force_n: Option<f64>,
+    /// Its angle; by default that of the scene's run-up, or 0.
+    pub angle_deg: Option<f64>,
+    /// Last speed; by default the end of the scene's sweep.
+    pub to_rpm: Option<f64>,
+}
+
+/// A constant force across the blade at its rim, fixed in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SideForce {
+    /// Size, positive as the deflection is.
+    pub force_n: f64,
+    /// Place, positive with the rotation.
+    pub angle_rad: f64,
+}
+
+/// Of a scene without a run-up.
+const USUAL_FORCE_N: f64 = 1.0;
+/// A force that would bend any saw by far more than the model holds for.
+const MAX_FORCE_N: f64 = 1e6;
+const MAX_ANGLE_DEG: f64 = 3600.0;
+
+impl Options {
+    /// Refuses numbers that are none.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub fn checked(&self, scene: &Scene) -> Result<(), RefusedValue> {
+        self.side_force(scene).map(|_| ())
+    }
+
+    /// The force, validated; and so is the speed.
+    pub(super) fn side_force(&self, scene: &Scene) -> Result<SideForce, RefusedValue> {
+        if let Some(to_rpm) = self.to_rpm {
+            speed_rad_per_s("to_rpm", to_rpm)?;
+        }
+        let runup = scene.file().runup.as_ref();
+        let force_n = self.force_n.or(runup.map(|runup| runup.force_n));
+        let force_n = force_n.unwrap_or(USUAL_FORCE_N);
+        if !(-MAX_FORCE_N..=MAX_FORCE_N).contains(&force_n) {
+            let allowed = "between -1e6 and 1e6";
+            let remedy = "give the force across the blade at the rim in newtons, such as 5";
+            return Err(RefusedValue::new("force_n", force_n, allowed, remedy));
+        }
+        let angle_deg = self.angle_deg.or(runup.map(|runup| runup.angle_deg));
+        let angle_deg = angle_deg.unwrap_or(0.0);
+        if !(-MAX_ANGLE_DEG..=MAX_ANGLE_DEG).contains(&angle_deg) {
+            let allowed = "between -3600 and 3600";
+            let remedy = "give the angle of the force in degrees, positive with the rotation";
+            return Err(RefusedValue::new("angle_deg", angle_deg, allowed, remedy));
+        }
+        Ok(SideForce {
+            force_n,
+            angle_rad: angle_deg.to_radians(),
+        })
+    }
+}
+
+impl SideForce {
+    /// A blade under this force, for equilibria up to a speed.
+    pub(super) fn on(
+        &self,
+        plate: &Plate,
+        to_rad_per_s: f64,
+        modes: usize,
+    ) -> Result<StretchedBlade, StretchedError> {
+        let place = (plate.blade.outer_radius_m, self.angle_rad);
+        StretchedBlade::up_to(plate, to_rad_per_s, place, modes)?.pressed(self.force_n, place)
+    }
+}

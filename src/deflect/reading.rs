@@ -1,0 +1,166 @@
+//! What is read off an equilibrium: deflections, slope, and small motions about it.
+
+use faer::c64;
+use rayon::prelude::*;
+
+use crate::scene::Probe;
+use crate::stretched::{
+    Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep, TurnKind,
+};
+
+/// A blade that stands still.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Deflection at the scene's probe.
+    pub deflection_m: f64,
+    /// Largest deflection of any place of the blade, without its sign.
+    pub largest_m: f64,
+    /// Largest slope.
+    pub largest_slope: f64,
+    /// Negative eigenvalues of ∂²V/∂q²: none where it is stable.
+    pub negative_eigenvalues: usize,
+    /// Eigenvalues of small motions about it, with Im λ ≥ 0, by magnitude; none of a curve.
+    pub eigenvalues_per_s: Vec<c64>,
+}
+
+/// A place at which the blade leaves a stable equilibrium for another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jump {
+    /// Whether the equilibrium ceases to be there, or another one crosses it.
+    pub kind: TurnKind,
+    /// Ω.
+    pub speed_rad_per_s: f64,
+    /// Deflection at the probe before, and after it.
+    pub deflection_m: [f64; 2],
+    /// Largest deflection of any place before, and after it.
+    pub largest_m: [f64; 2],
+}
+
+/// Stable equilibria while the speed rises, or falls.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SlowSweep {
+    /// Stretches from one jump to the next.
+    pub arcs: Vec<Vec<Reading>>,
+    /// What ends each stretch but the last.
+    pub jumps: Vec<Jump>,
+    /// Ω from which on slopes exceed 0.1, where von Kármán's strains do not hold; what is beyond is left out.
+    pub valid_until_rad_per_s: Option<f64>,
+}
+
+impl SlowSweep {
+    /// All of them, in the order of the sweep.
+    pub fn readings(&self) -> impl Iterator<Item = &Reading> + Clone {
+        self.arcs.iter().flatten()
+    }
+}
+
+/// A curve of equilibria.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// One after the other.
+    pub readings: Vec<Reading>,
+    /// Where it turns back, or another one crosses: kind, Ω, and the deflection at the probe.
+    pub turns: Vec<(TurnKind, f64, f64)>,
+}
+
+pub(super) struct Reader<'a> {
+    blade: &'a StretchedBlade,
+    sites: Sites,
+    probe: (f64, f64),
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(blade: &'a StretchedBlade, probe: &Probe) -> Self {
+        Reader {
+            blade,
+            sites: blade.sites(),
+            probe: (probe.radius_m, probe.angle_rad),
+        }
+    }
+
+    fn at_probe(&self, e: &Equilibrium) -> f64 {
+        self.blade.deflection_m(e, self.probe.0, self.probe.1)
+    }
+
+    fn reading(&self, e: &Equilibrium) -> Reading {
+        Reading {
+            speed_rad_per_s: e.speed_rad_per_s,
+            deflection_m: self.at_probe(e),
+            largest_m: self.sites.largest_m(&e.coordinates),
+            largest_slope: self.blade.largest_slope(e),
+            negative_eigenvalues: e.negative_eigenvalues,
+            eigenvalues_per_s: Vec::new(),
+        }
+    }
+
+    fn with_motions(&self, e: &Equilibrium) -> Result<Reading, StretchedError> {
+        Ok(Reading {
+            eigenvalues_per_s: self.blade.small_motions(e)?,
+            ..self.reading(e)
+        })
+    }
+
+    /// A sweep as far as slopes are small.
+    pub(super) fn sweep(&self, sweep: &Sweep) -> Result<SlowSweep, StretchedError> {
+        let arcs = sweep.arcs.iter().map(|arc| {
+            let arc = arc.par_iter().map(|e| self.with_motions(e));
+            arc.collect::<Result<Vec<_>, _>>()
+        });
+        let mut arcs = arcs.collect::<Result<Vec<_>, _>>()?;
+        let mut jumps: Vec<Jump> = sweep
+            .ends
+            .iter()
+            .zip(sweep.arcs.windows(2))
+            .map(|(turn, arcs)| {
+                let before = &turn.equilibrium;
+                let after = arcs[1].first().unwrap_or(before);
+                Jump {
+                    kind: turn.kind,
+                    speed_rad_per_s: before.speed_rad_per_s,
+                    deflection_m: [before, after].map(|e| self.at_probe(e)),
+                    largest_m: [before, after].map(|e| self.sites.largest_m(&e.coordinates)),
+                }
+            })
+            .collect();
+        let steep = |at: &Reading| at.largest_slope > LARGEST_SLOPE;
+        let valid_until_rad_per_s = arcs.iter().flatten().find(|at| steep(at));
+        let valid_until_rad_per_s = valid_until_rad_per_s.map(|at| at.speed_rad_per_s);
+        if valid_until_rad_per_s.is_some() {
+            let last = arcs.iter().position(|arc| arc.iter().any(steep));
+            let last = last.unwrap_or_default();
+            arcs.truncate(last + 1);
+            jumps.truncate(last);
+            let place = arcs[last].iter().position(steep).unwrap_or_default();
+            arcs[last].truncate(place);
+            arcs.retain(|arc| !arc.is_empty());
+        }
+        Ok(SlowSweep {
+            arcs,
+            jumps,
+            valid_until_rad_per_s,
+        })
+    }
+
+    /// A curve, where slopes are small.
+    pub(super) fn curve(&self, curve: &Branch) -> Curve {
+        let readings = curve.equilibria.par_iter().map(|e| self.reading(e));
+        let mut readings: Vec<Reading> = readings.collect();
+        readings.retain(|at| at.largest_slope <= LARGEST_SLOPE);
+        let flat_enough = |e: &&Equilibrium| self.blade.largest_slope(e) <= LARGEST_SLOPE;
+        let turns = curve
+            .turns
+            .iter()
+            .filter(|turn| flat_enough(&&turn.equilibrium));
+        Curve {
+            turns: turns
+                .map(|turn| {
+                    let e = &turn.equilibrium;
+                    (turn.kind, e.speed_rad_per_s, self.at_probe(e))
+                })
+                .collect(),
+            readings,
+        }
+    }
+}

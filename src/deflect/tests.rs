@@ -1,0 +1,88 @@
+//! Sweeps of the paper's saw against critical speeds, energies, and each other.
+
+use super::*;
+use crate::scene::Accuracy;
+
+fn draft() -> Scene {
+    Scene::paper()
+        .edited(|saw| saw.accuracy = Accuracy::Draft)
+        .unwrap()
+}
+
+/// Without a force the blade is flat up to its first critical speed, exactly, and leans from there on; while the
+/// speed falls it comes back to the flat one there.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn without_a_force_the_blade_leans_from_its_first_critical_speed_on() {
+    let options = Options {
+        force_n: Some(0.0),
+        to_rpm: Some(1600.0),
+        ..Options::default()
+    };
+    let found = Deflecting::new(&draft(), &options).unwrap();
+    let critical = found.analysis.model.critical[0].speed_rad_per_s;
+    for sweep in [&found.up, &found.down] {
+        assert!(sweep.readings().all(|at| at.negative_eigenvalues == 0));
+        let flat = |at: &Reading| at.largest_m < 1e-9;
+        let edge = sweep.jumps.iter().map(|jump| jump.speed_rad_per_s);
+        let edge = edge.min_by(f64::total_cmp).unwrap();
+        assert!((edge / critical - 1.0).abs() < 1e-4, "{edge} {critical}");
+        let below = sweep
+            .readings()
+            .filter(|at| at.speed_rad_per_s < 0.999 * critical);
+        assert!(below.clone().count() > 3 && below.clone().all(flat));
+        let above = sweep
+            .readings()
+            .filter(|at| at.speed_rad_per_s > 1.001 * critical);
+        assert!(above.clone().count() > 3 && !above.clone().any(flat));
+    }
+}
+
+/// Small forces deflect a slow blade as the linear model says: K(Ω)⁻¹f at the probe.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
+    use faer::linalg::solvers::Solve;
+    let options = Options {
+        force_n: Some(1e-3),
+        angle_deg: Some(90.0),
+        to_rpm: Some(1000.0),
+    };
+    let found = Deflecting::new(&draft(), &options).unwrap();
+    let plate = &found.analysis.model.plate;
+    let system = crate::system::GyroscopicSystem::of_plate(plate);
+    let values = plate.functions_at(plate.blade.outer_radius_m, 90_f64.to_radians());
+    let place = Col::from_fn(values.len(), |i| values[i]);
+    for at in found.up.readings() {
+        let answer = system
+            .stiffness_at(at.speed_rad_per_s)
+            .partial_piv_lu()
+            .solve(&place);
+        let linear = 1e-3 * (place.transpose() * answer);
+        // The static answer at rest and the modes at rest span the one under rotation to a part in a hundred.
+        let error = at.deflection_m / linear - 1.0;
+        assert!(error.abs() < 1e-2, "{}: {error:e}", at.speed_rad_per_s);
+    }
+}
+
+#[test]
+fn what_no_blade_answers_is_refused() {
+    let asked = |force_n, angle_deg, to_rpm| {
+        let options = Options {
+            force_n,
+            angle_deg,
+            to_rpm,
+        };
+        options.checked(&draft()).unwrap_err().to_string()
+    };
+    let force = asked(Some(f64::NAN), None, None);
+    assert!(force.contains("force_n"), "{force}");
+    let angle = asked(None, Some(1e5), None);
+    assert!(angle.contains("angle_deg"), "{angle}");
+    let speed = asked(None, None, Some(-3.0));
+    assert!(speed.contains("to_rpm"), "{speed}");
+    let free = draft().edited(|saw| saw.guides.clear()).unwrap();
+    let free = Deflecting::new(&free, &Options::default());
+    let said = free.unwrap_err().to_string();
+    assert!(said.contains("guide"), "{said}");
+}

@@ -1,0 +1,251 @@
+//! `deflect.json`: where the blade stands while its speed slowly rises and falls.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
+use crate::deflect::{Curve, Deflecting, Reading, SlowSweep};
+use crate::scene::{SceneFile, rpm};
+use crate::stretched::TurnKind;
+
+/// `deflect.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeflectReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
+    /// Size of the basis.
+    pub degrees_of_freedom: usize,
+    /// Shapes of that basis that the deflection is made of.
+    pub shapes: usize,
+    /// Relative change of the deflection with half as many modes more, at most; null where the blade stays
+    /// flat.
+    pub estimated_relative_error: Option<f64>,
+    /// First speed.
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+    /// Force across the blade at its rim, fixed in space.
+    pub force_n: f64,
+    /// Its angle, positive with the rotation.
+    pub force_angle_deg: f64,
+    /// Distance of the probe from the axis.
+    pub probe_radius_m: f64,
+    /// Angle of the probe.
+    pub probe_angle_deg: f64,
+    /// Speed, while it rises, up to which no place of the blade is deflected by more than its thickness; null where
+    /// none is at any speed.
+    pub beyond_thickness_rpm: Option<f64>,
+    /// Stable equilibria while the speed rises.
+    pub up: SlowSweepEntry,
+    /// Stable equilibria while the speed falls.
+    pub down: SlowSweepEntry,
+    /// Curves of equilibria that were found, unstable ones included. That there is no other one is not proven.
+    pub curves: Vec<EquilibriumCurveEntry>,
+    /// Critical speeds of the flat blade, up to the last speed.
+    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    /// Bands in which the flat blade is unstable, by the linear model.
+    pub instabilities: Vec<InstabilityEntry>,
+    /// Branches of the flat blade over the same speeds.
+    pub campbell: CampbellEntry,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// Stable equilibria over a speed that rises, or falls, so slowly that the blade stands still.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SlowSweepEntry {
+    /// Stretches from one jump to the next, in the order of the sweep.
+    pub arcs: Vec<ArcEntry>,
+    /// What ends each stretch but the last.
+    pub jumps: Vec<JumpEntry>,
+    /// Speed from which on slopes of the blade exceed 0.1 and the model does not hold; nothing beyond it is given.
+    /// Null where they do not.
+    pub valid_until_rpm: Option<f64>,
+}
+
+/// Stable equilibria. All lists have one entry a speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ArcEntry {
+    /// Rotation speeds, rising or falling.
+    pub rpm: Vec<f64>,
+    /// Deflection at the probe.
+    pub deflection_m: Vec<f64>,
+    /// Largest deflection of any place of the blade, without its sign.
+    pub largest_deflection_m: Vec<f64>,
+    /// Largest slope of the blade.
+    pub largest_slope: Vec<f64>,
+    /// Frequencies of small motions about the deflected blade in space, ascending, up to `campbell.complete_to_hz`.
+    pub frequencies_hz: Vec<Vec<f64>>,
+}
+
+/// A place at which the blade leaves an equilibrium that ceases to be stable.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JumpEntry {
+    /// A fold, at which the equilibrium ceases to exist, or a bifurcation, at which another one crosses it.
+    pub kind: TurnKind,
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Deflection at the probe before it.
+    pub from_m: f64,
+    /// Deflection at the probe after it.
+    pub to_m: f64,
+    /// Largest deflection of any place before it.
+    pub largest_from_m: f64,
+    /// Largest deflection of any place after it.
+    pub largest_to_m: f64,
+}
+
+/// A curve of equilibria. All lists have one entry an equilibrium, in the order of the curve.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EquilibriumCurveEntry {
+    /// Rotation speeds; they need not ascend.
+    pub rpm: Vec<f64>,
+    /// Deflection at the probe.
+    pub deflection_m: Vec<f64>,
+    /// Largest deflection of any place of the blade, without its sign.
+    pub largest_deflection_m: Vec<f64>,
+    /// Directions in which the potential energy falls: 0 where the equilibrium is stable.
+    pub negative_eigenvalues: Vec<usize>,
+    /// Where the curve turns back in speed, or another one crosses it.
+    pub turns: Vec<TurnEntry>,
+}
+
+/// A fold or a bifurcation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TurnEntry {
+    /// Which of the two.
+    pub kind: TurnKind,
+    /// Rotation speed.
+    pub rpm: f64,
+    /// Deflection at the probe.
+    pub deflection_m: f64,
+}
+
+impl DeflectReport {
+    /// Reports what was found.
+    pub fn new(found: &Deflecting) -> Self {
+        let chart = found.analysis.report();
+        let to_hz = chart.campbell.complete_to_hz;
+        let thickness_m = found.scene.blade().thickness_range_m().0;
+        let probe = found.scene.probe();
+        DeflectReport {
+            sawflutter: chart.sawflutter,
+            scene: found.scene.file().clone(),
+            unusual_numbers: chart.unusual_numbers,
+            degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+            shapes: found.shapes,
+            estimated_relative_error: found.estimated_relative_error,
+            from_rpm: chart.campbell.from_rpm,
+            to_rpm: chart.campbell.to_rpm,
+            force_n: found.force.force_n,
+            force_angle_deg: found.force.angle_rad.to_degrees(),
+            probe_radius_m: probe.radius_m,
+            probe_angle_deg: probe.angle_rad.to_degrees(),
+            beyond_thickness_rpm: beyond_rpm(&found.up, thickness_m),
+            up: SlowSweepEntry::new(&found.up, to_hz),
+            down: SlowSweepEntry::new(&found.down, to_hz),
+            curves: found
+                .curves
+                .iter()
+                .map(EquilibriumCurveEntry::new)
+                .collect(),
+            critical_speeds: chart.critical_speeds,
+            instabilities: chart.instabilities,
+            campbell: chart.campbell,
+            warnings: chart.warnings,
+        }
+    }
+}
+
+/// Where the largest deflection first exceeds a limit, on a straight line between two equilibria.
+fn beyond_rpm(sweep: &SlowSweep, limit_m: f64) -> Option<f64> {
+    let mut before: Option<&Reading> = None;
+    for at in sweep.readings() {
+        if at.largest_m > limit_m {
+            let speed = at.speed_rad_per_s;
+            let crossed = before.map_or(speed, |before| {
+                let share = (limit_m - before.largest_m) / (at.largest_m - before.largest_m);
+                before.speed_rad_per_s + share * (speed - before.speed_rad_per_s)
+            });
+            return Some(rpm(crossed));
+        }
+        before = Some(at);
+    }
+    None
+}
+
+impl SlowSweepEntry {
+    fn new(sweep: &SlowSweep, to_hz: f64) -> Self {
+        let jumps = sweep.jumps.iter().map(|jump| JumpEntry {
+            kind: jump.kind,
+            rpm: rpm(jump.speed_rad_per_s),
+            from_m: jump.deflection_m[0],
+            to_m: jump.deflection_m[1],
+            largest_from_m: jump.largest_m[0],
+            largest_to_m: jump.largest_m[1],
+        });
+        SlowSweepEntry {
+            arcs: sweep
+                .arcs
+                .iter()
+                .map(|arc| ArcEntry::new(arc, to_hz))
+                .collect(),
+            jumps: jumps.collect(),
+            valid_until_rpm: sweep.valid_until_rad_per_s.map(rpm),
+        }
+    }
+}
+
+impl ArcEntry {
+    fn new(arc: &[Reading], to_hz: f64) -> Self {
+        let of = |value: fn(&Reading) -> f64| arc.iter().map(value).collect();
+        let frequencies = |at: &Reading| {
+            let all = at.eigenvalues_per_s.iter().map(|lambda| lambda.im / TAU);
+            let mut below: Vec<f64> = all.filter(|hz| *hz <= to_hz).collect();
+            below.sort_by(f64::total_cmp);
+            below
+        };
+        ArcEntry {
+            rpm: of(|at| rpm(at.speed_rad_per_s)),
+            deflection_m: of(|at| at.deflection_m),
+            largest_deflection_m: of(|at| at.largest_m),
+            largest_slope: of(|at| at.largest_slope),
+            frequencies_hz: arc.iter().map(frequencies).collect(),
+        }
+    }
+}
+
+impl EquilibriumCurveEntry {
+    fn new(curve: &Curve) -> Self {
+        let of = |value: fn(&Reading) -> f64| curve.readings.iter().map(value).collect();
+        let counts = curve.readings.iter().map(|at| at.negative_eigenvalues);
+        let turns = curve.turns.iter();
+        EquilibriumCurveEntry {
+            rpm: of(|at| rpm(at.speed_rad_per_s)),
+            deflection_m: of(|at| at.deflection_m),
+            largest_deflection_m: of(|at| at.largest_m),
+            negative_eigenvalues: counts.collect(),
+            turns: turns
+                .map(|(kind, speed, deflection_m)| TurnEntry {
+                    kind: *kind,
+                    rpm: rpm(*speed),
+                    deflection_m: *deflection_m,
+                })
+                .collect(),
+        }
+    }
+}

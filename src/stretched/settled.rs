@@ -1,0 +1,98 @@
+//! The minimum of V that a motion without inertia comes to rest in.
+
+use faer::{Col, Scale, Side};
+
+use crate::scene::rpm;
+use crate::spectrum::SpectrumError;
+
+use super::{Equilibrium, StretchedBlade, StretchedError, finite};
+
+/// Most steps; a minimum that the blade has to go to far away takes some fifty.
+const STEPS: usize = 2000;
+/// Longest step, as a share of a thickness of the whole blade.
+const LONGEST: f64 = 0.1;
+/// Push off a saddle, as a share of the same.
+const PUSH: f64 = 1e-4;
+/// A correction of this share of the deflection, or of a thickness, is the last one.
+const LAST: f64 = 1e-9;
+/// Stiffnesses below this share of the largest are taken for it, so that no step is without bounds.
+const SOFTEST: f64 = 1e-12;
+
+impl StretchedBlade {
+    /// The stable equilibrium that the blade comes to from a deflection, where V falls all the way: each
+    /// step goes down, by Newton's method with the curvatures of V made positive, and no further than a
+    /// tenth of a thickness. From a saddle it leaves with the side force, or else as the first coordinate that
+    /// moves says.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotFound`], [`StretchedError::Value`], [`StretchedError::Axisymmetric`].
+    pub fn settled(
+        &self,
+        speed_rad_per_s: f64,
+        from: &Col<f64>,
+    ) -> Result<Equilibrium, StretchedError> {
+        finite("the speed in rad/s", speed_rad_per_s)?;
+        let size = self.size();
+        let mut p = from.clone();
+        let mut energy = self.potential_j(&p, speed_rad_per_s)?;
+        for _ in 0..STEPS {
+            let order = p.nrows();
+            let failed = || SpectrumError::NoConvergence {
+                order,
+                rpm: rpm(speed_rad_per_s),
+            };
+            let hessian = self.hessian(&p, speed_rad_per_s)?;
+            let modes = hessian
+                .self_adjoint_eigen(Side::Lower)
+                .map_err(|_| failed())?;
+            let rest = self.residual(&p, speed_rad_per_s)?;
+            let along = modes.U().transpose() * &rest;
+            let softest = SOFTEST * modes.S()[order - 1].abs();
+            let shares = Col::from_fn(order, |k| along[k] / modes.S()[k].abs().max(softest));
+            let mut step = Scale(-1.0) * (modes.U() * shares);
+            let is_minimum = modes.S()[0] >= 0.0;
+            if step.norm_l2() <= LAST * p.norm_l2().max(size) {
+                if is_minimum {
+                    self.directed(&p)?;
+                    return self.at(p, speed_rad_per_s);
+                }
+                let lowest = modes.U().col(0);
+                let forced = lowest.transpose() * &self.force;
+                let first = (0..order).map(|i| lowest[i]).find(|x| x.abs() > PUSH);
+                let side = if forced == 0.0 {
+                    first.unwrap_or(1.0)
+                } else {
+                    forced
+                };
+                step = Scale(side.signum() * PUSH * size) * lowest;
+            }
+            let length = step.norm_l2();
+            if length > LONGEST * size {
+                step = Scale(LONGEST * size / length) * step;
+            }
+            let slope = rest.transpose() * &step;
+            let mut share = 1.0;
+            loop {
+                let next = &p + Scale(share) * &step;
+                let lower = self.potential_j(&next, speed_rad_per_s)?;
+                // Of the last digits V cannot tell.
+                let rounding = 1e-13 * energy.abs().max(lower.abs());
+                if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
+                    (p, energy) = (next, lower);
+                    break;
+                }
+                share *= 0.5;
+                if share < 1e-12 {
+                    return Err(self.not_found(&p, speed_rad_per_s));
+                }
+            }
+        }
+        Err(self.not_found(&p, speed_rad_per_s))
+    }
+
+    /// V, in J.
+    pub fn potential_j(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<f64, StretchedError> {
+        let elastic = p.transpose() * (self.system.stiffness_at(speed_rad_per_s) * p);
+        Ok(0.5 * elastic + self.stretching.energy_j(p)? - self.force.transpose() * p)
+    }
+}

@@ -1,0 +1,217 @@
+//! Equilibria over speed in words.
+
+use std::fmt::Write;
+
+use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
+use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
+use crate::stretched::TurnKind;
+
+impl DeflectReport {
+    /// The report in words, 80 columns wide, the verdict first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
+    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    writeln!(text, "{}", wrapped(&critical(report)))?;
+    for (sweep, word) in [(&report.up, "rises"), (&report.down, "falls")] {
+        jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
+        if let Some(rpm) = sweep.valid_until_rpm {
+            let end = format!(
+                "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model does not hold there, and nothing is given."
+            );
+            writeln!(text, "{}", wrapped(&end))?;
+        }
+    }
+    table(text, report)?;
+    writeln!(text, "\n{}", wrapped(&accuracy(report)))?;
+    writeln!(text, "{}", wrapped(MEANING))?;
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+const MEANING: &str = "These equilibria are those of the blade with any damping that stands in space: every motion \
+     then ends in a stable one. Damping that turns with the blade may hold the flat blade, and a fast run-up may \
+     be over before the blade leans.";
+
+/// How far the blade is deflected.
+fn verdict(report: &DeflectReport) -> String {
+    let force = format!(
+        "Under {} N at the rim at {}°",
+        report.force_n, report.force_angle_deg
+    );
+    let up = report.up.arcs.iter();
+    let all = up.flat_map(|arc| arc.rpm.iter().zip(&arc.largest_deflection_m));
+    let largest = all.max_by(|x, y| x.1.total_cmp(y.1));
+    let (rpm, largest_m) = largest.map_or((report.from_rpm, 0.0), |(rpm, m)| (*rpm, *m));
+    let within = match report.beyond_thickness_rpm {
+        None => format!(
+            "no place of the blade leaves its plane by more than the thickness up to {:.0} rpm",
+            report.to_rpm
+        ),
+        Some(beyond) => {
+            format!("the blade stands within its thickness up to {beyond:.0} rpm and leans beyond")
+        }
+    };
+    format!(
+        "{force} {within}; it is deflected most, by {}, at {rpm:.0} rpm",
+        millimetres(largest_m)
+    )
+}
+
+fn critical(report: &DeflectReport) -> String {
+    match report.critical_speeds.first() {
+        None => "The flat blade has no critical speed in this range".to_owned(),
+        Some(first) => format!(
+            "First critical speed of the flat blade: {:.1} rpm",
+            first.rpm
+        ),
+    }
+}
+
+fn jumps(
+    text: &mut String,
+    sweep: &SlowSweepEntry,
+    (word, thickness_m): (&str, f64),
+) -> std::fmt::Result {
+    let seen: Vec<&JumpEntry> = sweep
+        .jumps
+        .iter()
+        .filter(|jump| jump.is_seen(thickness_m))
+        .collect();
+    if seen.is_empty() {
+        let none = format!("While the speed {word} slowly the blade does not jump");
+        return writeln!(text, "{}", wrapped(&none));
+    }
+    writeln!(
+        text,
+        "While the speed {word} slowly the blade jumps, at the probe:"
+    )?;
+    for jump in seen.iter().take(ROWS) {
+        let kind = match jump.kind {
+            TurnKind::Fold => "fold",
+            TurnKind::Bifurcation => "bifurcation",
+        };
+        writeln!(
+            text,
+            "  {:>10.1} rpm  from {:>11} to {:>11}  ({kind})",
+            jump.rpm,
+            millimetres(jump.from_m),
+            millimetres(jump.to_m)
+        )?;
+    }
+    match seen.len().checked_sub(ROWS) {
+        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in deflect.json"),
+        _ => Ok(()),
+    }
+}
+
+impl JumpEntry {
+    /// Whether the blade moves by a part of its thickness, and does not only begin to lean.
+    pub(crate) fn is_seen(&self, thickness_m: f64) -> bool {
+        let probe = (self.to_m - self.from_m).abs();
+        probe.max((self.largest_to_m - self.largest_from_m).abs()) > SEEN * thickness_m
+    }
+}
+
+/// A change of deflection of this share of the thickness is a jump.
+const SEEN: f64 = 0.02;
+
+/// Deflections at even speeds.
+fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
+    writeln!(
+        text,
+        "\nDeflection       speed rises           speed falls      lowest frequencies"
+    )?;
+    writeln!(
+        text,
+        "    [rpm]    probe   largest      probe   largest      speed rises [Hz]"
+    )?;
+    for k in 0..ROWS {
+        let share = k as f64 / (ROWS - 1) as f64;
+        let rpm = report.from_rpm + share * (report.to_rpm - report.from_rpm);
+        let of = |sweep: &SlowSweepEntry| {
+            let at = sweep.at(rpm, |arc, k| {
+                [arc.deflection_m[k], arc.largest_deflection_m[k]]
+            });
+            at.map_or(["-".into(), "-".into()], |at| at.map(in_mm))
+        };
+        let ([up_probe, up_most], [down_probe, down_most]) = (of(&report.up), of(&report.down));
+        let lowest = |arc: &ArcEntry, k: usize| {
+            std::array::from_fn(|i| arc.frequencies_hz[k].get(i).copied().unwrap_or(f64::NAN))
+        };
+        let frequencies: Option<[f64; FREQUENCIES]> = report.up.at(rpm, lowest);
+        let known = frequencies.iter().flatten().filter(|hz| hz.is_finite());
+        let frequencies = known
+            .map(|hz| format!("{hz:>6.2}"))
+            .collect::<Vec<_>>()
+            .join(" ");
+        let line = format!(
+            "{rpm:>9.0} {up_probe:>8} {up_most:>9} {down_probe:>10} {down_most:>9}   {frequencies}"
+        );
+        writeln!(text, "{}", line.trim_end())?;
+    }
+    writeln!(text, "Deflections in mm")
+}
+
+/// Frequencies of a row of the table.
+const FREQUENCIES: usize = 4;
+
+impl SlowSweepEntry {
+    /// Values at a speed, on the straight line between those of two equilibria of one arc.
+    fn at<const N: usize>(
+        &self,
+        rpm: f64,
+        values: impl Fn(&ArcEntry, usize) -> [f64; N],
+    ) -> Option<[f64; N]> {
+        let within = |arc: &&ArcEntry, k: usize| {
+            let share = (rpm - arc.rpm[k]) / (arc.rpm[k + 1] - arc.rpm[k]);
+            (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)
+        };
+        self.arcs.iter().find_map(|arc| {
+            (1..arc.rpm.len()).find_map(|k| {
+                let share = within(&arc, k - 1)?;
+                let [from, to] = [values(arc, k - 1), values(arc, k)];
+                Some(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+            })
+        })
+    }
+}
+
+fn accuracy(report: &DeflectReport) -> String {
+    let shapes = format!(
+        "{} shapes of a basis of {}",
+        report.shapes, report.degrees_of_freedom
+    );
+    match report.estimated_relative_error {
+        None => format!("The deflection is made of {shapes}."),
+        Some(error) if error < 1e-3 => {
+            format!(
+                "The deflection is made of {shapes}; with more of them it changes by less than 0.1 %."
+            )
+        }
+        Some(error) => format!(
+            "The deflection is made of {shapes}; with more of them it changes by {:.1} % at most.",
+            1e2 * error
+        ),
+    }
+}
+
+fn millimetres(metres: f64) -> String {
+    format!("{} mm", in_mm(metres))
+}
+
+/// To three decimals, a zero without a sign.
+fn in_mm(metres: f64) -> String {
+    // Minus zero and zero add up to zero.
+    format!("{:.3}", (1e6 * metres).round() / 1e3 + 0.0)
+}
