@@ -55,8 +55,9 @@ struct Kept {
 struct KeptChart {
     name: usize,
     page: String,
-    fidelity: Fidelity,
     analysis: Arc<Analysis>,
+    /// At the scene's own accuracy, for its files. Whatever is asked of the analysis later counts as work of its own.
+    report: Option<Arc<Report>>,
 }
 
 /// Of one page: the chart shown and those that are just being replaced.
@@ -94,7 +95,9 @@ impl Charts {
             let at_rest = report.modes_at_rest.iter_mut();
             at_rest.for_each(|mode| mode.shape.clear());
         }
-        let chart = self.keep(page, fidelity, analysis);
+        let report = Arc::new(report);
+        let of_scene = (fidelity == Fidelity::Scene).then(|| report.clone());
+        let chart = self.keep(page, analysis, of_scene);
         let milliseconds = 1e3 * started.elapsed().as_secs_f64();
         serde_json::to_string(&Chart {
             chart,
@@ -122,17 +125,16 @@ impl Charts {
     /// [`Refusal`] of a scene, or of a computation that fails or is stopped.
     pub fn file(&self, kind: SavedFile, chart: usize, scene: &str) -> Result<Vec<u8>, Refusal> {
         let scene = Scene::from_json(scene)?;
-        let kept = self.kept_chart(chart, |kept| {
-            kept.fidelity == Fidelity::Scene && kept.analysis.scene.file() == scene.file()
-        });
-        kind.content(&scene, kept)
+        let known = self.find(chart, |kept| kept.report.clone());
+        let known = known.flatten().filter(|known| known.scene == *scene.file());
+        kind.content(&scene, known)
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn keep(&self, page: &str, fidelity: Fidelity, analysis: Analysis) -> usize {
+    fn keep(&self, page: &str, analysis: Analysis, report: Option<Arc<Report>>) -> usize {
         let mut kept = self.kept();
         kept.made += 1;
         let name = kept.made;
@@ -144,8 +146,8 @@ impl Charts {
         kept.latest.push_back(KeptChart {
             name,
             page: page.to_owned(),
-            fidelity,
             analysis: Arc::new(analysis),
+            report,
         });
         if kept.latest.len() > OF_ALL {
             kept.latest.pop_front();
@@ -160,18 +162,12 @@ impl Charts {
 
     /// A chart by its name, while it is kept.
     pub fn named(&self, name: usize) -> Option<Arc<Analysis>> {
-        self.kept_chart(name, |_| true)
+        self.find(name, |kept| kept.analysis.clone())
     }
 
-    fn kept_chart(
-        &self,
-        name: usize,
-        is_wanted: impl Fn(&KeptChart) -> bool,
-    ) -> Option<Arc<Analysis>> {
+    fn find<T>(&self, name: usize, get: impl Fn(&KeptChart) -> T) -> Option<T> {
         let kept = self.kept();
-        let mut charts = kept.latest.iter();
-        let found = charts.find(|chart| chart.name == name && is_wanted(chart));
-        found.map(|chart| chart.analysis.clone())
+        kept.latest.iter().find(|chart| chart.name == name).map(get)
     }
 }
 
@@ -212,6 +208,7 @@ mod tests {
         let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
         let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
         charts.chart("one", &scene, Fidelity::Scene).unwrap();
+        charts.influence("1").unwrap();
         let file = |chart: usize| {
             let solved = Arc::new(AtomicUsize::new(0));
             let seen = solved.clone();

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::examples::examples;
 use crate::figure::{self, FigureError};
+use crate::report::Report;
 use crate::scene::{QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneFile, json_schema};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
@@ -152,21 +153,21 @@ impl SavedFile {
         }
     }
 
-    /// Its bytes for a scene, of its analysis where that is known.
+    /// Its bytes for a scene, of its report where that is known.
     ///
     /// # Errors
     /// [`Refusal`] of a computation that fails or is stopped.
-    pub fn content(self, scene: &Scene, known: Option<Arc<Analysis>>) -> Result<Vec<u8>, Refusal> {
+    pub fn content(self, scene: &Scene, known: Option<Arc<Report>>) -> Result<Vec<u8>, Refusal> {
         if self == SavedFile::Scene {
             return pretty(scene.file());
         }
         let report = match known {
-            Some(analysis) => analysis.report(),
-            None => Analysis::new(scene)?.report(),
+            Some(report) => report,
+            None => Arc::new(Analysis::new(scene)?.report()),
         };
         let undrawn = |error: FigureError| Refusal::of(&error);
         match self {
-            SavedFile::Scene | SavedFile::Report => pretty(&report),
+            SavedFile::Scene | SavedFile::Report => pretty(&*report),
             SavedFile::Table => report.campbell_csv().map_err(|error| Refusal::of(&error)),
             SavedFile::Png => report.campbell_png().map_err(undrawn),
             SavedFile::Svg => {
