@@ -30,6 +30,7 @@ files! {
     "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";
     "refusal.js": SCRIPT, "page/refusal.js";
+    "dock.js": SCRIPT, "page/dock.js";
     "dom.js": SCRIPT, "page/dom.js";
     "form.js": SCRIPT, "page/form.js";
     "blade.js": SCRIPT, "page/blade.js";
@@ -41,6 +42,7 @@ files! {
     "tasks.js": SCRIPT, "page/tasks.js";
     "influence.js": SCRIPT, "page/influence.js";
     "verdict.js": SCRIPT, "page/verdict.js";
+    "waiting.js": SCRIPT, "page/waiting.js";
     "words.js": SCRIPT, "page/words.js";
     "uplot.js": SCRIPT, "../../assets/uplot/uPlot.iife.min.js";
     "uplot.css": STYLE, "../../assets/uplot/uPlot.min.css";

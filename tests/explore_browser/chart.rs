@@ -252,3 +252,44 @@ fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
         page.close().await;
     });
 }
+
+/// A chart that takes longer than a moment says how far it is, can be stopped, and can be asked for again.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_long_chart_says_how_far_it_is_and_can_be_stopped() {
+    run(async {
+        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery/six-pads.json");
+        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
+        page.settle().await;
+        let is_hidden = "document.querySelector('#stop').hidden";
+        page.script("sawflutter.state.set('accuracy', 'reference')")
+            .await;
+        page.wait(&format!("!{is_hidden}")).await;
+        page.wait("document.querySelector('#busy').textContent.includes(' of ')")
+            .await;
+        page.screenshot("1280-computing.png").await;
+        // By keyboard: the focus goes to what begins it again.
+        page.find("#stop")
+            .await
+            .send_keys(Key::Enter + "")
+            .await
+            .unwrap();
+        page.wait(is_hidden).await;
+        assert_eq!(
+            page.value("document.activeElement.id").await,
+            json!("again")
+        );
+        let told = page.text("#fault").await;
+        assert!(told.contains("before the last change"), "{told}");
+        page.script("sawflutter.state.set('accuracy', 'draft')")
+            .await;
+        page.settle().await;
+        assert_eq!(
+            page.value("document.querySelector('#waiting').hidden")
+                .await,
+            json!(true)
+        );
+        assert_eq!(page.text("#fault").await, "");
+        page.close().await;
+    });
+}

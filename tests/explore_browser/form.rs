@@ -1,8 +1,10 @@
 //! Every quantity can be set, by hand, by keyboard and by its field.
 
+use std::time::{Duration, Instant};
+
 use serde_json::{Value, json};
 
-use crate::browser::{Key, PAD, Page, drag, hand, let_go, run, same};
+use crate::browser::{Key, PAD, PATIENCE, Page, drag, hand, let_go, run, same};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
@@ -331,6 +333,93 @@ fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
         page.settle().await;
         assert_eq!(page.value(&edge("inner_diameter_m")).await, json!(true));
         assert_eq!(page.text("#fault").await, "");
+        page.close().await;
+    });
+}
+
+/// What the form and the tabs put into each saw of the gallery: "name: words of the button: why it is refused".
+const REFUSED: &str = "
+    const [{ Form }, { lacks, putIn }, begun] = await Promise.all([
+        import('/page/form.js'), import('/page/beginnings.js'), fetch('start').then((answer) => answer.json()),
+    ]);
+    const quantities = new Map(begun.quantities.map((quantity) => [quantity.path, quantity]));
+    const refused = [];
+    const asked = new Set();
+    const ask = async (path, body, words) => {
+        const key = path + body;
+        if (asked.has(key)) return;
+        asked.add(key);
+        const abort = new AbortController();
+        const answer = await fetch(path, { method: 'POST', body, signal: abort.signal });
+        // A task that begins to tell how far it is was not refused.
+        const [line] = new TextDecoder().decode((await answer.body.getReader().read()).value).split('\\n');
+        if (answer.status !== 200 || line.startsWith('{\"refusal')) refused.push(`${words}: ${line}`);
+        abort.abort();
+    };
+    const buttons = (scene) => {
+        const place = document.createElement('div');
+        let made = null;
+        const state = {
+            scene,
+            change(edit) { made = structuredClone(scene); edit(made); },
+        };
+        new Form(place, begun.schema, quantities, state).build();
+        const all = [...place.querySelectorAll('button')].filter(({ textContent }) => /^(Put|Add)/.test(textContent));
+        return all.map((button) => {
+            const part = button.closest('details').dataset.path;
+            button.click();
+            return { words: `${part}: ${button.textContent}`, made };
+        });
+    };
+    for (const example of begun.examples) {
+        const scene = { ...example, accuracy: 'draft' };
+        delete scene.tolerance;
+        const first = buttons(scene);
+        const known = new Set(first.map(({ words }) => words));
+        const inner = first.flatMap(({ words, made }) =>
+            buttons(made).filter((button) => !known.has(button.words)).map((button) => ({ ...button, words: `${words}, ${button.words}` })));
+        for (const { words, made } of [...first, ...inner]) {
+            const isInChart = !/^(cut|runup|probe|spline)/.test(words);
+            await ask(isInChart ? 'chart/draft' : 'read', JSON.stringify(made), `${example.name}: ${words}`);
+        }
+        for (const [task, part] of [['cut', 'cut'], ['runup', 'runup'], ['washboard', 'cut.washboarding']]) {
+            const made = structuredClone(scene);
+            if (lacks(part, made)) continue;
+            if (!part.split('.').reduce((value, key) => value?.[key], made)) putIn(made, part);
+            await ask(`task/${task}`, JSON.stringify({ scene: made }), `${example.name}: ${task}`);
+        }
+    }
+    return { asked: asked.size, refused };";
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn every_part_that_is_put_into_a_saw_of_the_gallery_computes() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.script(&format!(
+            "window.found = null; (async () => {{ {REFUSED} }})().then((found) => (window.found = found))"
+        ))
+        .await;
+        let begun = Instant::now();
+        while page.value("window.found").await.is_null() {
+            assert!(begun.elapsed() < 5 * PATIENCE, "the parts take too long");
+            tokio::time::sleep(Duration::from_millis(200)).await;
+        }
+        let found = page.value("window.found").await;
+        println!("{} scenes computed", found["asked"]);
+        let refused: Vec<String> = serde_json::from_value(found["refused"].clone()).unwrap();
+        // So many modes of so large a blade cannot be looked at, whatever it begins with.
+        let is_out_of_reach = |told: &String| told.starts_with("Stone saw of 3.5 m: washboard:");
+        let refused: Vec<&String> = refused
+            .iter()
+            .filter(|told| !is_out_of_reach(told))
+            .collect();
+        assert!(
+            refused.is_empty(),
+            "{} refused: {refused:#?}",
+            refused.len()
+        );
         page.close().await;
     });
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use crate::browser::{PAD, Page, drag, let_go, run};
+use crate::browser::{Key, PAD, Page, drag, let_go, run};
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
@@ -192,6 +192,181 @@ fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
         let told = page.text("#verdict").await;
         assert!(told.contains("inside the band of divergence"), "{told}");
         assert_eq!(page.value(PLACES).await, before, "verdict");
+        page.close().await;
+    });
+}
+
+/// The page is laid out once: what comes later finds its room.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_page_hardly_moves_while_it_is_loaded() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        for (width, height) in [(1440, 900), (1280, 900), (760, 900), (390, 844)] {
+            page.resize(width, height).await;
+            page.driver.refresh().await.unwrap();
+            page.wait("window.sawflutter?.computed.length > 0").await;
+            page.settle().await;
+            let shifts = page
+                .awaited(
+                    "(await new Promise((resolve) => { const all = []; \
+                     new PerformanceObserver((list) => all.push(...list.getEntries())).observe({ type: 'layout-shift', buffered: true }); \
+                     setTimeout(() => resolve(all), 300); })).map(({ value, sources }) => \
+                     [value, sources.map(({ node, previousRect, currentRect }) => `${node?.id || node?.className || node?.nodeName}: ${previousRect.top} to ${currentRect.top}`)])",
+                )
+                .await;
+            let all: Vec<(f64, Vec<String>)> = serde_json::from_value(shifts).unwrap();
+            let sum: f64 = all.iter().map(|(value, _)| value).sum();
+            println!("layout shift at {width} pixels: {sum:.3}");
+            assert!(sum < 0.1, "{width}: {sum} {all:#?}");
+        }
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_focus_stays_where_the_hand_was() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.script(
+            "document.querySelectorAll('#fields details').forEach((part) => (part.open = true))",
+        )
+        .await;
+        let focused = "document.activeElement.id";
+        for (button, then) in [
+            ("guides:add", "guides:add"),
+            ("guides[1]:switch", "guides:add"),
+            ("membrane:switch", "membrane:switch"),
+            ("membrane:switch", "membrane:switch"),
+        ] {
+            let pressed = page.find(&format!("[id='{button}']")).await;
+            pressed.send_keys(Key::Enter + "").await.unwrap();
+            page.settle().await;
+            assert_eq!(page.value(focused).await, json!(then), "{button}");
+        }
+        for _ in 0..4 {
+            page.find("#undo")
+                .await
+                .send_keys(Key::Enter + "")
+                .await
+                .unwrap();
+        }
+        // Nothing is left to take back.
+        assert_eq!(page.value(focused).await, json!("redo"));
+        page.settle().await;
+        page.find("#tab-study").await.click().await.unwrap();
+        let start = page.find("#panel-study .start button").await;
+        start.send_keys(Key::Enter + "").await.unwrap();
+        let stop = page.find("#panel-study .start button + button").await;
+        stop.send_keys(Key::Enter + "").await.unwrap();
+        page.wait("document.querySelector('#panel-study progress').hidden")
+            .await;
+        assert_eq!(
+            page.value("document.activeElement.textContent").await,
+            json!("Compute")
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_pad_and_its_fields_are_marked_together() {
+    run(async {
+        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/two-pads.json");
+        let page = Page::open(&[scene, "--accuracy", "draft"]).await;
+        page.settle().await;
+        let marked = "[...document.querySelectorAll('.selected')].map((marked) => [marked.dataset.path, marked.open ?? marked.querySelector('.number').textContent])";
+        drag(&page, "[data-path='guides[1]'] .body", 3, (2, 0)).await;
+        let_go(&page).await;
+        page.settle().await;
+        assert_eq!(
+            page.value(marked).await,
+            json!([["guides[1]", "2"], ["guides[1]", true]])
+        );
+        page.screenshot("1280-selected.png").await;
+        page.find("[id='guides[0].radius_m']")
+            .await
+            .click()
+            .await
+            .unwrap();
+        assert_eq!(
+            page.value(marked).await,
+            json!([["guides[0]", "1"], ["guides[0]", true]])
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_slider_and_the_chart_are_seen_together_on_a_small_screen() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.resize(390, 844).await;
+        page.settle().await;
+        page.script(
+            "document.getElementById('guides[0].stiffness_n_per_m').scrollIntoView({ block: 'end' })",
+        )
+        .await;
+        page.wait("document.querySelector('.docked') !== null")
+            .await;
+        page.screenshot("390-slider.png").await;
+        let seen = page
+            .value("[document.querySelector('#campbell canvas'), document.getElementById('guides[0].stiffness_n_per_m')].map((part) => part.getBoundingClientRect()).map(({ top, bottom }) => [top, bottom])")
+            .await;
+        let seen: [[f64; 2]; 2] = serde_json::from_value(seen).unwrap();
+        assert!(
+            seen[0][0] >= 0.0 && seen[0][1] <= seen[1][0] && seen[1][1] <= 844.0,
+            "{seen:?}"
+        );
+        page.script("scrollTo(0, 0)").await;
+        page.wait("document.querySelector('.docked') === null")
+            .await;
+        page.close().await;
+    });
+}
+
+/// On paper: the saw's name, its answer and its chart in the colours of paper, without buttons and fields.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn what_is_printed_is_the_answer_and_the_chart_of_a_named_saw() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let name = page.value("sawflutter.state.scene.name").await;
+        assert_eq!(page.text("#name").await, name.as_str().unwrap());
+        assert_eq!(
+            page.value("document.title").await,
+            json!(format!("{} – sawflutter", name.as_str().unwrap()))
+        );
+        let file = page.value("sawflutter.nameOf('campbell.png')").await;
+        assert!(file.as_str().unwrap().ends_with("-campbell.png"), "{file}");
+        page.script(
+            "sawflutter.open(new File([JSON.stringify(sawflutter.state.scene)], 'My saw.json'))",
+        )
+        .await;
+        page.wait("sawflutter.nameOf('scene.json') === 'My saw.json'")
+            .await;
+        page.settle().await;
+        let media = json!({ "media": "print", "features": [{ "name": "prefers-color-scheme", "value": "dark" }] });
+        page.driver
+            .chromium("Emulation.setEmulatedMedia", media)
+            .await
+            .unwrap();
+        page.script("dispatchEvent(new Event('beforeprint'))").await;
+        page.screenshot("1280-print.png").await;
+        let seen = "['#name', '#verdict', '#campbell', '#drawing', '#form', '#tabs', '#undo'].map((part) => document.querySelector(part).checkVisibility())";
+        assert_eq!(
+            page.value(seen).await,
+            json!([true, true, true, true, false, false, false])
+        );
+        let paper = page
+            .value("getComputedStyle(document.body).backgroundColor")
+            .await;
+        assert_eq!(paper, json!("rgb(255, 255, 255)"));
         page.close().await;
     });
 }

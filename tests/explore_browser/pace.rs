@@ -159,3 +159,67 @@ fn a_hand_that_rests_is_shown_the_chart_at_its_own_accuracy_before_it_lets_go() 
         page.close().await;
     });
 }
+
+/// How long the next turn waits after a computation was given up, and how long that goes on, in milliseconds; null where
+/// it was done before. A scene that is refused needs no time of its own.
+const GIVE_UP: &str = "
+    const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+    const jobs = async () => (await fetch('jobs')).json();
+    const giveUp = async (change, after) => {
+        const scene = structuredClone(sawflutter.state.scene);
+        change(scene);
+        const before = await jobs();
+        const abort = new AbortController();
+        const done = fetch('chart/scene', { method: 'POST', body: JSON.stringify(scene), signal: abort.signal });
+        done.then((answer) => answer.text()).catch(() => {});
+        await pause(after);
+        const begun = performance.now();
+        abort.abort();
+        await fetch('chart/scene', { method: 'POST', body: '{}' });
+        const waited = performance.now() - begun;
+        for (;;) {
+            const { stopped, finished } = await jobs();
+            if (stopped > before.stopped) return [waited, performance.now() - begun];
+            if (finished > before.finished + 1) return null;
+            await pause(2);
+        }
+    };";
+
+/// Wherever the computation is, and however large its matrices are.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_next_turn_comes_within_a_fifth_of_a_second_after_a_computation_was_given_up() {
+    run(async {
+        let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        for (scene, change) in [
+            ("paper.json", "scene.sweep = { from_rpm: 0, to_rpm: 20000 }"),
+            ("paper.json", "scene.guides[0].stiffness_n_per_m = 1e12"),
+            ("gallery/six-pads.json", "scene.accuracy = 'reference'"),
+            ("gallery/damped-material.json", ""),
+            ("gallery/in-cut.json", ""),
+        ] {
+            let path = gallery.join(scene);
+            let page = Page::open(&[path.to_str().unwrap(), "--accuracy", "draft"]).await;
+            page.settle().await;
+            let mut told = Vec::new();
+            for after in [20, 100, 300, 700, 1500, 3000] {
+                let asked = format!(
+                    "{{ {GIVE_UP} return await giveUp((scene) => {{ delete scene.accuracy; {change} }}, {after}); }}"
+                );
+                let found = page.awaited(&asked).await;
+                let Some([waited, ended]) =
+                    serde_json::from_value::<Option<[f64; 2]>>(found).unwrap()
+                else {
+                    break;
+                };
+                told.push(format!("{waited:.0}/{ended:.0} at {after}"));
+                assert!(waited < 200.0, "{scene}, {change}: {waited} at {after}");
+            }
+            println!(
+                "{scene}, {change}: the next turn came, and the work ended, in milliseconds after it was given up: {}",
+                told.join(", ")
+            );
+            page.close().await;
+        }
+    });
+}

@@ -21,9 +21,11 @@ const turned = (value) => ((((value + 180) % 360) + 360) % 360) - 180;
 const radians = (value) => (value * Math.PI) / 180;
 
 export class Blade {
-  constructor(svg, state) {
+  // `onSelect(path)` is told what was taken hold of.
+  constructor(svg, state, onSelect) {
     this.svg = svg;
     this.state = state;
+    this.onSelect = onSelect;
     this.ground = element("g", {}, svg);
     this.things = element("g", {}, svg);
     this.mark = element("g", { class: "turns" }, svg);
@@ -38,6 +40,12 @@ export class Blade {
   // Half the width of the drawing.
   static reach(scene) {
     return 0.5 * scene.blade.outer_diameter_m * 1.12;
+  }
+
+  // Marks the thing that a field belongs to; nothing of other fields.
+  select(path) {
+    this.selected = path;
+    for (const group of this.things.children) group.classList.toggle("selected", group.dataset.path === path);
   }
 
   draw(scene, refusedKey) {
@@ -57,6 +65,7 @@ export class Blade {
     this.#match(wanted);
     for (const [kind, path, part] of wanted) {
       const group = this.things.querySelector(`[data-path="${path}"]`);
+      group.classList.toggle("selected", path === this.selected);
       group.classList.toggle("refused", refusedKey?.startsWith(path) ?? false);
       this[`_${kind}`](group, part, scene);
     }
@@ -95,6 +104,7 @@ export class Blade {
       if (this.things.querySelector(`[data-path="${path}"]`)) continue;
       const group = element("g", { class: kind, tabindex: "0", role: "button", "data-path": path }, this.things);
       group.addEventListener("keydown", (event) => this.#key(event, kind, path));
+      group.addEventListener("focus", () => this.onSelect(path));
       group.addEventListener("keyup", (event) => this.state.settle(event.timeStamp));
       element("title", {}, group);
       element("path", { class: "body" }, group);
@@ -102,6 +112,7 @@ export class Blade {
       if (kind === "pad") {
         element("rect", { class: "handle" }, group);
         this.#hold(group.querySelector(".handle"), kind, path, "resize");
+        element("text", { class: "number" }, group);
       }
     }
   }
@@ -121,6 +132,12 @@ export class Blade {
     Object.entries({ x: h - size / 2, y: -v - size / 2, width: size, height: size }).forEach(([k, n]) => handle.setAttribute(k, n));
     handle.style.display = point ? "none" : "";
     const number = Number(group.dataset.path.match(/\d+/)[0]) + 1;
+    // Upright, and beside a pad that it would cover.
+    const text = group.querySelector(".number");
+    const aside = Math.min(long, wide) < 22 * px ? h + 9 * px : 0;
+    text.setAttribute("transform", `translate(${aside} 0) rotate(${pad.angle_deg})`);
+    text.setAttribute("font-size", 13 * px);
+    text.textContent = number;
     this.#name(group, `Pad ${number}: radius ${shown(pad.radius_m * 1e3, 4)} mm, angle ${shown(pad.angle_deg, 4)}°, `
       + `${shown(pad.radial_length_m * 1e3, 4)} by ${shown(pad.tangential_length_m * 1e3, 4)} mm. `
       + "Arrow keys move it, with Shift they change its size.");
@@ -155,6 +172,7 @@ export class Blade {
     group.querySelector("title").textContent = text;
   }
 
+  /** @returns {[number, number]} */
   #place(event) {
     const box = this.svg.getBoundingClientRect();
     const reach = Blade.reach(this.state.scene);

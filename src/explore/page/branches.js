@@ -7,6 +7,7 @@ export function nearest(report, chart, pointer) {
   let best = null;
   let least = NEAR_PX;
   for (const branch of report.campbell.branches) {
+    /** @returns {[number, number]} */
     const at = (i) => [chart.valToPos(branch.rpm[i], "x"), chart.valToPos(branch.frequency_hz[i], "y")];
     branch.rpm.forEach((_, i) => {
       const [here, isLast] = [at(i), i + 1 === branch.rpm.length];

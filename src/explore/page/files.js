@@ -11,10 +11,21 @@ export class Files {
 
   // The scene that the address carries.
   #linked = null;
+  // Name of the file that the scene was opened from, without its ending.
+  #stem = null;
 
-  // `say(words)` is for what went wrong, `onReplaced()` for another saw than before.
-  constructor(state, kept, begun, { say, onReplaced }) {
-    Object.assign(this, { state, kept, begun, say, onReplaced });
+  #saving = null;
+
+  // `say(words)` is for what went wrong, `onReplaced()` for another saw than before, `onBusy(what)` for
+  // a file that is made; `shown()` waits for the name of the scene's chart.
+  constructor(state, kept, begun, { say, onReplaced, onBusy, shown }) {
+    this.state = state;
+    this.kept = kept;
+    this.begun = begun;
+    this.say = say;
+    this.onReplaced = onReplaced;
+    this.onBusy = onBusy;
+    this.shown = shown;
     this.saved(begun.scene);
     addEventListener("hashchange", () => this.#paste());
   }
@@ -26,6 +37,13 @@ export class Files {
 
   get isSaved() {
     return JSON.stringify(this.state.scene) === this.#onDisk;
+  }
+
+  // A file of this saw: "six-pads-campbell.png", and "six-pads.json" of the scene itself.
+  nameOf(file) {
+    const plain = (this.state.scene.name ?? "").normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
+    const stem = this.#stem ?? (plain.replace(/[^a-z0-9]+/g, "-").slice(0, 60).replace(/^-|-$/g, "") || "saw");
+    return file === "scene.json" ? `${stem}.json` : `${stem}-${file}`;
   }
 
   // Whether another saw may take the place of this one.
@@ -40,7 +58,8 @@ export class Files {
   }
 
   // Another saw in place of this one.
-  #open(scene) {
+  #open(scene, stem = null) {
+    this.#stem = stem;
     this.saved(scene);
     this.onReplaced();
     this.replace(clone(scene));
@@ -66,15 +85,26 @@ export class Files {
   async save(name) {
     if (name === "scene.json") {
       // Without the server: it may have ended.
-      download(name, new Blob([`${JSON.stringify(this.state.scene, null, 2)}\n`], { type: "application/json" }));
+      download(this.nameOf(name), new Blob([`${JSON.stringify(this.state.scene, null, 2)}\n`], { type: "application/json" }));
       this.saved();
       return;
     }
+    this.stop();
+    const saving = (this.#saving = new AbortController());
     try {
-      download(name, await saved(name, this.state.scene));
+      const chart = await this.shown();
+      this.onBusy(name);
+      download(this.nameOf(name), await saved(name, this.state.scene, chart, saving.signal));
     } catch (error) {
-      this.say(error.message);
+      if (error.name !== "AbortError") this.say(error.message);
     }
+    if (this.#saving === saving) this.onBusy(null);
+  }
+
+  // No file is made any more.
+  stop() {
+    this.#saving?.abort();
+    this.#saving = null;
   }
 
   // A scene, or a table of measured frequencies. What is neither leaves everything as it is.
@@ -87,7 +117,7 @@ export class Files {
         return;
       }
       const scene = await read(text);
-      if (this.#mayReplace(file.name)) this.#open(scene);
+      if (this.#mayReplace(file.name)) this.#open(scene, file.name.replace(/\.[^.]*$/, ""));
     } catch (error) {
       this.say(`${file.name} was not opened, the scene is as it was: ${error.message}`);
     }
@@ -104,11 +134,11 @@ export class Files {
     history.replaceState(null, "", address);
     try {
       await navigator.clipboard.writeText(address);
-      button.textContent = "Link copied";
+      button.textContent = "Link is copied";
     } catch {
       button.textContent = "Link is in the address bar";
     }
-    setTimeout(() => (button.textContent = "Link"), 3000);
+    setTimeout(() => (button.textContent = "Copy link"), 3000);
   }
 
   // The scene of the address, or an edited one that this tab goes on with: then `note` is shown.

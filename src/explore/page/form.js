@@ -5,7 +5,7 @@ import * as beginnings from "./beginnings.js";
 import { node } from "./dom.js";
 import { Range } from "./range.js";
 import { Refusals } from "./refusal.js";
-import { get } from "./scene.js";
+import { get, set } from "./scene.js";
 import { numberOf, partName, readings, shown, tidy, unitOf } from "./words.js";
 
 // The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
@@ -20,25 +20,41 @@ const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.
 
 export class Form {
   constructor(place, schema, quantities, state) {
-    Object.assign(this, { place, schema, quantities, state });
+    this.place = place;
+    this.schema = schema;
+    this.quantities = quantities;
+    this.state = state;
     this.fields = new Map();
     this.refusals = new Refusals(quantities);
     this.found = [];
+    // The part that was put in last, until its fields are made.
+    this.fresh = null;
   }
 
   // Makes the fields anew, where the scene has got or lost a part.
   build() {
     const open = new Set([...this.place.querySelectorAll("details[open]")].map((d) => d.dataset.path));
     const first = this.place.childElementCount === 0;
+    const selected = this.place.querySelector("details.selected")?.dataset.path;
     const focused = document.activeElement?.id;
     this.fields.clear();
     const parts = this.#object(this.schema, "", this.state.scene);
     this.place.replaceChildren(...parts);
     for (const part of this.place.querySelectorAll("details")) {
-      part.open = first ? /^(blade|guides)/.test(part.dataset.path) && !part.dataset.path.endsWith("material") : open.has(part.dataset.path);
+      const isFresh = part.dataset.path === this.fresh;
+      const isBegun = first && /^(blade|guides)/.test(part.dataset.path) && !part.dataset.path.endsWith("material");
+      part.open = isFresh || isBegun || open.has(part.dataset.path);
     }
-    if (focused) document.getElementById(focused)?.focus();
+    this.fresh = null;
+    if (focused) this.#focus(focused);
     this.influence(this.found);
+    if (selected) this.select(selected);
+  }
+
+  // What had the focus, or the list that it was taken out of.
+  #focus(id) {
+    const list = `${id.replace(/\[\d+\][^[]*$/, "")}:add`;
+    (document.getElementById(id) ?? document.getElementById(list))?.focus({ preventScroll: true });
   }
 
   // Shows the numbers of the scene, except in the field that is being typed in.
@@ -50,6 +66,22 @@ export class Form {
       field.value = value;
       field.show(value);
     }
+  }
+
+  // The thing on the blade that an element of the form belongs to.
+  partOf(element) {
+    const paths = ["cut", "probe"];
+    const part = element.closest("details[data-path^='guides['], details[data-path='cut'], details[data-path='probe']");
+    const path = part?.dataset.path;
+    return path && (paths.includes(path) || /^guides\[\d+\]$/.test(path)) ? path : null;
+  }
+
+  // Opens and marks the fields of a thing on the blade.
+  select(path) {
+    for (const part of this.place.querySelectorAll("details.selected")) part.classList.remove("selected");
+    let part = path && this.place.querySelector(`details[data-path="${path}"]`);
+    part?.classList.add("selected");
+    for (; part; part = part.parentElement.closest("details")) part.open = true;
   }
 
   // How the speeds move with each number.
@@ -104,7 +136,7 @@ export class Form {
 
   #object(schema, path, value) {
     const required = schema.required ?? [];
-    const place = ([key]) => (path === "" && ORDER.includes(key) ? ORDER.indexOf(key) : ORDER.length);
+    const place = (/** @type {[string, any]} */ [key]) => (path === "" && ORDER.includes(key) ? ORDER.indexOf(key) : ORDER.length);
     const entries = Object.entries(schema.properties ?? {}).sort((x, y) => place(x) - place(y));
     return entries.flatMap(([key, raw]) => {
       const at = path ? `${path}.${key}` : key;
@@ -138,14 +170,21 @@ export class Form {
     const title = partName(key);
     const there = value !== undefined && value !== null;
     const children = there ? this.#object(schema, path, value) : [];
-    if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema, path)));
+    const lacking = there ? "" : beginnings.lacks(path, this.state.scene);
+    if (lacking) children.push(node("p", { className: "remark", textContent: lacking }));
+    else if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema, path)));
     return this.#details(path, there ? title : `${title} (none)`, schema.description, ...children);
   }
 
   #switch(path, title, there, make) {
     const textContent = there ? `Take ${title} out` : `Put ${title} in`;
-    const button = node("button", { type: "button", textContent });
-    button.addEventListener("click", () => this.state.set(path, there ? undefined : make(), { structure: true }));
+    // The same before and after: it keeps the focus.
+    const button = node("button", { type: "button", id: `${path}:switch`, textContent });
+    button.addEventListener("click", () => this.state.change((scene) => {
+      if (there) return set(scene, path, undefined);
+      this.fresh = path;
+      return beginnings.put(scene, path, make());
+    }, { structure: true }));
     return button;
   }
 
@@ -160,12 +199,11 @@ export class Form {
       const out = this.#switch(at, `${one} ${i + 1}`, true);
       return this.#details(at, `${one} ${i + 1}`, items.description, ...this.#object(items, at, item), out);
     });
-    const add = node("button", { type: "button", textContent: `Add a ${one}` });
+    const add = node("button", { type: "button", id: `${path}:add`, textContent: `Add a ${one}` });
     add.addEventListener("click", () => {
       const more = (scene) => {
-        const list = get(scene, path) ?? [];
-        const fresh = this.#beginning(items, `${path}[${list.length}]`);
-        (path.includes(".") ? get(scene, path.slice(0, path.lastIndexOf("."))) : scene)[key] = [...list, fresh];
+        this.fresh = `${path}[${parts.length}]`;
+        beginnings.put(scene, `${path}[]`, this.#beginning(items, `${path}[]`));
       };
       this.state.change(more, { structure: true });
     });

@@ -17,7 +17,9 @@ export class Live {
   #rest = 0;
 
   constructor({ onChart, onRefused, onBusy }) {
-    Object.assign(this, { onChart, onRefused, onBusy });
+    this.onChart = onChart;
+    this.onRefused = onRefused;
+    this.onBusy = onBusy;
   }
 
   // Whether anything was asked for yet.
@@ -25,8 +27,23 @@ export class Live {
     return this.#count > 0;
   }
 
+  // Whether a chart is being computed.
+  get isBusy() {
+    return this.#computing !== null;
+  }
+
+  // Nothing is computed until it is asked for again.
+  stop() {
+    clearTimeout(this.#rest);
+    this.#next = null;
+    const running = this.#computing;
+    if (!running) return;
+    running.abort.abort();
+    this.#proceed(running);
+  }
+
   // `stamp` is when the hand moved, `released` when it let go.
-  ask(scene, { draft, stamp, released }) {
+  ask(scene, { draft, stamp = undefined, released = undefined }) {
     clearTimeout(this.#rest);
     const text = JSON.stringify(scene);
     // Every move waits for the chart that has it in, also those that were passed.
@@ -92,12 +109,12 @@ export class Live {
     else this.onBusy(false, request.draft);
   }
 
-  #show(chart, request) {
+  #show(found, request) {
     // A final chart is of the scene as it is, or it is not shown.
     const passed = request.draft ? request.number < (this.#shown?.request.number ?? 0) : request.number !== this.#count;
     if (passed) return;
-    this.#shown = { chart, request };
-    this.onChart(chart, request);
+    this.#shown = { chart: found, request };
+    this.onChart(found, request);
     if (!request.draft || this.#computing) return;
     this.#rest = setTimeout(() => this.#run({ ...request, draft: false, stamps: [], number: ++this.#count }), REST_MS);
   }

@@ -11,13 +11,18 @@ import { Live } from "./live.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
-import { Refused, influence, start, stayConnected } from "./talk.js";
+import { Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { facts, tables, verdict } from "./verdict.js";
+import { dock } from "./dock.js";
 import { write } from "./dom.js";
+import { Waiting } from "./waiting.js";
 import { shown, useInches } from "./words.js";
 
+/** @returns {any} */
 const by = (id) => document.getElementById(id);
+/** @returns {any} */
+const first = (selector) => document.querySelector(selector);
 const begun = await start();
 let colours = publish(begun.colours);
 let latest = null;
@@ -26,7 +31,8 @@ const kept = new Kept(begun.scene);
 
 // For the test in a browser: times from a move, or from the release, to its painted chart, the parts of
 // those of drafts, and what is shown.
-const seen = (window.sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
+/** @type {any} */
+const seen = (/** @type {any} */ (window).sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
   live.ask(scene, { draft, stamp, released });
@@ -42,19 +48,24 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   files.changed(scene);
   tasks.changed();
 });
-const blade = new Blade(by("drawing"), state);
+const blade = new Blade(by("drawing"), state, (path) => select(path));
 const pointed = new Pointed({
   canvas: by("motion"), words: by("mode"), film: by("film"), mark: blade.mark, colours: () => colours, scene: () => state.scene,
+  nameOf: (file) => files.nameOf(file),
 });
-const files = new Files(state, kept, begun, { say, onReplaced: () => pinned.reset() });
+const files = new Files(state, kept, begun, {
+  say, onReplaced: () => pinned.reset(), onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
+});
 const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), charts);
 const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, {
   onScene: (scene) => files.replace(scene),
   inWords: (refusal) => form.inWords(refusal),
+  nameOf: (file) => files.nameOf(file),
 });
 const live = new Live({ onChart, onRefused, onBusy });
+const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
 seen.settled = () => seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
@@ -62,7 +73,20 @@ seen.settled = () => seen.painted === JSON.stringify(state.scene) && !document.b
 seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
+seen.nameOf = (file) => files.nameOf(file);
 seen.open = (file) => files.open(file);
+
+// The name of the chart of the scene, once it is shown; nothing where none will be.
+async function chartOfScene() {
+  while (live.isBusy && !seen.settled()) await new Promise((resolve) => setTimeout(resolve, STEP_MS));
+  return seen.settled() ? latest.chart : null;
+}
+
+// A thing on the blade and its fields are marked together.
+function select(path) {
+  blade.select(path);
+  form.select(path);
+}
 
 function onZoom(speeds) {
   by("zoomed").hidden = speeds === null;
@@ -72,6 +96,7 @@ function onZoom(speeds) {
 
 // A chart that is of an earlier scene for longer than a blink is shown as such.
 const BLINK_MS = 400;
+const STEP_MS = 20;
 let shownText = null;
 let ageing = null;
 function watchAge() {
@@ -84,7 +109,7 @@ function watchAge() {
 }
 
 function onChart(chart, request) {
-  const begun = performance.now();
+  const read = performance.now();
   clearTimeout(ageing);
   ageing = null;
   shownText = request.text;
@@ -103,7 +128,7 @@ function onChart(chart, request) {
   const drawn = performance.now();
   painted(() => {
     const now = performance.now();
-    if (request.draft) seen.parts.push(partsOf(request, chart.milliseconds, begun, drawn, now));
+    if (request.draft) seen.parts.push(partsOf(request, chart.milliseconds, read, drawn, now));
     const kind = request.draft ? "draft" : "scene";
     seen.latencies[kind].push(...request.stamps.map((stamp) => now - stamp));
     if (request.released !== undefined) seen.latencies.release.push(now - request.released);
@@ -167,27 +192,25 @@ function onRefused(error, request) {
   blade.draw(state.scene, refusedKey);
 }
 
-let ticking = 0;
 function onBusy(busy, draft) {
-  clearInterval(ticking);
-  const begun = performance.now();
-  const tell = () => {
-    const seconds = Math.round((performance.now() - begun) / 1000);
-    write(by("busy"), `${draft ? "draft" : "computing"} …${seconds > 0 ? ` ${seconds} s` : ""}`);
-  };
-  if (busy) {
-    tell();
-    ticking = setInterval(tell, 1000);
-  } else {
-    write(by("busy"), "");
-  }
+  if (busy) waiting.begin(draft ? "draft" : "computing");
+  else waiting.end();
+}
+
+function onStop() {
+  live.stop();
+  files.stop();
+  if (seen.settled()) return false;
+  say("Chart and verdict are of the scene before the last change.");
+  document.body.classList.add("stale");
+  return true;
 }
 
 function tell() {
   const { report, told, milliseconds } = latest;
   verdict(by("verdict"), told);
   facts(by("facts"), told.facts, pinned.facts);
-  if (document.querySelector(".numbers").open) tables(by("tables"), report);
+  if (first(".numbers").open) tables(by("tables"), report);
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
@@ -201,8 +224,14 @@ function list(place, sentences) {
 }
 
 function buttons() {
+  const name = state.scene.name || "unnamed saw";
+  write(by("name"), name);
+  document.title = `${name} – sawflutter`;
+  const focused = /** @type {any} */ (document.activeElement);
   by("undo").disabled = !state.canUndo;
   by("redo").disabled = !state.canRedo;
+  // The button that was pressed last may have nothing left to do.
+  if (focused.disabled) [by("undo"), by("redo")].find((button) => !button.disabled)?.focus();
   const source = state.scene.measured?.source;
   by("points").hidden = source === undefined;
   by("source").textContent = source ?? "";
@@ -210,6 +239,7 @@ function buttons() {
   by("unpin").hidden = !pinned.isNamed;
   by("unpin").textContent = `Unpin ${pinned.name}`;
   by("sides").hidden = by("unpin").hidden;
+  first(".key .pinned").hidden = by("unpin").hidden;
 }
 
 function pin() {
@@ -244,7 +274,22 @@ function isBeingTyped(element) {
   return !by("fields").contains(element) || element.value !== element.defaultValue;
 }
 
+// A menu closes when something in it was chosen, and when the hand goes elsewhere.
+function menu(place) {
+  const close = () => (place.open = false);
+  place.addEventListener("click", (event) => event.target.closest("button") && event.target.id !== "link" && close());
+  place.addEventListener("change", (event) => event.target.type !== "checkbox" && close());
+  place.addEventListener("focusout", (event) => event.relatedTarget && !place.contains(event.relatedTarget) && close());
+  addEventListener("pointerdown", (event) => !place.contains(event.target) && close());
+  place.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    close();
+    place.querySelector("summary").focus();
+  });
+}
+
 function wire() {
+  by("fields").addEventListener("focusin", (event) => select(form.partOf(event.target)));
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
   by("pin").addEventListener("click", pin);
@@ -272,7 +317,7 @@ function wire() {
     // The same file can be opened once more.
     event.target.value = "";
   });
-  for (const button of document.querySelectorAll("[data-save]")) {
+  for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-save]"))) {
     button.addEventListener("click", () => files.save(button.dataset.save));
   }
   addEventListener("keydown", (event) => {
@@ -283,11 +328,17 @@ function wire() {
     if (redo) state.redo();
     if (undo || redo) event.preventDefault();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-    colours = publish(begun.colours);
+  const recolour = (onPaper) => {
+    colours = publish(begun.colours, onPaper);
     charts.setColours(colours);
     pinned.setColours(colours);
-  });
+  };
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour(false));
+  addEventListener("beforeprint", () => recolour(true));
+  addEventListener("afterprint", () => recolour(false));
+  by("print").addEventListener("click", () => print());
+  menu(document.querySelector(".menu"));
+  dock(by("campbell"));
   stayConnected((lost) => {
     // A program that was started again has none of the charts of the one before.
     if (!lost && !by("lost").hidden) live.again(state.scene);
@@ -299,8 +350,9 @@ await document.fonts.load("12px Inter");
 wire();
 files.offerExamples(by("examples"));
 measure(localStorage.getItem(INCHES) === "1");
+buttons();
+document.body.classList.remove("loading");
 blade.draw(state.scene, null);
 pointed.hint();
-buttons();
 await files.restore(by("restored"));
 if (!live.asked) live.ask(state.scene, { draft: false });

@@ -8,10 +8,11 @@ const DARK_PAPER = [22, 25, 30];
 const WHITE = [255, 255, 255];
 
 const mix = (a, b, share) => a.map((channel, i) => Math.round(channel * share + b[i] * (1 - share)));
-const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
+const css = (/** @type {number[]} */ [r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 
-export function theme(colours) {
-  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+// Paper is white.
+export function theme(colours, onPaper = false) {
+  const dark = !onPaper && matchMedia("(prefers-color-scheme: dark)").matches;
   const chosen = {};
   for (const [name, colour] of Object.entries(colours)) {
     // Lines and letters are lightened until they stand out; shades are darkened.
@@ -27,8 +28,8 @@ export function theme(colours) {
 }
 
 // The same colours for the style sheet.
-export function publish(colours) {
-  const chosen = theme(colours);
+export function publish(colours, onPaper) {
+  const chosen = theme(colours, onPaper);
   for (const [name, colour] of Object.entries(chosen)) {
     document.documentElement.style.setProperty(`--${name.replaceAll("_", "-")}`, String(colour));
   }
@@ -91,7 +92,7 @@ function trace(context, place, branch, from, to, top) {
 }
 
 // `top` is the frequency at the upper end of the panel.
-export function drawBranches(context, place, report, colours, { scale, top, highlighted, ghost }) {
+export function drawBranches(context, place, report, colours, { scale, top, highlighted = undefined, ghost = false }) {
   // From the highest down, so that the lowest lie on top.
   for (const branch of [...report.campbell.branches].reverse()) {
     const strong = branch === highlighted ? 1.6 : 0;

@@ -2,6 +2,9 @@
 
 import { shown } from "./words.js";
 
+// From a script of its own.
+const { uPlot } = /** @type {any} */ (globalThis);
+
 const FONT = "12px Inter, Helvetica, Arial, sans-serif";
 
 function axis(label, size, splits) {
@@ -25,7 +28,7 @@ export function roundGrowth(_, __, least, most) {
 
 // uPlot wants a series to spread its axes over; the branches have speeds of their own and are
 // drawn by hand.
-export function plot(place, { height, label, splits, yRange, draw, room, xLabel }) {
+export function plot(place, { height, label, splits = undefined, yRange, draw, room, xLabel }) {
   let range = null;
   const options = {
     width: 600,

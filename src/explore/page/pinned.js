@@ -12,7 +12,8 @@ export class Pinned {
 
   // `present` are the charts of the saw as it is.
   constructor(place, present) {
-    Object.assign(this, { place, present });
+    this.place = place;
+    this.present = present;
     this.campbell = node("div", { role: "img", className: "campbell" });
     this.growth = node("div", { role: "img", ariaLabel: "Growth rates of the pinned saw" });
     this.title = node("h2");

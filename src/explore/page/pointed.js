@@ -20,8 +20,11 @@ export class Pointed {
   #filmed = null;
 
   // `colours()` are those of the page as it is; `scene()` is the scene.
-  constructor({ canvas, words, film, mark, colours, scene }) {
-    Object.assign(this, { words, film, scene });
+  constructor({ canvas, words, film, mark, colours, scene, nameOf }) {
+    this.words = words;
+    this.film = film;
+    this.scene = scene;
+    this.nameOf = nameOf;
     const numbers = (text) => text.match(/\d+/g).map(Number);
     this.motion = new Motion(canvas, mark, () => {
       const { backward, forward, dark } = colours();
@@ -82,7 +85,7 @@ export class Pointed {
   async #save() {
     this.film.disabled = true;
     this.motion.show(this.#filmed, Blade.reach(this.scene()));
-    download("mode.webm", await this.motion.film());
+    download(this.nameOf("mode.webm"), await this.motion.film());
     this.motion.hide();
     this.film.disabled = false;
   }

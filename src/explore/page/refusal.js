@@ -35,14 +35,14 @@ export class Refusals {
     }
     // A bound that only keeps numbers from overflowing, and what saws have.
     const bound = new RegExp(`^(above|at least|at most) (${NUMBER})(?:;|$)`).exec(allowed);
-    if (!bound || !quantity) return `${subject} must be ${this.#converted(path, allowed, { unit, scale, inUnit })}`;
+    if (!bound || !quantity) return `${subject} must be ${this.#converted(path, allowed, { unit, inUnit })}`;
     const usual = `; usual: ${quantity.usual.map((value) => inUnit(value, 3)).join(" to ")}${of}`;
     if (numberOf(bound[2]) === 0) return `${subject} must be ${bound[1]} 0${of}${usual}`;
     return `${subject} is too ${bound[1] === "at most" ? "large" : "small"}${usual}`;
   }
 
   // Numbers in the unit of the field, paths by their names.
-  #converted(path, allowed, { unit, scale, inUnit }) {
+  #converted(path, allowed, { unit, inUnit }) {
     const whole = path.slice(0, path.lastIndexOf(".") + 1);
     const named = allowed.replace(/(?<!the )\b[a-z]+(?:\[\d*\])?(?:[._][a-z_]+(?:\[\d*\])?)+/g, (word) => {
       const found = this.quantities.get(pattern(word)) ?? this.quantities.get(pattern(whole + word));
@@ -56,7 +56,7 @@ export class Refusals {
     const ending = si === "" ? alone : `(?:( ${escaped})(?![\\w/])|${alone})`;
     const plain = new RegExp(`(?<![\\w.])(${NUMBER})${ending}`, "g");
     let last = null;
-    const told = named.replace(plain, (_, number, own, ...rest) => {
+    const told = named.replace(plain, (_, number, own) => {
       last = typeof own === "string";
       return `${inUnit(numberOf(number))}${last ? ` ${unit}` : ""}`;
     });

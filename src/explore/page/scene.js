@@ -43,7 +43,7 @@ export class SceneState {
     this.listener = listener;
   }
 
-  change(edit, { draft = false, structure = false, stamp, run = null } = {}) {
+  change(edit, { draft = false, structure = false, stamp = undefined, run = null } = {}) {
     this.#before ??= clone(this.scene);
     edit(this.scene);
     this.#pending = run;

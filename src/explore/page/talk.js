@@ -1,18 +1,18 @@
 // Everything that is asked of the server.
 
 export class Refused extends Error {
-  constructor({ key, message, allowed }) {
+  constructor({ key, message, allowed = null }) {
     super(message);
     this.key = key;
-    this.allowed = allowed ?? null;
+    this.allowed = allowed;
   }
 }
 
 // The server keeps the charts of each page apart.
 const page = crypto.randomUUID();
 
-async function post(path, body, signal) {
-  const answer = await fetch(path, { method: "POST", body, signal, headers: { "sawflutter-page": page } });
+async function post(path, body, signal, shown = "") {
+  const answer = await fetch(path, { method: "POST", body, signal, headers: { "sawflutter-page": page, "sawflutter-chart": shown } });
   if (answer.ok) return answer;
   if (answer.status === 422) throw new Refused(await answer.json());
   const text = await answer.text();
@@ -24,8 +24,8 @@ export async function start() {
   return answer.json();
 }
 
-export async function mode(chart, rpm, frequency_hz, signal) {
-  const answer = await post("mode", JSON.stringify({ chart, rpm, frequency_hz }), signal);
+export async function mode(shown, rpm, frequency_hz, signal) {
+  const answer = await post("mode", JSON.stringify({ chart: shown, rpm, frequency_hz }), signal);
   return answer.json();
 }
 
@@ -33,9 +33,15 @@ export async function mode(chart, rpm, frequency_hz, signal) {
 // there as soon as the server has computed it, its body a little later.
 export const chart = (text, draft, signal) => post(draft ? "chart/draft" : "chart/scene", text, signal);
 
-// The file that the command line would write for this scene.
-export async function saved(name, scene) {
-  const answer = await post(`save/${name}`, JSON.stringify(scene));
+// What the chart is at that is being computed; null where none is.
+export async function progress() {
+  const answer = await fetch("progress", { headers: { "sawflutter-page": page } });
+  return answer.json();
+}
+
+// The file that the command line would write for this scene, whose chart may be known.
+export async function saved(name, scene, shown, signal) {
+  const answer = await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "");
   return answer.blob();
 }
 
@@ -52,8 +58,8 @@ export async function measured(name, table) {
 }
 
 // Influence of the scene's numbers on the speeds of a chart.
-export async function influence(chart, signal) {
-  const answer = await post("influence", JSON.stringify(chart), signal);
+export async function influence(shown, signal) {
+  const answer = await post("influence", JSON.stringify(shown), signal);
   return answer.json();
 }
 

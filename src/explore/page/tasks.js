@@ -3,12 +3,13 @@
 
 import * as beginnings from "./beginnings.js";
 import { download, node } from "./dom.js";
-import { get, set } from "./scene.js";
+import { get } from "./scene.js";
 import { Refused, task } from "./talk.js";
 import { numberOf, partName, shown, tidy, unitOf, whichOf } from "./words.js";
 
 // The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
 // size, pads set by hand, stiffness guessed from the material.
+/** @type {[string, (value: number) => number][]} */
 const TOLERANCES = [
   ["blade.thickness_m", () => 5e-5],
   ["guides[].radius_m", () => 2e-3],
@@ -40,7 +41,11 @@ export class Tasks {
 
   // `onScene(scene)` takes a saw over that was found; `inWords(refusal)` is what a field says of it.
   constructor(tabs, panels, chartPanel, state, listeners) {
-    Object.assign(this, { tabs, panels, chartPanel, state, listeners });
+    this.tabs = tabs;
+    this.panels = panels;
+    this.chartPanel = chartPanel;
+    this.state = state;
+    this.listeners = listeners;
     const all = [{ name: "chart", title: "Chart" }, ...TASKS];
     for (const { name, title } of all) {
       const tab = node("button", { type: "button", id: `tab-${name}`, textContent: title });
@@ -101,8 +106,13 @@ class Task {
   // Of a study: the fields of its tolerances, each with the unit that it is typed in.
   tolerances = [];
 
-  constructor(panel, entry, state, { onScene, inWords }) {
-    Object.assign(this, { panel, entry, state, onScene, inWords });
+  constructor(panel, entry, state, { onScene, inWords, nameOf }) {
+    this.panel = panel;
+    this.entry = entry;
+    this.state = state;
+    this.onScene = onScene;
+    this.inWords = inWords;
+    this.nameOf = nameOf;
     this.inputs = node("div", { className: "inputs" });
     this.missing = node("p", { className: "remark" });
     this.start = node("button", { type: "button", textContent: "Compute" });
@@ -127,15 +137,17 @@ class Task {
     const { part, lacks } = this.entry;
     const scene = this.state.scene;
     const isPartMissing = part !== undefined && !get(scene, part);
-    const missing = lacks?.(scene) ?? "";
+    const missing = lacks?.(scene) || (isPartMissing ? beginnings.lacks(part, scene) : "");
+    const hadFocus = this.missing.contains(document.activeElement);
     this.missing.replaceChildren(missing);
-    if (isPartMissing) {
+    if (isPartMissing && missing === "") {
       const name = partName(part.split(".").at(-1));
       const add = node("button", { type: "button", textContent: `Put ${name} in` });
-      add.addEventListener("click", () => this.state.change((scene) => putIn(scene, part), { structure: true }));
+      add.addEventListener("click", () => this.state.change((changed) => beginnings.putIn(changed, part), { structure: true }));
       this.missing.append(`The scene has no ${name} yet. `, add);
     }
     this.start.disabled = isPartMissing || missing !== "";
+    if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
     this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
     if (this.entry.name === "study") this.#offerTolerances(scene);
@@ -158,8 +170,8 @@ class Task {
     const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
     this.tolerances = usual.map(({ path, width, unit, scale, name }) => {
       const before = typed.get(path);
-      const number = before ? numberOf(before.text) : width * scale;
-      const value = before && number === null ? before.text : shown(tidy(before ? (number / before.scale) * scale : number));
+      const typedNow = before ? numberOf(before.text) : width * scale;
+      const value = before && typedNow === null ? before.text : shown(tidy(before ? (typedNow / before.scale) * scale : typedNow));
       const where = path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
       const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value });
       const label = node("label", { htmlFor: input.id, textContent: `± ${where}, ${unit}` });
@@ -222,7 +234,9 @@ class Task {
   }
 
   #busy(on) {
+    const hadFocus = document.activeElement === this.stop;
     this.stop.hidden = !on;
+    if (hadFocus && !on) this.start.focus();
     this.bar.hidden = !on;
     this.bar.removeAttribute("value");
     // What was not brought to its end says so as long as it is seen.
@@ -260,7 +274,7 @@ class Task {
     text.setAttribute("role", "region");
     text.setAttribute("aria-label", `${this.entry.title} in words`);
     const save = node("button", { type: "button", textContent: "Save report" });
-    save.addEventListener("click", () => download(`${name}.json`, new Blob([`${JSON.stringify(report, null, 2)}\n`], { type: "application/json" })));
+    save.addEventListener("click", () => download(this.nameOf(`${name}.json`), new Blob([`${JSON.stringify(report, null, 2)}\n`], { type: "application/json" })));
     const tools = node("div", { className: "tools" }, save);
     if (scene) {
       const take = node("button", { type: "button", textContent: took });
@@ -270,21 +284,14 @@ class Task {
     const pictures = figures.map(([file, svg]) => {
       const picture = node("img", { src: pictureOf(svg), alt: `${file.replace(".svg", "").replaceAll("-", " ")}; the words above have its numbers` });
       const link = node("button", { type: "button", textContent: `Save ${file}` });
-      link.addEventListener("click", () => download(file, new Blob([svg], { type: "image/svg+xml" })));
+      link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    this.#replace(text, tools, ...pictures);
+    this.#replace(tools, ...pictures, text);
   }
 }
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-
-// A part with values that compute, and what it is a part of.
-function putIn(scene, part) {
-  const whole = part.includes(".") ? part.slice(0, part.lastIndexOf(".")) : null;
-  if (whole && !get(scene, whole)) set(scene, whole, beginnings.part(whole, scene));
-  set(scene, part, beginnings.part(part, scene));
-}
 
 // A number as it was typed.
 function number(text) {

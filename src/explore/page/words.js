@@ -1,6 +1,7 @@
 // Names, units and numbers as people read them.
 
 // Ending of a key, unit shown, what a number of the scene is multiplied by to be shown in it.
+/** @type {[string, string, number][]} */
 const UNITS = [
   ["_n_s_3_2_per_m_3_2", "N (s/m)^1.5", 1],
   ["_n_per_m_3_2", "N/m^1.5", 1],
@@ -33,6 +34,7 @@ export function useInches(on) {
   inches = on;
 }
 
+/** @returns {{ unit: string, scale: number, digits: number, name: string }} */
 export function unitOf(key) {
   if (key === "youngs_modulus_pa") return { unit: "GPa", scale: 1e-9, digits: 12, name: "Young's modulus" };
   if (key === "rpm") return { unit: "rpm", scale: 1, digits: 12, name: "speed" };
@@ -40,6 +42,7 @@ export function unitOf(key) {
   if (!found) return { unit: "", scale: 1, digits: 12, name: key.replaceAll("_", " ") };
   const [ending, metric, usual] = found;
   // A metric number has no end in inches.
+  /** @type {[string, number, number]} */
   const [unit, scale, digits] = inches && ending === "_m" ? ["in", 1 / 0.0254, 6] : [metric, usual, 12];
   return { unit, scale, digits, name: key.slice(0, -ending.length).replaceAll("_", " ") };
 }
@@ -62,7 +65,7 @@ export function readings(text) {
 
 // The number that a text means; null where it is none or may be one of two. The decimal mark is certain where only
 // the number with it is usual.
-export function numberOf(text, isUsual = () => true) {
+export function numberOf(text, isUsual = (/** @type {number} */ _) => true) {
   const [decimal, grouped] = readings(text);
   const isCertain = grouped === undefined || (isUsual(decimal) && !isUsual(grouped));
   return decimal !== undefined && isCertain ? decimal : null;

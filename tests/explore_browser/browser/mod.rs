@@ -189,8 +189,12 @@ impl Page {
 
     /// Clicks a button that saves a file, and reads what the browser has put on the disk.
     pub async fn download(&self, name: &str) -> Vec<u8> {
+        let file = self.file_name(name).await;
         // One that was saved before would be taken for the new one.
-        let _ = std::fs::remove_file(self.folder.path().join(name));
+        let _ = std::fs::remove_file(self.folder.path().join(file));
+        self.script("document.querySelector('.menu').open = true")
+            .await;
+        // By hand: a browser asks before a script saves a second file.
         self.find(&format!("[data-save={name:?}]"))
             .await
             .click()
@@ -199,10 +203,16 @@ impl Page {
         self.wait_for_file(name).await
     }
 
-    /// What the browser puts on the disk under a name. Chromium makes an empty file of that name first, and
+    /// The name that a file of this saw is saved under.
+    async fn file_name(&self, name: &str) -> String {
+        let file = self.value(&format!("sawflutter.nameOf({name:?})")).await;
+        file.as_str().unwrap().to_owned()
+    }
+
+    /// What the browser puts on the disk for a file of this saw. Chromium makes an empty file of that name first, and
     /// then moves the whole one there.
     pub async fn wait_for_file(&self, name: &str) -> Vec<u8> {
-        let path = self.folder.path().join(name);
+        let path = self.folder.path().join(self.file_name(name).await);
         let begun = Instant::now();
         loop {
             let content = std::fs::read(&path).unwrap_or_default();

@@ -32,6 +32,7 @@ pub struct WindowHandle(Value);
 #[derive(Debug, Clone, Copy)]
 pub enum Key {
     Tab = 0xe004,
+    Enter = 0xe007,
     Control = 0xe009,
     Up = 0xe013,
     Right = 0xe014,
@@ -59,7 +60,7 @@ pub struct WebDriver {
 
 impl WebDriver {
     pub async fn new(port: u16, options: Value) -> Answer<Self> {
-        let timeouts = json!({ "script": 60_000, "pageLoad": 60_000, "implicit": 0 });
+        let timeouts = json!({ "script": 600_000, "pageLoad": 60_000, "implicit": 0 });
         let wishes = json!({ "capabilities": { "alwaysMatch": {
             "browserName": "chrome", "timeouts": timeouts, "goog:chromeOptions": options } } });
         let opened = command(port, "POST", "/session", Some(&wishes)).await?;
