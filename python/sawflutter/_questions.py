@@ -60,6 +60,7 @@ class Questions:
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
         sensitivity: bool = False,
+        amplitude: bool = False,
         progress: Progress = None,
     ) -> CampbellResults:
         """Charts the saw: modes, critical speeds, bands of instability, certificate.
@@ -75,6 +76,8 @@ class Questions:
             Relative error allowed of critical speeds and onsets, instead of a name.
         sensitivity : bool
             Also how critical speeds and onsets move with the numbers of the scene.
+        amplitude : bool
+            Also how far the flutter of each band rises: ``saturated_amplitude_m`` of the bands.
         progress : bool or callable, optional
             True shows a bar, a callable is called with what is done and of how many.
 
@@ -106,7 +109,9 @@ class Questions:
             ends = {"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()}
             scene = scene.replace(ends)
         with reporting(progress, "speeds") as told:
-            text = _native.analyze(scene._text, sensitivity=sensitivity, progress=told)
+            text = _native.analyze(
+                scene._text, sensitivity=sensitivity, amplitude=amplitude, progress=told
+            )
         return CampbellResults.computed(text)
 
     @overload
@@ -157,6 +162,7 @@ class Questions:
         min_flutter_rpm: Number = None,
         min_critical_rpm: Number = None,
         max_rim_m_per_s: SupportsFloat = 100.0,
+        max_amplitude_mm: Number = None,
         accept_unusual: bool = False,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
@@ -173,6 +179,9 @@ class Questions:
             Least flutter speed and least first critical speed.
         max_rim_m_per_s : float
             Largest speed of the rim.
+        max_amplitude_mm : float, optional
+            Largest deflection in millimetres that flutter may rise to in any band up to the
+            operating speed, without damping.
         accept_unusual : bool
             Whether a saw may pass that has numbers no saw has.
         accuracy, tolerance
@@ -205,6 +214,7 @@ class Questions:
             min_flutter_rpm=min_flutter_rpm,
             min_critical_rpm=min_critical_rpm,
             max_rim_m_per_s=max_rim_m_per_s,
+            max_amplitude_mm=max_amplitude_mm,
             accept_unusual=accept_unusual,
         )
         return CheckResults.computed(text)

@@ -28,11 +28,12 @@ fn json(report: &impl Serialize) -> Result<String, Failure> {
 
 /// `report.json` of a scene.
 #[pyfunction]
-#[pyo3(signature = (scene, *, sensitivity=false, progress=None))]
+#[pyo3(signature = (scene, *, sensitivity=false, amplitude=false, progress=None))]
 pub fn analyze(
     py: Python<'_>,
     scene: &str,
     sensitivity: bool,
+    amplitude: bool,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -43,6 +44,9 @@ pub fn analyze(
         };
         let analysis = Analysis::with_options(&scene, options)?;
         let mut report = analysis.report();
+        if amplitude {
+            report.add_amplitudes(&analysis)?;
+        }
         if sensitivity {
             report.sensitivities = SensitivityEntry::all(&analysis)?;
         }
@@ -83,7 +87,7 @@ pub fn modes(
 #[allow(clippy::too_many_arguments, reason = "they are Python's")]
 #[pyfunction]
 #[pyo3(signature = (scene, *, operating_rpm=None, margin=0.85, min_flutter_rpm=None,
-                    min_critical_rpm=None, max_rim_m_per_s=100.0, accept_unusual=false,
+                    min_critical_rpm=None, max_rim_m_per_s=100.0, max_amplitude_mm=None, accept_unusual=false,
                     progress=None))]
 pub fn check(
     py: Python<'_>,
@@ -93,6 +97,7 @@ pub fn check(
     min_flutter_rpm: Option<f64>,
     min_critical_rpm: Option<f64>,
     max_rim_m_per_s: f64,
+    max_amplitude_mm: Option<f64>,
     accept_unusual: bool,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
@@ -105,6 +110,7 @@ pub fn check(
     };
     let limits = asked.limits(&scene);
     let limits = limits.and_then(|limits| limits.with_rim_speed(max_rim_m_per_s));
+    let limits = limits.and_then(|limits| limits.with_amplitude(max_amplitude_mm));
     let limits = Limits {
         accept_unusual,
         ..limits.map_err(Failure::from)?

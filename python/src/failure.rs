@@ -11,6 +11,7 @@ use sawflutter::place::PlaceError;
 use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;
 use sawflutter::stability::{AnalysisError, SensitivityError};
+use sawflutter::stretched::StretchedError;
 use sawflutter::study::{LogError, StudyError};
 use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
@@ -202,6 +203,7 @@ impl From<CheckError> for Failure {
             CheckError::Scene(source) => source.into(),
             CheckError::Analysis(source) => source.into(),
             CheckError::Spectrum(source) => source.into(),
+            CheckError::Stretched(source) => source.into(),
         }
     }
 }
@@ -229,6 +231,7 @@ macro_rules! failed {
     };
 }
 failed!(
+    StretchedError,
     AnalysisError,
     SensitivityError,
     SpectrumError,

@@ -5,7 +5,8 @@ use super::limits::Limits;
 use super::static_deflection::{StaticDeflection, point};
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
-use crate::stability::{Evidence, InstabilityKind, flutter_onsets};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
+use crate::stretched::Saturation;
 use crate::text::{shown, shown_to};
 
 impl Limits {
@@ -105,6 +106,56 @@ impl Limits {
             asked: operating,
             passed: found >= operating,
         }
+    }
+}
+
+/// Near one edge of a band flutter rises to this multiple of what it rises to at the largest growth.
+const AT_AN_EDGE: f64 = std::f64::consts::SQRT_2;
+
+impl Limits {
+    /// The first band of flutter that rises further than it may.
+    pub(super) fn of_amplitude(
+        &self,
+        analysis: &Analysis,
+        saturations: &[Option<Saturation>],
+    ) -> Option<Criterion> {
+        let limit_m = self.max_amplitude_m?;
+        let limit_mm = shown(1e3 * limit_m);
+        let bands = analysis.chart.instabilities.iter().zip(saturations);
+        let flutter = bands.filter(|(band, _)| band.kind == InstabilityKind::Flutter);
+        // Of one that is not known it is not said that it keeps the limit.
+        let beyond = |(_, found): &(&Instability, &Option<Saturation>)| {
+            found.is_none_or(|found| AT_AN_EDGE * found.amplitude_m > limit_m)
+        };
+        let first = flutter.filter(beyond).min_by(|x, y| {
+            let onsets = [x, y].map(|(band, _)| band.from_rad_per_s);
+            onsets[0].total_cmp(&onsets[1])
+        });
+        let finding = match first {
+            None => format!(
+                "no flutter rises further up to {:.0} rpm, where the search ends",
+                rpm(analysis.range_rad_per_s.1)
+            ),
+            Some((band, None)) => format!(
+                "not known of flutter from {:.0} rpm on, which only damping causes",
+                rpm(band.from_rad_per_s)
+            ),
+            Some((band, Some(found))) => format!(
+                "flutter from {:.0} rpm on rises to {} mm",
+                rpm(band.from_rad_per_s),
+                shown_to(3, 1e3 * AT_AN_EDGE * found.amplitude_m)
+            ),
+        };
+        let found = first.map(|(band, _)| band.from_rad_per_s);
+        let asked = self.operating_rad_per_s;
+        Some(Criterion {
+            key: "max_amplitude",
+            name: format!("flutter of at most {limit_mm} mm up to the operating speed"),
+            finding,
+            found,
+            asked,
+            passed: found.is_none_or(|found| found > asked),
+        })
     }
 }
 

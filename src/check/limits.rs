@@ -49,6 +49,7 @@ impl LimitsFile {
             min_flutter_rad_per_s: speed("min_flutter_rpm", self.min_flutter_rpm)?,
             min_critical_rad_per_s: speed("min_critical_rpm", self.min_critical_rpm)?,
             max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+            max_amplitude_m: None,
             accept_unusual: false,
         })
     }
@@ -67,6 +68,8 @@ pub struct Limits {
     pub min_critical_rad_per_s: Option<f64>,
     /// Largest speed of the rim.
     pub max_rim_m_per_s: f64,
+    /// Largest deflection that flutter may rise to in any band from rest to the operating speed, without damping.
+    pub max_amplitude_m: Option<f64>,
     /// Whether a saw with numbers that no saw has may pass.
     pub accept_unusual: bool,
 }
@@ -77,6 +80,8 @@ pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
 
 /// The sweep reaches past the speeds asked for by this factor.
 const BEYOND: f64 = 1.02;
+/// Slopes of any saw would be far beyond what the model holds for.
+const MAX_AMPLITUDE_MM: f64 = 1e3;
 /// Faster than sound in steel.
 const MAX_RIM_M_PER_S: f64 = 1e4;
 
@@ -98,6 +103,26 @@ impl Limits {
         Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))
     }
 
+    /// The same with a limit of how far flutter rises, in millimetres, where there is one.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] where it is no length of a blade.
+    pub fn with_amplitude(self, max_amplitude_mm: Option<f64>) -> Result<Self, RefusedValue> {
+        let Some(given) = max_amplitude_mm else {
+            return Ok(self);
+        };
+        if given > 0.0 && given <= MAX_AMPLITUDE_MM {
+            return Ok(Limits {
+                max_amplitude_m: Some(1e-3 * given),
+                ..self
+            });
+        }
+        let allowed = format!("above 0 and at most {}", shown(MAX_AMPLITUDE_MM));
+        let remedy = "give it in millimetres, such as the gap of a guide or a share of the kerf";
+        let key = "max_amplitude_mm";
+        Err(RefusedValue::new(key, given, allowed, remedy))
+    }
+
     /// The usual 85 % rule and the usual speed of the rim at an operating speed, and nothing else.
     pub fn at(operating_rad_per_s: f64) -> Self {
         Limits {
@@ -106,6 +131,7 @@ impl Limits {
             min_flutter_rad_per_s: None,
             min_critical_rad_per_s: None,
             max_rim_m_per_s: RIM_LIMIT_M_PER_S,
+            max_amplitude_m: None,
             accept_unusual: false,
         }
     }

@@ -20,10 +20,12 @@ mod static_deflection;
 
 use faer::linalg::solvers::Solve;
 
+use crate::deflect::saturations;
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
+use crate::stretched::{Saturation, StretchedError};
 use crate::system::GyroscopicSystem;
 
 use criteria::{of_gaps, without_stiffness};
@@ -44,6 +46,9 @@ pub enum CheckError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The amplitude of flutter could not be computed.
+    #[error(transparent)]
+    Stretched(#[from] StretchedError),
 }
 
 /// One limit and what was found.
@@ -68,7 +73,7 @@ pub struct Criterion {
 pub struct Check {
     /// Every limit of speeds that a study asks about too.
     pub criteria: Vec<Criterion>,
-    /// The speed of the rim, the gap of every guide that has one, and of a blade that nothing holds its want of
+    /// The speed of the rim, the amplitude of flutter where it is limited, the gap of every guide that has one, and of a blade that nothing holds its want of
     /// stiffness.
     pub of_rim_and_gaps: Vec<Criterion>,
     /// Speeds in rad/s up to the lowest critical one, and the stiffness in N/m of the same point
@@ -79,6 +84,8 @@ pub struct Check {
     /// The same at the operating speed; `None` from the first critical speed on: K(Ω) is not
     /// positive definite there, and force over deflection may be anything, of either sign.
     pub rim_stiffness_n_per_m: Option<f64>,
+    /// How far the flutter of each band rises; none where it was not asked.
+    pub saturations: Vec<Option<Saturation>>,
     /// Numbers that no saw has, of the scene and of the limits.
     pub unusual_numbers: Vec<String>,
     /// Whether a saw with such numbers may pass.
@@ -115,6 +122,11 @@ impl Check {
             .and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
         let mut of_rim_and_gaps = vec![limits.of_rim(plate.blade.outer_radius_m)];
         of_rim_and_gaps.extend(of_gaps(scene, plate, bending.as_ref(), operating));
+        let saturations = match limits.max_amplitude_m {
+            None => Vec::new(),
+            Some(_) => saturations(&analysis)?,
+        };
+        of_rim_and_gaps.extend(limits.of_amplitude(&analysis, &saturations));
         let mut components = analysis.model.components.iter();
         let is_free = components.any(|component| !component.full.free_rigid.is_empty());
         of_rim_and_gaps.extend(is_free.then(|| without_stiffness(operating)));
@@ -124,6 +136,7 @@ impl Check {
                 .as_ref()
                 .map_or_else(Vec::new, StaticDeflection::rim_stiffness_n_per_m),
             criteria: limits.criteria(&analysis.evidence(&analysis.critical_rad_per_s())),
+            saturations,
             unusual_numbers: limits.unusual_numbers(scene),
             accept_unusual: limits.accept_unusual,
             rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),

@@ -23,6 +23,7 @@ Examples:
   cat my-saw.json | sawflutter analyze -              # a scene from a program
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
   sawflutter analyze --at-rpm 1800                    # the modes of one speed
+  sawflutter analyze --amplitude                      # how far flutter rises
   sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
   sawflutter analyze --in-cut 2800                    # with forces of a cut
   sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// the guides
     #[arg(long)]
     sensitivity: bool,
+    /// Also say how far the flutter of each band rises, in millimetres, without damping
+    #[arg(long)]
+    amplitude: bool,
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     at_rpm: Option<f64>,
@@ -169,6 +173,9 @@ fn watched_report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report
     if let Some(rpm) = arguments.at_rpm {
         let speed = SpeedRange::from(analysis.range_rad_per_s).speed_at("--at-rpm", rpm)?;
         report.whirl = Some(WhirlEntry::new(&analysis, speed)?);
+    }
+    if arguments.amplitude {
+        report.add_amplitudes(&analysis)?;
     }
     if arguments.sensitivity {
         report.sensitivities = SensitivityEntry::all(&analysis)?;

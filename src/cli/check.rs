@@ -17,6 +17,7 @@ Examples:
   sawflutter check my-saw.json --operating-rpm 2400
   sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
   sawflutter check --operating-rpm 1250 --json | jq .passed
+  sawflutter check my-saw.json --max-amplitude-mm 0.5
   sawflutter check my-saw.json --out checked # with a picture
 
 Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
@@ -48,6 +49,9 @@ pub struct Arguments {
         default_value_t = RIM_LIMIT_M_PER_S,
         allow_negative_numbers = true, value_parser = number)]
     max_rim_m_per_s: f64,
+    /// Largest deflection in millimetres that flutter may rise to in any band up to the operating speed
+    #[arg(long, alias = "max-amplitude", value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    max_amplitude_mm: Option<f64>,
     /// Let a saw pass that has numbers no saw has
     #[arg(long)]
     accept_unusual: bool,
@@ -92,6 +96,7 @@ fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     };
     let limits = asked.limits(scene);
     let limits = limits.and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s));
+    let limits = limits.and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm));
     let limits = limits.map_err(of_option)?;
     Ok(Limits {
         accept_unusual: arguments.accept_unusual,

@@ -19,11 +19,13 @@
 
 mod options;
 mod reading;
+mod saturated;
 #[cfg(test)]
 mod tests;
 
 pub use options::{Options, SideForce};
 pub use reading::{Curve, Jump, Reading, SlowSweep};
+pub use saturated::saturations;
 
 use faer::Col;
 

@@ -310,6 +310,7 @@ impl InstabilityEntry {
             branches: Vec::new(),
             modes: Vec::new(),
             counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+            saturated_amplitude_m: None,
             estimated_relative_error: None,
             estimated_relative_growth_error: None,
         }

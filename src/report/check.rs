@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use super::branches::Numbered;
+use super::saturated::add_amplitudes;
 use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm};
 
@@ -50,6 +51,9 @@ pub struct CheckReport {
     pub rim_speed_m_per_s: f64,
     /// The most that it may be.
     pub max_rim_m_per_s: f64,
+    /// The most that flutter may rise to, where it is limited.
+    #[serde(default)]
+    pub max_amplitude_m: Option<f64>,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: Option<f64>,
     /// Remarks on the validity of the result.
@@ -94,6 +98,10 @@ impl CheckReport {
         let bands = analysis.chart.instabilities.iter();
         let branches = Numbered::new(analysis);
         let stiffness = check.rim_stiffness_over_speed.iter();
+        let threshold_per_s = scene.flutter_threshold_per_s();
+        let entry = |band| InstabilityEntry::in_chart(band, &branches, threshold_per_s);
+        let mut instabilities: Vec<InstabilityEntry> = bands.map(entry).collect();
+        add_amplitudes(&mut instabilities, &check.saturations);
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
@@ -108,11 +116,8 @@ impl CheckReport {
                 .take_while(|speed| *speed <= to_rad_per_s)
                 .map(rpm)
                 .collect(),
-            instabilities: bands
-                .map(|band| {
-                    InstabilityEntry::in_chart(band, &branches, scene.flutter_threshold_per_s())
-                })
-                .collect(),
+            instabilities,
+            max_amplitude_m: limits.max_amplitude_m,
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             rim_stiffness_at_rest_n_per_m: check.rim_stiffness_at_rest_n_per_m,
             rim_stiffness_n_per_m: check.rim_stiffness_n_per_m,

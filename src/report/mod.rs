@@ -25,6 +25,7 @@ mod place;
 mod remarks;
 mod resting;
 mod runup;
+mod saturated;
 mod schema;
 mod spline;
 mod washboard;
@@ -181,6 +182,11 @@ pub struct InstabilityEntry {
     /// whole; flutter of an undamped blade as a whole when its largest growth reaches the
     /// threshold, of a damped one where its growth does.
     pub counted_rpm: Vec<[f64; 2]>,
+    /// Largest deflection that flutter rises to from a small motion at the speed of largest growth, where stretching
+    /// turns it back, without damping; up to 1.41 times as large near one edge of the band. Null where it was not
+    /// asked for, of divergence, and where only damping makes the blade flutter.
+    #[serde(default)]
+    pub saturated_amplitude_m: Option<f64>,
     /// Estimated relative error of the onset.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,

@@ -17,6 +17,7 @@
 
 mod branch;
 mod equilibrium;
+mod of_bands;
 mod saturation;
 mod settled;
 mod sites;
@@ -24,6 +25,7 @@ mod sweep;
 
 pub use branch::{Branch, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
+pub use of_bands::FlutterRise;
 pub use saturation::Saturation;
 pub use sites::Sites;
 pub use sweep::Sweep;
@@ -184,11 +186,21 @@ impl StretchedBlade {
 
     /// On given shapes, orthonormal columns.
     fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
-        let stretching = ReducedStretching::new(&Stretching::new(&plate)?, shapes.as_ref())?;
+        let stretching = Stretching::new(&plate)?;
+        Self::with(plate, &stretching, full, shapes)
+    }
+
+    /// The same, with a potential that is known.
+    fn with(
+        plate: Plate,
+        stretching: &Stretching,
+        full: &GyroscopicSystem,
+        shapes: Mat<f64>,
+    ) -> Result<Self, StretchedError> {
         Ok(StretchedBlade {
             system: full.project(shapes.as_ref()),
             force: Col::zeros(shapes.ncols()),
-            stretching,
+            stretching: ReducedStretching::new(stretching, shapes.as_ref())?,
             shapes,
             plate,
         })

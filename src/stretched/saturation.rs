@@ -61,7 +61,25 @@ impl StretchedBlade {
     /// [`StretchedError::Value`], [`StretchedError::Spectrum`].
     pub fn saturation(&self, speed_rad_per_s: f64) -> Result<Option<Saturation>, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
-        let Some(pair) = self.flutter_pair(speed_rad_per_s)? else {
+        self.rise(self.flutter_pair(speed_rad_per_s, None)?, speed_rad_per_s)
+    }
+
+    /// The same of the flutter whose eigenvalue is next to another one.
+    pub(super) fn saturation_near(
+        &self,
+        speed_rad_per_s: f64,
+        eigenvalue_per_s: c64,
+    ) -> Result<Option<Saturation>, StretchedError> {
+        let pair = self.flutter_pair(speed_rad_per_s, Some(eigenvalue_per_s))?;
+        self.rise(pair, speed_rad_per_s)
+    }
+
+    fn rise(
+        &self,
+        pair: Option<Pair>,
+        speed_rad_per_s: f64,
+    ) -> Result<Option<Saturation>, StretchedError> {
+        let Some(pair) = pair else {
             return Ok(None);
         };
         let sites = self.sites();
@@ -98,13 +116,22 @@ impl StretchedBlade {
         )
     }
 
-    /// The fastest growing oscillation and its mirror image; `None` where there is none.
-    fn flutter_pair(&self, speed_rad_per_s: f64) -> Result<Option<Pair>, StretchedError> {
+    /// The fastest growing oscillation, or the one next to an eigenvalue, and its mirror image; `None` where there
+    /// is none.
+    fn flutter_pair(
+        &self,
+        speed_rad_per_s: f64,
+        near: Option<c64>,
+    ) -> Result<Option<Pair>, StretchedError> {
         let pairs = companion_eigenpairs(&self.system, speed_rad_per_s)?;
+        let preference = |lambda: &c64| match near {
+            None => lambda.re,
+            Some(near) => -(lambda - near).norm(),
+        };
         let fastest = pairs
             .iter()
             .filter(|(lambda, _)| lambda.im > 0.0 && lambda.re > GROWTH * lambda.norm())
-            .max_by(|x, y| x.0.re.total_cmp(&y.0.re));
+            .max_by(|x, y| preference(&x.0).total_cmp(&preference(&y.0)));
         let Some((lambda, growing)) = fastest else {
             return Ok(None);
         };

@@ -2,6 +2,7 @@
 //!
 //! In goes a report; out comes its `summary()`: plain text of 80 columns, the verdict first.
 
+mod amplitudes;
 mod answer;
 mod bands;
 mod check;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::amplitudes::amplitudes;
 use super::answer::{answer, trust};
 use super::bands::bands;
 use super::excitation::crossings;
@@ -34,6 +35,7 @@ fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     modes(text, report)?;
     critical_speeds(text, report)?;
     bands(text, report)?;
+    amplitudes(text, report)?;
     crossings(text, report)?;
     heat(text, report)?;
     sensitivity(text, report)?;

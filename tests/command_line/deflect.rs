@@ -2,7 +2,7 @@
 //!
 //! Source: `--help`, docs/how-to/deflect.md.
 
-use sawflutter::report::DeflectReport;
+use sawflutter::report::{CheckReport, DeflectReport, InstabilityEntry, Report};
 use tempfile::TempDir;
 
 use super::program::{names_in, out, run, text};
@@ -68,4 +68,56 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
         text(&output.stderr)
     );
     assert!(!folder.path().join("out").exists());
+}
+
+/// How far flutter rises: the same number in JSON of `analyze` and of `check`, and the exit code for a limit above and below.
+#[test]
+fn a_limit_of_the_amplitude_of_flutter_is_held_against_every_band() {
+    let folder = TempDir::new().unwrap();
+    let speed = ["--accuracy", "draft"];
+    let output = run(
+        &[&["analyze", "--amplitude", "--json"], &speed[..]].concat(),
+        &folder,
+    );
+    let report: Report = serde_json::from_slice(&output.stdout).unwrap();
+    let amplitude = |band: &InstabilityEntry| band.saturated_amplitude_m;
+    let flutter = report
+        .instabilities
+        .iter()
+        .filter(|band| band.frequency_hz > 0.0);
+    let first = flutter
+        .clone()
+        .find(|band| amplitude(band).is_some())
+        .unwrap();
+    let known = flutter
+        .clone()
+        .filter(|band| amplitude(band).is_some())
+        .count();
+    assert!(known >= 6 && known == flutter.count(), "{known}");
+    // Of the first band, at a speed of its own, where the 85 % rule is not kept.
+    let operating = format!("{}", 0.5 * (first.from_rpm + first.to_rpm));
+    let most_mm = 1e3 * std::f64::consts::SQRT_2 * amplitude(first).unwrap();
+    for (share, passed) in [(0.99, false), (1.01, true)] {
+        let limit = format!("{}", share * most_mm);
+        let asked = [
+            "check",
+            "--operating-rpm",
+            &operating,
+            "--max-amplitude-mm",
+            &limit,
+            "--json",
+        ];
+        let output = run(&[&asked[..], &speed].concat(), &folder);
+        let report: CheckReport = serde_json::from_slice(&output.stdout).unwrap();
+        let criterion = report
+            .criteria
+            .iter()
+            .find(|c| c.key == "max_amplitude")
+            .unwrap();
+        assert_eq!(criterion.passed, passed, "{criterion:?}");
+        assert_eq!(output.status.code(), Some(1));
+    }
+    let output = run(&["check", "--max-amplitude", "-1"], &folder);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--max-amplitude-mm"));
 }

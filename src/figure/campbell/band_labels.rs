@@ -1,5 +1,6 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
+use super::super::axis::two_digits;
 use super::super::bands::{NARROW, is_shaded, places};
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
@@ -167,7 +168,7 @@ fn band_label(chart: &Chart, band: &InstabilityEntry) -> String {
     };
     let [first, last] = chart.speed.values();
     let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
-    if !band.closed && band.to_rpm >= last && band.from_rpm > first {
+    let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
         format!("{kind} from {from}")
     } else if !band.closed && band.from_rpm <= first && band.to_rpm < last {
         format!("{kind} to {to}")
@@ -175,5 +176,9 @@ fn band_label(chart: &Chart, band: &InstabilityEntry) -> String {
         format!("{kind} {from}")
     } else {
         format!("{kind} {from}–{to}")
+    };
+    match band.saturated_amplitude_m {
+        None => label,
+        Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
     }
 }

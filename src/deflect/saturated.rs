@@ -1,0 +1,33 @@
+//! How far the flutter of each band of an analysis rises.
+
+use faer::c64;
+
+use crate::spectrum::Work;
+use crate::stability::{Analysis, Instability, InstabilityKind};
+use crate::stretched::{FlutterRise, Saturation, StretchedError};
+
+/// How far the flutter of each band rises at its largest growth; `None` of divergence, and where the blade without
+/// damping does not flutter.
+///
+/// # Errors
+/// [`StretchedError`].
+pub fn saturations(analysis: &Analysis) -> Result<Vec<Option<Saturation>>, StretchedError> {
+    let bands = &analysis.chart.instabilities;
+    let flutters = |band: &&Instability| band.kind == InstabilityKind::Flutter;
+    let count = bands.iter().filter(flutters).count();
+    if count == 0 {
+        return Ok(vec![None; bands.len()]);
+    }
+    let rise = FlutterRise::new(&analysis.model.plate)?;
+    let work = Work::of("bands of flutter", count);
+    let of_band = |band: &Instability| match band.kind {
+        InstabilityKind::Divergence => Ok(None),
+        InstabilityKind::Flutter => {
+            let lambda = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
+            let found = rise.near(band.peak_rad_per_s, lambda)?;
+            work.advance();
+            Ok(found)
+        }
+    };
+    bands.iter().map(of_band).collect()
+}

@@ -1,0 +1,24 @@
+//! How far the flutter of each band rises, when it is asked for.
+
+use super::{InstabilityEntry, Report};
+use crate::deflect::saturations;
+use crate::stability::Analysis;
+use crate::stretched::{Saturation, StretchedError};
+
+impl Report {
+    /// Adds how far the flutter of each band rises.
+    ///
+    /// # Errors
+    /// [`StretchedError`].
+    pub fn add_amplitudes(&mut self, analysis: &Analysis) -> Result<(), StretchedError> {
+        add_amplitudes(&mut self.instabilities, &saturations(analysis)?);
+        Ok(())
+    }
+}
+
+/// One amplitude a band.
+pub(super) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Option<Saturation>]) {
+    for (entry, found) in bands.iter_mut().zip(found) {
+        entry.saturated_amplitude_m = found.map(|found| found.amplitude_m);
+    }
+}

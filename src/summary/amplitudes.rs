@@ -1,0 +1,37 @@
+//! How far the flutter of each band rises, in words.
+
+use std::fmt::{Result, Write};
+
+use super::{ROWS, more, wrapped};
+use crate::report::{InstabilityKind, Report};
+
+/// A table of the flutter bands whose amplitude was asked for.
+pub fn amplitudes(text: &mut String, report: &Report) -> Result {
+    let bands = report.instabilities.iter();
+    let flutter = bands.filter(|band| band.kind == InstabilityKind::Flutter);
+    let flutter: Vec<_> = flutter.collect();
+    if flutter
+        .iter()
+        .all(|band| band.saturated_amplitude_m.is_none())
+    {
+        return Ok(());
+    }
+    writeln!(text, "\nFlutter           from       to    rises to")?;
+    writeln!(text, "                 [rpm]    [rpm]        [mm]")?;
+    for band in flutter.iter().take(ROWS) {
+        let rises = match band.saturated_amplitude_m {
+            Some(metres) => format!("{:.3}", 1e3 * metres),
+            None => "-".to_owned(),
+        };
+        writeln!(
+            text,
+            "              {:>8.1} {:>8.1} {rises:>11}",
+            band.from_rpm, band.to_rpm
+        )?;
+    }
+    more(text, flutter.len())?;
+    writeln!(text, "{}", wrapped(MEANING))
+}
+
+const MEANING: &str = "Rises to: largest deflection of a motion that begins small, at the speed of largest growth and \
+     without damping, where stretching turns it back. Near one edge of a band it is up to 1.41 times as large, and takes longer.";
