@@ -166,6 +166,12 @@ class Instability(Entry):
     whole; flutter of an undamped blade as a whole when its largest growth reaches the
     threshold, of a damped one where its growth does."""
 
+    saturated_amplitude_m: float | None
+    """Largest deflection that flutter rises to from a small motion at the speed of largest
+    growth, where stretching turns it back, without damping; up to 1.41 times as large near one
+    edge of the band. Null where it was not asked for, of divergence, and where only damping
+    makes the blade flutter."""
+
     estimated_relative_error: float | None
     """Estimated relative error of the onset."""
 
@@ -896,6 +902,9 @@ class CheckReport(Entry):
 
     max_rim_m_per_s: float
     """The most that it may be."""
+
+    max_amplitude_m: float | None
+    """The most that flutter may rise to, where it is limited."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds."""
@@ -1785,6 +1794,29 @@ class RunUpBand(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Stretching(Entry):
+    """A run-up of a blade that stretches."""
+
+    shapes: int
+    """Shapes of the basis that the deflection is made of."""
+
+    largest_slope: float
+    """Largest slope of the blade that was seen."""
+
+    valid_until_rpm: float | None
+    """Speed from which on slopes exceed 0.1, where the record ends; null where they do not."""
+
+    rpm: FloatArray
+    """Speeds of the spectrum."""
+
+    frequency_hz: FloatArray
+    """Frequencies of the spectrum."""
+
+    amplitude_m: FloatArray
+    """Amplitude of the deflection at the probe, under Hann's window, one row a speed."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Response(Entry):
     """|w/F| over speed and frequency."""
 
@@ -1849,6 +1881,9 @@ class RunUpReport(Entry):
     first_doubling_rpm: float | None
     """Onset of the first band that more than doubles a motion at this rate, e to the power of
     its exponent; null where none does."""
+
+    stretching: Stretching | None
+    """What stretching adds, where the scene asks for it."""
 
     campbell: Campbell
     """Branches over the speeds of the run-up."""

@@ -445,6 +445,10 @@ class RunUpDict(_RunUpDict, total=False):
     angle_deg: float
     """Angle of the force, positive with the rotation."""
 
+    stretching: bool
+    """Whether the blade stretches where it bends by more than a part of its thickness: then the
+    record does not end at five thicknesses, but where slopes exceed 0.1. It takes longer."""
+
 
 class _ProbeDict(TypedDict):
     """Where the deflection is read."""

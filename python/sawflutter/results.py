@@ -246,7 +246,14 @@ class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
     command = "runup"
-    figure_names = ("runup.svg", "runup.png", "response-map.svg", "response-map.png")
+    figure_names = (
+        "runup.svg",
+        "runup.png",
+        "response-map.svg",
+        "response-map.png",
+        "runup-map.svg",
+        "runup-map.png",
+    )
 
     def to_dataframe(self) -> pd.DataFrame:
         """Speed and deflection, one row a sample; needs pandas."""
@@ -281,6 +288,8 @@ class RunUpResults(Result, RunUpReport):
         facts = f"{self.rpm[0]:.0f} to {last:.0f} rpm, {crossed} bands crossed"
         if self.linear_until_rpm is not None:
             facts += f", where the linear model ends; asked up to {self.to_rpm:.0f} rpm"
+        if self.stretching is not None:
+            facts += ", with stretching"
         return f"{facts}; bands that more than double a motion: {at}"
 
 

@@ -135,11 +135,13 @@ impl Figures for RunUpReport {
     const NAMES: &'static [[&'static str; 2]] = &[
         ["runup.png", "runup.svg"],
         ["response-map.png", "response-map.svg"],
+        ["runup-map.png", "runup-map.svg"],
     ];
 
     fn figures(&self) -> Vec<Figure> {
-        let sheets = [runup::sheet(self), response_map::sheet(self)];
-        named(Self::NAMES, sheets.map(Some))
+        let [runup, response] = [runup::sheet(self), response_map::sheet(self)].map(Some);
+        let stretched = response_map::stretched_sheet(self);
+        named(Self::NAMES, [runup, response, stretched])
     }
 }
 

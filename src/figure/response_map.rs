@@ -32,46 +32,83 @@ const RESPONSE: [Colour; 5] = [
 ];
 const BRANCH: Colour = plotters::style::RGBColor(216, 96, 60);
 
+/// The response of the linear model.
 pub fn sheet(report: &RunUpReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    let title = "Response at the probe over speed and frequency";
-    heading::draw(&mut sheet, title, &report.scene.name);
     let response = &report.response;
-    let speed = axis_over(&response.rpm, [PANEL.left, PANEL.right]);
-    let frequency = axis_over(&response.frequency_hz, [PANEL.bottom, PANEL.top]);
-    // Millimetres per newton on a logarithmic scale, from the strongest three decades down.
-    let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
-    let all = response.receptance_m_per_n.iter().flatten();
-    let strongest = all.fold(f64::NEG_INFINITY, |max, value| max.max(level(*value)));
-    let strongest = if strongest.is_finite() {
-        strongest
-    } else {
-        0.0
+    let map = Map {
+        title: "Response at the probe over speed and frequency",
+        unit: "mm/N",
+        rpm: &response.rpm,
+        frequency_hz: &response.frequency_hz,
+        rows: &response.receptance_m_per_n,
     };
-    let shade = |level: f64| ramp(&RESPONSE, (level - strongest) / DECADES + 1.0);
-    draw_vertical(
-        &mut sheet,
-        &frequency,
-        &PANEL,
-        "frequency in space\u{2003}[Hz]",
-    );
-    draw_grid(
-        &mut sheet,
-        (&speed, &response.rpm),
-        (&frequency, &response.frequency_hz),
-        |column, row| {
-            let of_speed = response.receptance_m_per_n.get(column);
-            let value = of_speed.and_then(|of_speed| of_speed.get(row));
-            value.map_or(PAPER, |value| shade(level(*value)))
-        },
-    );
-    draw_branches(&mut sheet, report, &speed, &frequency);
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    draw_named(&mut sheet, &speed, PANEL.bottom, name);
-    let (place, ends) = ((&PANEL, 20.0, SCALE), [strongest - DECADES, strongest]);
-    draw_scale(&mut sheet, place, ends, "mm/N", (shade, decade));
-    draw_key(&mut sheet, report);
-    sheet
+    map.sheet(report)
+}
+
+/// What the deflection of a blade that stretches is made of; `None` without stretching.
+pub fn stretched_sheet(report: &RunUpReport) -> Option<Sheet> {
+    let found = report.stretching.as_ref()?;
+    let map = Map {
+        title: "Deflection at the probe over speed and frequency, with stretching",
+        unit: "mm",
+        rpm: &found.rpm,
+        frequency_hz: &found.frequency_hz,
+        rows: &found.amplitude_m,
+    };
+    Some(map.sheet(report))
+}
+
+/// Metres, or metres for each unit of something, over speed and frequency.
+struct Map<'a> {
+    title: &'a str,
+    /// Of a thousand times the values.
+    unit: &'a str,
+    rpm: &'a [f64],
+    frequency_hz: &'a [f64],
+    /// One row a speed.
+    rows: &'a [Vec<f64>],
+}
+
+impl Map<'_> {
+    fn sheet(&self, report: &RunUpReport) -> Sheet {
+        let mut sheet = Sheet::new(WIDTH, HEIGHT);
+        heading::draw(&mut sheet, self.title, &report.scene.name);
+        let speed = axis_over(self.rpm, [PANEL.left, PANEL.right]);
+        let frequency = axis_over(self.frequency_hz, [PANEL.bottom, PANEL.top]);
+        // Millimetres on a logarithmic scale, from the strongest three decades down.
+        let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
+        let all = self.rows.iter().flatten();
+        let strongest = all.fold(f64::NEG_INFINITY, |max, value| max.max(level(*value)));
+        let strongest = if strongest.is_finite() {
+            strongest
+        } else {
+            0.0
+        };
+        let shade = |level: f64| ramp(&RESPONSE, (level - strongest) / DECADES + 1.0);
+        draw_vertical(
+            &mut sheet,
+            &frequency,
+            &PANEL,
+            "frequency in space\u{2003}[Hz]",
+        );
+        draw_grid(
+            &mut sheet,
+            (&speed, self.rpm),
+            (&frequency, self.frequency_hz),
+            |column, row| {
+                let of_speed = self.rows.get(column);
+                let value = of_speed.and_then(|of_speed| of_speed.get(row));
+                value.map_or(PAPER, |value| shade(level(*value)))
+            },
+        );
+        draw_branches(&mut sheet, report, &speed, &frequency);
+        let name = "rotation speed Ω\u{2003}[rpm]";
+        draw_named(&mut sheet, &speed, PANEL.bottom, name);
+        let (place, ends) = ((&PANEL, 20.0, SCALE), [strongest - DECADES, strongest]);
+        draw_scale(&mut sheet, place, ends, self.unit, (shade, decade));
+        draw_key(&mut sheet, report);
+        sheet
+    }
 }
 
 /// The value of a whole power of ten; the ticks between have no label.

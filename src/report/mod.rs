@@ -56,7 +56,7 @@ pub use self::place::{
     PlaceReport, PlacedEntry,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
-pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport};
+pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
 pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
 pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};

@@ -46,6 +46,9 @@ pub struct RunUpReport {
     /// Onset of the first band that more than doubles a motion at this rate, e to the power of its exponent; null
     /// where none does.
     pub first_doubling_rpm: Option<f64>,
+    /// What stretching adds, where the scene asks for it.
+    #[serde(default)]
+    pub stretching: Option<StretchingEntry>,
     /// Branches over the speeds of the run-up.
     pub campbell: CampbellEntry,
     /// Response over speed and frequency.
@@ -71,6 +74,24 @@ pub struct RunUpBand {
     pub seen_amplification: Option<f64>,
 }
 
+/// A run-up of a blade that stretches.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StretchingEntry {
+    /// Shapes of the basis that the deflection is made of.
+    pub shapes: usize,
+    /// Largest slope of the blade that was seen.
+    pub largest_slope: f64,
+    /// Speed from which on slopes exceed 0.1, where the record ends; null where they do not.
+    pub valid_until_rpm: Option<f64>,
+    /// Speeds of the spectrum.
+    pub rpm: Vec<f64>,
+    /// Frequencies of the spectrum.
+    pub frequency_hz: Vec<f64>,
+    /// Amplitude of the deflection at the probe, under Hann's window, one row a speed.
+    pub amplitude_m: Vec<Vec<f64>>,
+}
+
 /// |w/F| over speed and frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -92,7 +113,10 @@ impl RunUpReport {
         let speeds: Vec<f64> = history.speed_rad_per_s.iter().map(|s| rpm(*s)).collect();
         let rate_rpm_per_s = rpm(runup.acceleration_rad_per_s2());
         let linear_until_rpm = history.linear_until_rad_per_s.map(rpm);
-        let within = |band: &InstabilityEntry| linear_until_rpm.is_none_or(|end| band.to_rpm < end);
+        let valid_until = found.stretched.as_ref();
+        let valid_until = valid_until.and_then(|found| found.valid_until_rad_per_s);
+        let ends_rpm = linear_until_rpm.or(valid_until.map(rpm));
+        let within = |band: &InstabilityEntry| ends_rpm.is_none_or(|end| band.to_rpm < end);
         let bands: Vec<RunUpBand> = chart
             .instabilities
             .into_iter()
@@ -132,6 +156,18 @@ impl RunUpReport {
                     .collect(),
                 receptance_m_per_n: response.receptance_m_per_n.clone(),
             },
+            stretching: found.stretched.as_ref().map(|found| {
+                let spectrum = &found.spectrum;
+                let hz = |w: &f64| w / TAU;
+                StretchingEntry {
+                    shapes: found.shapes,
+                    largest_slope: found.largest_slope,
+                    valid_until_rpm: found.valid_until_rad_per_s.map(rpm),
+                    rpm: spectrum.speed_rad_per_s.iter().map(|s| rpm(*s)).collect(),
+                    frequency_hz: spectrum.frequency_rad_per_s.iter().map(hz).collect(),
+                    amplitude_m: spectrum.amplitude_m.clone(),
+                }
+            }),
             warnings: chart.warnings,
             rpm: speeds,
         }

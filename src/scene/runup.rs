@@ -23,6 +23,15 @@ pub struct RunUpFile {
     /// Angle of the force, positive with the rotation.
     #[serde(default)]
     pub angle_deg: f64,
+    /// Whether the blade stretches where it bends by more than a part of its thickness: then the record does not end
+    /// at five thicknesses, but where slopes exceed 0.1. It takes longer.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub stretching: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// Where the deflection is read.
@@ -47,6 +56,8 @@ pub struct RunUp {
     pub force_n: f64,
     /// Angle of the force.
     pub angle_rad: f64,
+    /// Whether the blade stretches.
+    pub stretching: bool,
 }
 
 /// A validated probe.
@@ -91,6 +102,7 @@ impl RunUp {
             duration_s,
             force_n: within("runup.force_n", typed.force_n, (-1e9, 1e9))?,
             angle_rad: angle.to_radians(),
+            stretching: typed.stretching,
         })
     }
 

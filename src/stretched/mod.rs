@@ -222,6 +222,16 @@ impl StretchedBlade {
         Ok(self)
     }
 
+    /// The potential of stretching on the shapes.
+    pub(crate) fn stretching(&self) -> &ReducedStretching {
+        &self.stretching
+    }
+
+    /// The side force on the shapes, in N/√kg.
+    pub(crate) fn force(&self) -> &Col<f64> {
+        &self.force
+    }
+
     /// The same without a side force.
     pub fn unforced(mut self) -> Self {
         self.force.fill(0.0);

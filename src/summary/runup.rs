@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{InstabilityKind, RunUpReport};
+use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 impl RunUpReport {
@@ -37,9 +38,20 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
 
 /// How far the run-up stays within the model, and the largest deflection up to there.
 fn verdict(report: &RunUpReport) -> String {
-    let end = match report.linear_until_rpm {
-        None => "within the linear model".to_owned(),
-        Some(rpm) => format!(
+    let stretched = report.stretching.as_ref();
+    let end = match (report.linear_until_rpm, stretched) {
+        (None, Some(found)) => match found.valid_until_rpm {
+            None => format!(
+                "with stretching, slopes of the blade of {:.3} at most",
+                found.largest_slope
+            ),
+            Some(rpm) => format!(
+                "with stretching, valid up to about {:.0} rpm, where slopes of the blade exceed {LARGEST_SLOPE} and the model ends",
+                10.0 * (0.1 * rpm).round()
+            ),
+        },
+        (None, None) => "within the linear model".to_owned(),
+        (Some(rpm), _) => format!(
             "valid up to about {:.0} rpm, where the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) and the linear model ends",
             10.0 * (0.1 * rpm).round(),
             1e3 * report.linear_limit_m

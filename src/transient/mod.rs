@@ -22,6 +22,7 @@ mod runup;
 mod saw_in_cut;
 mod scenario;
 mod sinusoids;
+mod stretched_runup;
 mod stretching;
 mod teeth;
 mod verdict_map;
@@ -43,6 +44,7 @@ pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
 #[doc(hidden)]
 pub use sinusoids::{FitError, fitted_growth};
+pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
 pub(crate) use teeth::{ToothPassing, tooth_passing};
 pub(crate) use verdict_map::VerdictMap;
 pub(crate) use verdict_map::verdict_map;
@@ -51,6 +53,7 @@ use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::spline::SplineError;
 use crate::stability::AnalysisError;
+use crate::stretched::StretchedError;
 
 /// Why a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -67,6 +70,9 @@ pub enum TransientError {
     /// The blade could not be followed on its arbor.
     #[error(transparent)]
     Spline(#[from] SplineError),
+    /// A blade that stretches has no answer.
+    #[error(transparent)]
+    Stretched(#[from] StretchedError),
     /// A record without sinusoids.
     #[error("{0}; the scene's numbers are too far apart")]
     Fit(#[from] FitError),

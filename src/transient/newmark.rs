@@ -41,6 +41,10 @@ const ON_LINE: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 const ITERATIONS: usize = 30;
 /// A correction of this share of the motion is the last one: the next would be its square.
 const LAST: f64 = 1e-9;
+/// The same where corrections fall by a factor only.
+const CLOSEST: f64 = 1e-13;
+/// Corrections that fall by less than this factor are left to Newton's method.
+const QUICK: f64 = 0.3;
 
 impl<'a> Newmark<'a> {
     /// Steps of `step_s` at Ω and Ω̇ under loads Σ sₖ(t) bₖ, with bₖ the columns of `loads`.
@@ -68,15 +72,47 @@ impl<'a> Newmark<'a> {
     }
 
     /// The same with forces that depend on the displacement.
-    #[cfg(test)]
     pub fn with_forces(self, forces: &'a [&'a dyn Force]) -> Self {
         Newmark { forces, ..self }
     }
 
-    /// Newton's method on E d − r − Σ f(q₀ + s d), the sum over the two points of the line.
+    /// E d = r + Σ f(q₀ + s d), the sum over the two points of the line: with the factors of E as long as that
+    /// comes nearer quickly, as it does in steps that resolve the motion, else by Newton's method.
     fn balanced(&self, state: &State, right: &Col<f64>) -> Result<Col<f64>, TransientError> {
         let q = &state.displacement;
         let mut change = Scale(self.step_s) * &state.velocity;
+        let mut last = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let mut force = right.clone();
+            for share in ON_LINE {
+                let on_line = q + Scale(share) * &change;
+                for acting in self.forces {
+                    acting.add_to(&on_line, &mut force);
+                }
+            }
+            let next = self.factors.solve(&force);
+            let correction = (&next - &change).norm_l2();
+            change = next;
+            if correction <= CLOSEST * (q.norm_l2() + change.norm_l2()) {
+                return Ok(change);
+            }
+            if correction.is_nan() || correction >= QUICK * last {
+                break;
+            }
+            last = correction;
+        }
+        if !change.norm_l2().is_finite() {
+            change = Scale(self.step_s) * &state.velocity;
+        }
+        self.by_newton(q, right, change)
+    }
+
+    fn by_newton(
+        &self,
+        q: &Col<f64>,
+        right: &Col<f64>,
+        mut change: Col<f64>,
+    ) -> Result<Col<f64>, TransientError> {
         for _ in 0..ITERATIONS {
             let mut residual = right - &self.effective * &change;
             let mut tangent = self.effective.clone();

@@ -11,7 +11,7 @@ use crate::system::GyroscopicSystem;
 use super::cut::finite;
 use super::linear::Gauge;
 use super::reduced::{ReducedBlade, Snapshot, at_point};
-use super::{Integrator, Newmark, State, TransientError};
+use super::{Force, Integrator, Newmark, State, TransientError};
 
 /// Deflection over the run-up.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ const STEPS_A_PERIOD: f64 = 24.0;
 /// Steps at one speed.
 const HELD_STEPS: usize = 8;
 /// Samples of the record.
-const MAX_SAMPLES: usize = 30_000;
+pub(super) const MAX_SAMPLES: usize = 30_000;
 
 /// The basis of a run-up: modes of a few speeds and the answers to the force.
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
@@ -67,52 +67,109 @@ pub fn run_up(
     let blade = reduced_blade(plate, runup);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
-    let loads = [blade.vector(&force)];
-    let force = [runup.force_n];
+    let load = faer::Scale(runup.force_n) * blade.vector(&force);
     let gauge = Gauge::new(plate, &blade, probe);
-    let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
-    let steps = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
-    let step_s = runup.duration_s / steps as f64;
-    let rate = runup.acceleration_rad_per_s2();
-    let speed_at = |step: usize| runup.speeds.from_rad_per_s + rate * step as f64 * step_s;
-    // The speed is held for a few steps at that of their middle: so near to each other
-    // that the error stays of second order, and one factorization serves them all.
-    let held = |step: usize| {
-        let middle = speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
-        Newmark::new(&system, (middle, rate), &loads, step_s)
-    };
-    let mut newmark = held(0);
     // The force is there from the beginning: the blade starts where it holds it, unless
     // nothing does.
-    let load = faer::Scale(runup.force_n) * &loads[0];
-    let mut state = State::still(static_deflection(&system, speed_at(0), &load));
-    let stride = steps.div_ceil(MAX_SAMPLES);
-    let stop = Cancellation::current();
+    let from = runup.speeds.from_rad_per_s;
+    let begun = State::still(static_deflection(&system, from, &load));
+    let steps = Steps::new(runup, highest_rad_per_s);
+    let stride = steps.count.div_ceil(MAX_SAMPLES);
     let mut history = RunUpHistory {
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
         linear_until_rad_per_s: None,
-        step_s,
+        step_s: steps.step_s,
     };
-    for step in 0..=steps {
-        if step % stride == 0 || step == steps {
-            if !history.take(&gauge, &state, (speed_at(step), step as f64 * step_s))? {
-                break;
-            }
-            progress(step, steps);
-        }
-        state = newmark.step(&state, [&force, &force])?;
-        if (step + 1) % HELD_STEPS == 0 {
-            stop.check()?;
-            newmark = held(step + 1);
-        }
-    }
+    let moving = Moving {
+        system: &system,
+        load,
+        forces: &[],
+    };
+    steps.taken(&moving, begun, (stride, progress), |state, at| {
+        history.take(&gauge, state, at)
+    })?;
     if history.deflection_m.is_empty() {
         return Err(TransientError::BentByForce {
             force_n: runup.force_n,
         });
     }
     Ok(history)
+}
+
+/// A blade under a constant load, and forces that depend on its deflection.
+pub(super) struct Moving<'a> {
+    /// Its matrices.
+    pub system: &'a GyroscopicSystem,
+    /// In N/√kg.
+    pub load: Col<f64>,
+    /// Forces beside the linear ones.
+    pub forces: &'a [&'a dyn Force],
+}
+
+/// The steps of a run-up.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Steps {
+    /// Number of steps.
+    pub count: usize,
+    /// Length of one.
+    pub step_s: f64,
+    from_rad_per_s: f64,
+    rate_rad_per_s2: f64,
+}
+
+impl Steps {
+    /// So short that they resolve a frequency.
+    pub(super) fn new(runup: &RunUp, highest_rad_per_s: f64) -> Self {
+        let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
+        let count = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
+        Steps {
+            count,
+            step_s: runup.duration_s / count as f64,
+            from_rad_per_s: runup.speeds.from_rad_per_s,
+            rate_rad_per_s2: runup.acceleration_rad_per_s2(),
+        }
+    }
+
+    fn speed_at(&self, step: usize) -> f64 {
+        self.from_rad_per_s + self.rate_rad_per_s2 * step as f64 * self.step_s
+    }
+
+    /// Goes through them from a state, showing every `stride`-th state with its speed and time, until that says
+    /// that it was the last.
+    pub(super) fn taken(
+        &self,
+        moving: &Moving<'_>,
+        mut state: State,
+        (stride, progress): (usize, Progress<'_>),
+        mut show: impl FnMut(&State, (f64, f64)) -> Result<bool, TransientError>,
+    ) -> Result<(), TransientError> {
+        let (rate, step_s) = (self.rate_rad_per_s2, self.step_s);
+        let loads = [moving.load.clone()];
+        // The speed is held for a few steps at that of their middle: so near to each other
+        // that the error stays of second order, and one factorization serves them all.
+        let held = |step: usize| {
+            let middle = self.speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
+            let newmark = Newmark::new(moving.system, (middle, rate), &loads, step_s);
+            newmark.with_forces(moving.forces)
+        };
+        let mut newmark = held(0);
+        let stop = Cancellation::current();
+        for step in 0..=self.count {
+            if step % stride == 0 || step == self.count {
+                if !show(&state, (self.speed_at(step), step as f64 * step_s))? {
+                    break;
+                }
+                progress(step, self.count);
+            }
+            state = newmark.step(&state, [&[1.0], &[1.0]])?;
+            if (step + 1) % HELD_STEPS == 0 {
+                stop.check()?;
+                newmark = held(step + 1);
+            }
+        }
+        Ok(())
+    }
 }
 
 impl RunUpHistory {

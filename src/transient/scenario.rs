@@ -7,9 +7,9 @@ use crate::spectrum::{Mode, Work};
 use crate::stability::{Analysis, ChosenBasis};
 
 use super::{
-    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, SawInCut, ToothPassing,
-    TransientError, VerdictMap, band_growths, cut_history, on_spline, response_map, run_up,
-    tooth_passing, verdict_map,
+    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, SawInCut, StretchedRunUp,
+    ToothPassing, TransientError, VerdictMap, band_growths, cut_history, on_spline, response_map,
+    run_up, stretched_run_up, tooth_passing, verdict_map,
 };
 
 /// A cut at some speeds.
@@ -143,6 +143,8 @@ pub struct RunningUp {
     pub analysis: Analysis,
     /// Deflection at the probe.
     pub(crate) history: RunUpHistory,
+    /// What stretching adds, where the scene asks for it.
+    pub(crate) stretched: Option<StretchedRunUp>,
     /// What each band of the analysis does to it.
     pub growths: Vec<BandGrowth>,
     /// Response over speed and frequency.
@@ -171,7 +173,16 @@ impl RunningUp {
             .take(SHOWN_MODES)
             .fold(0.0, f64::max);
         let plate = &model.plate;
-        let history = run_up(plate, runup, scene.probe(), highest, progress)?;
+        let (history, stretched) = match runup.stretching {
+            false => (
+                run_up(plate, runup, scene.probe(), highest, progress)?,
+                None,
+            ),
+            true => {
+                let found = stretched_run_up(plate, runup, scene.probe(), highest, progress)?;
+                (found.history.clone(), Some(found))
+            }
+        };
         let rate = runup.acceleration_rad_per_s2();
         let growths = band_growths(model, &analysis.chart.instabilities, rate)?;
         let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
@@ -187,6 +198,7 @@ impl RunningUp {
             scene: scene.clone(),
             runup: *runup,
             history,
+            stretched,
             growths,
             response,
             analysis,

@@ -283,6 +283,7 @@ fn a_run_up_converges_and_is_static_when_slow() {
         duration_s: 20.0,
         force_n: 5.0,
         angle_rad: 0.0,
+        stretching: false,
     };
     let record = |highest_hz: f64, duration_s: f64| {
         let runup = RunUp {

@@ -89,6 +89,7 @@ fn a_run_up_tells_of_every_band_it_passes() {
         duration_s: 5.0,
         force_n: 5.0,
         angle_deg: 0.0,
+        stretching: false,
     });
     let scene = write_scene(&folder, &file);
     let output = run(

@@ -38,6 +38,7 @@ fn overlapping_bands_share_the_growth_of_all_modes() {
                 duration_s: DURATION_S,
                 force_n: 1e-6,
                 angle_deg: 0.0,
+                stretching: false,
             });
         });
         let found = RunningUp::new(&scene.unwrap(), &|_, _| ()).unwrap();

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .._report_types import CutReport, DeflectReport, RunUpReport
@@ -48,7 +50,8 @@ def run_up(r: RunUpReport, facts: str) -> Chart:
     line = Line(r.rpm, millimetres, colours()["forward"], "deflection at the probe", hover=hover)
     largest = float(np.nanmax(np.abs(millimetres), initial=0.0))
     # Past this a linear plate is no guide: the axis ends a little beyond.
-    top = max(min(largest, 1.2e3 * r.linear_limit_m), 1e-9)
+    limit = math.inf if r.stretching is not None else 1.2e3 * r.linear_limit_m
+    top = max(min(largest, limit), 1e-9)
     panel = Panel(
         "rotation speed Ω [rpm]",
         "deflection [mm], square root scale",

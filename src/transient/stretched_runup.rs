@@ -1,0 +1,237 @@
+//! The run-up of a blade that stretches.
+
+use std::f64::consts::TAU;
+
+use crate::campbell::Progress;
+use crate::plate::Plate;
+use crate::scene::{Probe, RunUp};
+use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::system::GyroscopicSystem;
+
+use super::runup::{MAX_SAMPLES, Moving, Steps};
+use super::{Force, RunUpHistory, State, TransientError};
+
+/// What stretching adds to a run-up.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StretchedRunUp {
+    /// Deflection at the probe, up to where the model holds.
+    pub history: RunUpHistory,
+    /// Shapes that the deflection is made of.
+    pub shapes: usize,
+    /// Largest slope of the blade that was seen.
+    pub largest_slope: f64,
+    /// Ω from which on slopes exceed 0.1.
+    pub valid_until_rad_per_s: Option<f64>,
+    /// What the deflection is made of over the speed.
+    pub spectrum: Spectrum,
+}
+
+/// Amplitudes of the deflection at the probe over speed and frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Spectrum {
+    /// Speeds in the middle of each window.
+    pub speed_rad_per_s: Vec<f64>,
+    /// Frequencies.
+    pub frequency_rad_per_s: Vec<f64>,
+    /// Amplitudes: one row a speed.
+    pub amplitude_m: Vec<Vec<f64>>,
+}
+
+/// Modes at rest beside the shapes that lean and the static deflection.
+pub(super) const MODES: usize = 14;
+/// Steps between two samples of the spectrum: three samples a period of the highest frequency.
+const STRIDE: usize = 8;
+/// Samples from one look at the slopes to the next.
+const LOOKED: usize = 16;
+/// Speeds and frequencies of the spectrum.
+const SPECTRUM: (usize, usize) = (240, 180);
+/// Length of a window.
+const WINDOW_S: (f64, f64) = (1.5, 6.0);
+
+/// Integrates the run-up with the potential of stretching, by steps that keep the energy of an undamped blade.
+///
+/// # Errors
+/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::NotBalanced`].
+pub fn stretched_run_up(
+    plate: &Plate,
+    runup: &RunUp,
+    probe: &Probe,
+    highest_rad_per_s: f64,
+    progress: Progress<'_>,
+) -> Result<StretchedRunUp, TransientError> {
+    let place = (plate.blade.outer_radius_m, runup.angle_rad);
+    let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(runup.force_n, place)?;
+    // With the damping of the saw, which the potential has not.
+    let system = GyroscopicSystem::of_plate(plate).project(blade.shapes());
+    let forces: [&dyn Force; 1] = [blade.stretching()];
+    let moving = Moving {
+        system: &system,
+        load: blade.force().clone(),
+        forces: &forces,
+    };
+    let steps = Steps::new(runup, highest_rad_per_s);
+    let begun = State::still(blade.settled(from, &blade.flat())?.coordinates);
+    let mut samples = Samples {
+        blade: &blade,
+        probe: (probe.radius_m, probe.angle_rad),
+        speed_rad_per_s: Vec::new(),
+        deflection_m: Vec::new(),
+        largest_slope: 0.0,
+        valid_until_rad_per_s: None,
+    };
+    steps.taken(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
+        Ok(samples.take(state, speed))
+    })?;
+    let spectrum = samples.spectrum(STRIDE as f64 * steps.step_s, highest_rad_per_s);
+    let every = samples.deflection_m.len().div_ceil(MAX_SAMPLES).max(1);
+    let thinned = |values: &[f64]| values.iter().step_by(every).copied().collect();
+    Ok(StretchedRunUp {
+        history: RunUpHistory {
+            speed_rad_per_s: thinned(&samples.speed_rad_per_s),
+            deflection_m: thinned(&samples.deflection_m),
+            linear_until_rad_per_s: None,
+            step_s: steps.step_s,
+        },
+        shapes: blade.shapes().ncols(),
+        largest_slope: samples.largest_slope,
+        valid_until_rad_per_s: samples.valid_until_rad_per_s,
+        spectrum,
+    })
+}
+
+/// What the probe sees.
+struct Samples<'a> {
+    blade: &'a StretchedBlade,
+    probe: (f64, f64),
+    speed_rad_per_s: Vec<f64>,
+    deflection_m: Vec<f64>,
+    largest_slope: f64,
+    valid_until_rad_per_s: Option<f64>,
+}
+
+impl Samples<'_> {
+    /// Adds a sample; false where slopes are too large.
+    fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
+        let at = Equilibrium {
+            speed_rad_per_s,
+            coordinates: state.displacement.clone(),
+            negative_eigenvalues: 0,
+        };
+        if self.deflection_m.len().is_multiple_of(LOOKED) {
+            let slope = self.blade.largest_slope(&at);
+            self.largest_slope = self.largest_slope.max(slope);
+            if slope > LARGEST_SLOPE {
+                self.valid_until_rad_per_s = Some(speed_rad_per_s);
+                return false;
+            }
+        }
+        self.speed_rad_per_s.push(speed_rad_per_s);
+        let deflection = self.blade.deflection_m(&at, self.probe.0, self.probe.1);
+        self.deflection_m.push(deflection);
+        true
+    }
+
+    /// Short-time Fourier transforms under Hann's window.
+    fn spectrum(&self, sample_s: f64, highest_rad_per_s: f64) -> Spectrum {
+        use rayon::prelude::*;
+        let count = self.deflection_m.len();
+        let duration_s = sample_s * count as f64;
+        let window_s = (3.0 * duration_s / SPECTRUM.0 as f64).clamp(WINDOW_S.0, WINDOW_S.1);
+        let window = ((window_s / sample_s) as usize).clamp(1, count.max(1));
+        let share = |k: usize, of: usize| k as f64 / (of - 1) as f64;
+        let frequencies: Vec<f64> = (0..SPECTRUM.1)
+            .map(|k| highest_rad_per_s * share(k, SPECTRUM.1))
+            .collect();
+        let starts: Vec<usize> = (0..SPECTRUM.0)
+            .map(|k| (share(k, SPECTRUM.0) * (count - window) as f64) as usize)
+            .collect();
+        let weights: Vec<f64> = (0..window)
+            .map(|i| 1.0 - (TAU * (i as f64 + 0.5) / window as f64).cos())
+            .collect();
+        let total: f64 = weights.iter().sum();
+        let row = |start: &usize| {
+            let part = &self.deflection_m[*start..*start + window];
+            let amplitude = |frequency: &f64| {
+                let (mut re, mut im) = (0.0, 0.0);
+                for (i, (w, x)) in weights.iter().zip(part).enumerate() {
+                    let (sin, cos) = (frequency * sample_s * i as f64).sin_cos();
+                    re += w * x * cos;
+                    im += w * x * sin;
+                }
+                2.0 * re.hypot(im) / total
+            };
+            frequencies.iter().map(amplitude).collect()
+        };
+        Spectrum {
+            amplitude_m: starts.par_iter().map(row).collect(),
+            speed_rad_per_s: starts
+                .iter()
+                .map(|start| self.speed_rad_per_s[start + window / 2])
+                .collect(),
+            frequency_rad_per_s: frequencies,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::Resolution;
+    use crate::scene::Scene;
+
+    fn plate() -> Plate {
+        let resolution = Resolution {
+            max_diameters: 8,
+            radial_functions: 5,
+        };
+        Plate::new(&Scene::paper(), resolution)
+    }
+
+    fn run(
+        force_n: f64,
+        speeds_rpm: (f64, f64),
+        duration_s: f64,
+    ) -> (StretchedRunUp, RunUpHistory) {
+        let scene = Scene::paper().edited(|saw| {
+            if let Some(runup) = &mut saw.runup {
+                (runup.from_rpm, runup.to_rpm) = speeds_rpm;
+                (runup.duration_s, runup.force_n) = (duration_s, force_n);
+            }
+        });
+        let scene = scene.unwrap();
+        let runup = scene.runup().unwrap();
+        let asked = (&plate(), runup, scene.probe(), TAU * 45.0);
+        let stretched = stretched_run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
+        let linear = super::super::run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
+        (stretched.unwrap(), linear.unwrap())
+    }
+
+    /// Small deflections are those of the linear model, which is computed on another basis.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
+    fn a_small_force_moves_the_blade_as_the_linear_model_says() {
+        let (stretched, linear) = run(1e-3, (0.0, 1200.0), 4.0);
+        let largest = |history: &RunUpHistory| {
+            let sizes = history.deflection_m.iter().map(|w| w.abs());
+            sizes.fold(0.0, f64::max)
+        };
+        let (found, expected) = (largest(&stretched.history), largest(&linear));
+        assert!(
+            (found / expected - 1.0).abs() < 0.03,
+            "{found:e} {expected:e}"
+        );
+        assert_eq!(stretched.valid_until_rad_per_s, None);
+    }
+
+    /// Through the first band, where the linear model ends, the blade stays bounded and leans.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
+    fn the_record_does_not_end_at_five_thicknesses() {
+        let (stretched, linear) = run(50.0, (1300.0, 1800.0), 6.0);
+        assert!(linear.linear_until_rad_per_s.is_some());
+        let last = *stretched.history.speed_rad_per_s.last().unwrap();
+        assert!(crate::scene::rpm(last) > 1790.0, "{last}");
+        assert!(stretched.largest_slope < LARGEST_SLOPE);
+    }
+}
