@@ -1813,7 +1813,7 @@ class Stretching(Entry):
     """Frequencies of the spectrum."""
 
     amplitude_m: FloatArray
-    """Amplitude of the deflection at the probe, under Hann's window, one row a speed."""
+    """Amplitude at the probe about a straight line, under Hann's window, one row a speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

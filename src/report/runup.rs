@@ -88,7 +88,7 @@ pub struct StretchingEntry {
     pub rpm: Vec<f64>,
     /// Frequencies of the spectrum.
     pub frequency_hz: Vec<f64>,
-    /// Amplitude of the deflection at the probe, under Hann's window, one row a speed.
+    /// Amplitude at the probe about a straight line, under Hann's window, one row a speed.
     pub amplitude_m: Vec<Vec<f64>>,
 }
 

@@ -15,6 +15,8 @@ const LONGEST: f64 = 0.1;
 const PUSH: f64 = 1e-4;
 /// A correction of this share of the deflection, or of a thickness, is the last one.
 const LAST: f64 = 1e-9;
+/// Of V, as a share of what the deflection would store in the stiffest mode.
+const ROUNDING: f64 = 1e-15;
 /// Stiffnesses below this share of the largest are taken for it, so that no step is without bounds.
 const SOFTEST: f64 = 1e-12;
 
@@ -75,8 +77,8 @@ impl StretchedBlade {
             loop {
                 let next = &p + Scale(share) * &step;
                 let lower = self.potential_j(&next, speed_rad_per_s)?;
-                // Of the last digits V cannot tell.
-                let rounding = 1e-13 * energy.abs().max(lower.abs());
+                // Where V hardly changes, as past a pitchfork, its last digits are those of the stiffest mode.
+                let rounding = ROUNDING * modes.S()[order - 1].abs() * next.squared_norm_l2();
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
                     (p, energy) = (next, lower);
                     break;

@@ -17,7 +17,7 @@ pub struct Sweep {
 }
 
 /// Past the end of an arc the blade is looked at this share of the range of speeds further on.
-const PAST: f64 = 1e-6;
+const PAST: f64 = 1e-5;
 /// Most arcs: a blade has a few in each band.
 const MOST_ARCS: usize = 200;
 

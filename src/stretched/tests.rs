@@ -223,10 +223,10 @@ fn a_sweep_jumps_where_the_cubic_folds() {
     assert!(p * force > 0.0);
 }
 
-/// With damping in space every motion ends in an equilibrium (Thomson, Tait & Chetaev): the blade that is pushed
-/// off its flat state within a band, and the one between bands, where without damping gyroscopic forces hold it.
+/// Damping in space only takes energy (Thomson, Tait & Chetaev): from a flat blade under a force, within a band and
+/// between bands, where without damping gyroscopic forces hold it, H falls at every step.
 #[test]
-fn with_damping_in_space_motions_end_in_stable_equilibria() {
+fn damping_in_space_only_takes_energy() {
     let blade = StretchedBlade::new(&paper(), 12).unwrap();
     let blade = blade.pressed(0.5, (0.355, 0.4)).unwrap();
     let pitchforks = blade.clone().unforced().pitchforks().unwrap();
@@ -234,24 +234,30 @@ fn with_damping_in_space_motions_end_in_stable_equilibria() {
     let within = 0.5 * (pitchforks[0].0 + pitchforks[1].0);
     for speed in [within, between] {
         let mut damped = blade.system.clone();
-        damped.damping = Some(Scale(6.0) * Mat::<f64>::identity(12, 12));
+        damped.damping = Some(Scale(20.0) * Mat::<f64>::identity(12, 12));
         let loads = [blade.force.clone()];
         let forces: [&dyn Force; 1] = [&blade.stretching];
         let newmark = Newmark::new(&damped, (speed, 0.0), &loads, 2e-3).with_forces(&forces);
         let mut state = State::rest(12);
-        for _ in 0..30_000 {
+        let total = |state: &State| {
+            let potential = blade.potential_j(&state.displacement, speed).unwrap();
+            0.5 * state.velocity.squared_norm_l2() + potential
+        };
+        let mut energy = total(&state);
+        for _ in 0..5000 {
             state = newmark.step(&state, [&[1.0], &[1.0]]).unwrap();
+            let next = total(&state);
+            let scale = blade.stretching.energy_j(&state.displacement).unwrap();
+            assert!(next <= energy + 1e-9 * scale, "{next:e} {energy:e}");
+            energy = next;
         }
-        assert!(state.velocity.norm_l2() < 1e-6 * state.displacement.norm_l2());
-        let ended = blade.equilibrium(speed, Some(&state.displacement)).unwrap();
-        assert_eq!(ended.negative_eigenvalues, 0);
-        let apart = (&ended.coordinates - &state.displacement).norm_l2();
-        assert!(apart < 1e-5 * ended.coordinates.norm_l2(), "{apart:e}");
-        // What lies lower than the flat blade is where a motion without inertia goes, too, or one like it.
-        let settled = blade.settled(speed, &blade.flat()).unwrap();
-        let flat = blade.equilibrium(speed, None).unwrap();
-        let at = |e: &Equilibrium| blade.potential_j(&e.coordinates, speed).unwrap();
-        assert!(at(&settled) < at(&flat) && at(&ended) < at(&flat));
+        // It began at rest, undeflected, with none.
+        assert!(energy < 0.0, "{energy:e}");
+        // Where a motion without inertia goes is lower still, or the same.
+        let settled = blade.settled(speed, &state.displacement).unwrap();
+        assert_eq!(settled.negative_eigenvalues, 0);
+        let lowest = blade.potential_j(&settled.coordinates, speed).unwrap();
+        assert!(lowest <= energy, "{lowest:e} {energy:e}");
     }
 }
 

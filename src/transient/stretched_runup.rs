@@ -132,7 +132,8 @@ impl Samples<'_> {
         true
     }
 
-    /// Short-time Fourier transforms under Hann's window.
+    /// Short-time Fourier transforms under Hann's window, of what is left of a straight line: the lean, which changes
+    /// slowly, would hide everything else.
     fn spectrum(&self, sample_s: f64, highest_rad_per_s: f64) -> Spectrum {
         use rayon::prelude::*;
         let count = self.deflection_m.len();
@@ -151,10 +152,10 @@ impl Samples<'_> {
             .collect();
         let total: f64 = weights.iter().sum();
         let row = |start: &usize| {
-            let part = &self.deflection_m[*start..*start + window];
+            let part = straightened(&self.deflection_m[*start..*start + window]);
             let amplitude = |frequency: &f64| {
                 let (mut re, mut im) = (0.0, 0.0);
-                for (i, (w, x)) in weights.iter().zip(part).enumerate() {
+                for (i, (w, x)) in weights.iter().zip(&part).enumerate() {
                     let (sin, cos) = (frequency * sample_s * i as f64).sin_cos();
                     re += w * x * cos;
                     im += w * x * sin;
@@ -172,6 +173,22 @@ impl Samples<'_> {
             frequency_rad_per_s: frequencies,
         }
     }
+}
+
+/// Values less their straight line of least squares.
+fn straightened(values: &[f64]) -> Vec<f64> {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let from_middle = |i: usize| i as f64 - 0.5 * (count - 1.0);
+    let (mut along, mut across) = (0.0, 0.0);
+    for (i, value) in values.iter().enumerate() {
+        along += from_middle(i) * value;
+        across += from_middle(i).powi(2);
+    }
+    let slope = if across > 0.0 { along / across } else { 0.0 };
+    let left = values.iter().enumerate();
+    left.map(|(i, value)| value - mean - slope * from_middle(i))
+        .collect()
 }
 
 #[cfg(test)]
@@ -205,6 +222,16 @@ mod tests {
         let stretched = stretched_run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
         let linear = super::super::run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
         (stretched.unwrap(), linear.unwrap())
+    }
+
+    #[test]
+    fn a_line_is_nothing_and_an_oscillation_stays() {
+        let line: Vec<f64> = (0..50).map(|i| 3.0 - 0.2 * f64::from(i)).collect();
+        assert!(straightened(&line).iter().all(|left| left.abs() < 1e-12));
+        let wave = |i: u32| (TAU * 10.0 * f64::from(i) / 400.0).cos();
+        let both: Vec<f64> = (0..400).map(|i| 2.0 + wave(i)).collect();
+        let left = straightened(&both);
+        assert!((0..400).all(|i| (left[i as usize] - wave(i)).abs() < 0.01));
     }
 
     /// Small deflections are those of the linear model, which is computed on another basis.
