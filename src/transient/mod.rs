@@ -53,7 +53,7 @@ use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::spline::SplineError;
 use crate::stability::AnalysisError;
-use crate::stretched::StretchedError;
+use crate::stretched::{LARGEST_SLOPE, StretchedError};
 
 /// Why a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -91,6 +91,14 @@ pub enum TransientError {
         "runup.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
     )]
     BentByForce {
+        /// The force.
+        force_n: f64,
+    },
+    /// A force too large for von Kármán's strains.
+    #[error(
+        "runup.force_n is {force_n}, which alone bends the blade to slopes of more than {LARGEST_SLOPE}, where the model with stretching ends; give a smaller force"
+    )]
+    SteepByForce {
         /// The force.
         force_n: f64,
     },

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use rayon::prelude::*;
+
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp};
@@ -51,7 +53,8 @@ const WINDOW_S: (f64, f64) = (1.5, 6.0);
 /// Integrates the run-up with the potential of stretching, by steps that keep the energy of an undamped blade.
 ///
 /// # Errors
-/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::NotBalanced`].
+/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::SteepByForce`],
+/// [`TransientError::NotBalanced`].
 pub fn stretched_run_up(
     plate: &Plate,
     runup: &RunUp,
@@ -83,6 +86,11 @@ pub fn stretched_run_up(
     steps.taken(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
         Ok(samples.take(state, speed))
     })?;
+    if samples.deflection_m.is_empty() {
+        return Err(TransientError::SteepByForce {
+            force_n: runup.force_n,
+        });
+    }
     let spectrum = samples.spectrum(STRIDE as f64 * steps.step_s, highest_rad_per_s);
     let every = samples.deflection_m.len().div_ceil(MAX_SAMPLES).max(1);
     let thinned = |values: &[f64]| values.iter().step_by(every).copied().collect();
@@ -135,7 +143,6 @@ impl Samples<'_> {
     /// Short-time Fourier transforms under Hann's window, of what is left of a straight line: the lean, which changes
     /// slowly, would hide everything else.
     fn spectrum(&self, sample_s: f64, highest_rad_per_s: f64) -> Spectrum {
-        use rayon::prelude::*;
         let count = self.deflection_m.len();
         let duration_s = sample_s * count as f64;
         let window_s = (3.0 * duration_s / SPECTRUM.0 as f64).clamp(WINDOW_S.0, WINDOW_S.1);
@@ -249,6 +256,23 @@ mod tests {
             "{found:e} {expected:e}"
         );
         assert_eq!(stretched.valid_until_rad_per_s, None);
+    }
+
+    /// A force of 20 kN bends the blade beyond the model before it turns.
+    #[test]
+    fn a_force_that_leaves_no_record_is_refused_by_its_name() {
+        let scene = Scene::paper().edited(|saw| {
+            if let Some(runup) = &mut saw.runup {
+                runup.force_n = 2e4;
+            }
+        });
+        let scene = scene.unwrap();
+        let (runup, probe) = (scene.runup().unwrap(), scene.probe());
+        let error = stretched_run_up(&plate(), runup, probe, TAU * 45.0, &|_, _| ()).unwrap_err();
+        assert!(
+            matches!(error, TransientError::SteepByForce { force_n } if force_n == 2e4),
+            "{error}"
+        );
     }
 
     /// Through the first band, where the linear model ends, the blade stays bounded and leans.
