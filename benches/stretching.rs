@@ -7,7 +7,7 @@ use std::hint::black_box;
 use faer::{Col, Mat};
 use sawflutter::plate::{Plate, ReducedStretching, Resolution, Stretching};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
-use sawflutter::stretched::StretchedBlade;
+use sawflutter::stretched::{Extent, StretchedBlade};
 
 use timing::time;
 
@@ -40,7 +40,7 @@ fn main() {
     let range = (start.speed_rad_per_s, rad_per_s(3000.0));
     let count = |upwards| {
         blade
-            .branch(&start, upwards, range)
+            .branch(&start, upwards, range, Extent::Whole)
             .expect("a branch")
             .equilibria
             .len()

@@ -33,7 +33,7 @@ use crate::plate::Plate;
 use crate::scene::{RefusedValue, Scene, SceneError, SpeedRange, rad_per_s};
 use crate::spectrum::{Cancellation, Work};
 use crate::stability::{Analysis, AnalysisError};
-use crate::stretched::{Branch, Equilibrium, StretchedBlade, StretchedError, Sweep};
+use crate::stretched::{Branch, Equilibrium, Extent, StretchedBlade, StretchedError, Sweep};
 
 use reading::Reader;
 
@@ -54,9 +54,11 @@ pub enum DeflectError {
     Stretched(#[from] StretchedError),
 }
 
-/// Modes at rest beside the shapes that lean and the answer to the force. With 24 the lean of the paper's saw
-/// changes by less than 1 % for more of them.
-const MODES: [usize; 4] = [24, 36, 54, 80];
+/// Modes at rest beside the shapes that lean and the answer to the force, to begin with. With 24 the lean of the paper's
+/// saw changes by less than 1 % for more of them.
+const MODES: usize = 24;
+/// Most of them, beside which half as many more are computed.
+const MOST_MODES: usize = 54;
 /// Relative change of the lean with half as many modes more that is small enough.
 const CLOSE: f64 = 1e-2;
 /// Equilibria of a sweep that are computed with more modes.
@@ -107,24 +109,8 @@ impl Deflecting {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let (mut found, mut error) = (None, None);
-        for sizes in MODES.windows(2) {
-            let sizes = [sizes[0], sizes[1]].map(|size| size.min(plate.degrees_of_freedom()));
-            let blades = sizes.map(|size| force.on(plate, range.1, size));
-            let [blade, finer] = blades;
-            let blade = blade?;
-            let up = blade.sweep(&blade.flat(), true, range)?;
-            error = change(&blade, &finer?, &up)?;
-            found = Some((blade, up));
-            if error.is_none_or(|error| error <= CLOSE) {
-                break;
-            }
-        }
+        let (blade, up, error) = resolved(&force, plate, range)?;
         parts.advance();
-        // The loop has been through once.
-        let Some((blade, up)) = found else {
-            return Err(StretchedError::NotHeld.into());
-        };
         let top = up.arcs.last().and_then(|arc| arc.last());
         let down = blade.sweep(
             &top.map_or_else(|| blade.flat(), |e| e.coordinates.clone()),
@@ -152,6 +138,27 @@ impl Deflecting {
 
 /// The sweep up, the sweep down, the other curves, and what is read off them.
 const PARTS: usize = 4;
+
+/// A blade of so many shapes that the deflection hardly changes with more of them, its sweep upwards, and that change.
+fn resolved(
+    force: &SideForce,
+    plate: &Plate,
+    range: (f64, f64),
+) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
+    let on = |modes: usize| force.on(plate, range.1, modes.min(plate.degrees_of_freedom()));
+    let mut modes = MODES;
+    let mut blade = on(modes)?;
+    loop {
+        let more = modes + modes / 2;
+        let finer = on(more)?;
+        let up = blade.sweep(&blade.flat(), true, range)?;
+        let error = change(&blade, &finer, &up)?;
+        if modes >= MOST_MODES || error.is_none_or(|error| error <= CLOSE) {
+            return Ok((blade, up, error));
+        }
+        (modes, blade) = (more, finer);
+    }
+}
 
 /// The largest change with more shapes, of equilibria spread over a sweep.
 fn change(
@@ -230,7 +237,7 @@ fn add_curve(
     }
     for upwards in sides {
         // A curve that is lost ends what is known of it.
-        if let Ok(curve) = blade.curve(start, *upwards, range) {
+        if let Ok(curve) = blade.branch(start, *upwards, range, Extent::Drawn) {
             curves.push(curve);
         }
     }

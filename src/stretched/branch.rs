@@ -42,19 +42,30 @@ const LONGEST: f64 = 0.02;
 const SHORTEST: f64 = 1e-4;
 /// Steps that a correction took so many iterations for are halved, and doubled for fewer than three.
 const MANY: usize = 6;
-/// Where a curve is left, beside the ends of the range of speeds.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    /// Most equilibria.
-    equilibria: usize,
-    /// Most turns.
-    turns: usize,
-}
-
-/// Most equilibria of a curve that is drawn.
-const SHOWN: usize = 500;
 /// Most equilibria of a curve.
 const MOST: usize = 4000;
+/// Most equilibria of a curve that is drawn.
+const DRAWN: usize = 500;
+
+/// How far a curve is followed within its range of speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// To an end of the range.
+    Whole,
+    /// The same, of no more equilibria than a picture shows.
+    Drawn,
+    /// To the first turn.
+    ToTurn,
+}
+
+impl Extent {
+    /// Whether nothing of a curve is left to follow.
+    fn is_reached(self, branch: &Branch) -> bool {
+        let most = if self == Extent::Drawn { DRAWN } else { MOST };
+        let has_turned = self == Extent::ToTurn && !branch.turns.is_empty();
+        branch.equilibria.len() >= most || has_turned
+    }
+}
 
 /// A point of the curve with its direction, (p over a size, Ω over another), of unit length.
 struct Place {
@@ -64,7 +75,7 @@ struct Place {
 
 impl StretchedBlade {
     /// Follows a curve of equilibria from one of them, towards higher speeds, or else lower ones, until it
-    /// leaves the range of speeds.
+    /// leaves the range of speeds or reaches its extent.
     ///
     /// # Errors
     /// [`StretchedError::Value`] for a range that is none or that does not contain the start;
@@ -73,68 +84,8 @@ impl StretchedBlade {
         &self,
         start: &Equilibrium,
         upwards: bool,
-        range: (f64, f64),
-    ) -> Result<Branch, StretchedError> {
-        self.followed(
-            start,
-            upwards,
-            range,
-            End {
-                equilibria: MOST,
-                turns: usize::MAX,
-            },
-        )
-    }
-
-    /// The same, up to the first turn.
-    ///
-    /// # Errors
-    /// As [`StretchedBlade::branch`].
-    pub fn branch_to_turn(
-        &self,
-        start: &Equilibrium,
-        upwards: bool,
-        range: (f64, f64),
-    ) -> Result<Branch, StretchedError> {
-        self.followed(
-            start,
-            upwards,
-            range,
-            End {
-                equilibria: MOST,
-                turns: 1,
-            },
-        )
-    }
-
-    /// The same, of so many equilibria at most as show what a picture can.
-    ///
-    /// # Errors
-    /// As [`StretchedBlade::branch`].
-    pub fn curve(
-        &self,
-        start: &Equilibrium,
-        upwards: bool,
-        range: (f64, f64),
-    ) -> Result<Branch, StretchedError> {
-        self.followed(
-            start,
-            upwards,
-            range,
-            End {
-                equilibria: SHOWN,
-                turns: usize::MAX,
-            },
-        )
-    }
-
-    /// Follows a curve as far as asked.
-    fn followed(
-        &self,
-        start: &Equilibrium,
-        upwards: bool,
         (from_rad_per_s, to_rad_per_s): (f64, f64),
-        end: End,
+        extent: Extent,
     ) -> Result<Branch, StretchedError> {
         finite("the lower end of the range in rad/s", from_rad_per_s)?;
         finite("the upper end of the range in rad/s", to_rad_per_s)?;
@@ -167,7 +118,7 @@ impl StretchedBlade {
             turns: Vec::new(),
         };
         let mut step = 0.1 * LONGEST;
-        while branch.equilibria.len() < end.equilibria && branch.turns.len() < end.turns {
+        while !extent.is_reached(&branch) {
             let Some((next, iterations)) = curve.advanced(&place, step)? else {
                 step *= 0.5;
                 if step < SHORTEST * LONGEST {

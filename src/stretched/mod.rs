@@ -23,7 +23,7 @@ mod settled;
 mod sites;
 mod sweep;
 
-pub use branch::{Branch, Turn, TurnKind};
+pub use branch::{Branch, Extent, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
 pub use of_bands::FlutterRise;
 pub use saturation::Saturation;

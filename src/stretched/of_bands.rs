@@ -6,12 +6,12 @@
 //! (1973), 674–689). Their real and imaginary parts are the shapes.
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, c64};
+use faer::{Col, c64};
 
 use crate::plate::{Plate, Stretching};
 use crate::scene::rpm;
-use crate::spectrum::{Cancellation, SpectrumError, orthonormal, split};
-use crate::system::GyroscopicSystem;
+use crate::spectrum::{Cancellation, SpectrumError, derivative, orthonormal, split};
+use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::{INDEPENDENT, Saturation, StretchedBlade, StretchedError, finite};
 
@@ -89,22 +89,15 @@ impl FlutterRise {
         let mut x = Col::from_fn(order, |i| real((1.7 * i as f64 + 0.3).sin()));
         for iteration in 0..FIXED + CORRECTIONS {
             Cancellation::current().check()?;
-            let dynamic = Mat::from_fn(order, order, |i, k| {
-                let inertia = if i == k { lambda * lambda } else { real(0.0) };
-                inertia + lambda * velocity[(i, k)] + stiffness[(i, k)]
-            });
-            let slope = Col::from_fn(order, |i| {
-                let gyroscopic: c64 = (0..order).map(|k| x[k] * velocity[(i, k)]).sum();
-                x[i] * lambda * 2.0 + gyroscopic
-            });
+            let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
+            let slope = derivative::with_lambda(&velocity, lambda, &x);
             let u = dynamic.partial_piv_lu().solve(&slope);
             let norm = u.norm_l2();
             if !norm.is_finite() {
                 // λ is an eigenvalue to the last digit.
                 return Ok(Some((lambda, x)));
             }
-            let product: c64 = (0..order).map(|i| x[i].conj() * u[i]).sum();
-            let correction = real(x.squared_norm_l2()) / product;
+            let correction = real(x.squared_norm_l2()) / (x.adjoint() * &u);
             x = Col::from_fn(order, |i| u[i] / norm);
             if iteration < FIXED {
                 continue;

@@ -4,7 +4,7 @@ use faer::Col;
 
 use crate::spectrum::Cancellation;
 
-use super::{Equilibrium, StretchedBlade, StretchedError, Turn};
+use super::{Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
 
 /// Stable equilibria one after the other, and where the blade leaves one for another.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +47,7 @@ impl StretchedBlade {
         while sweep.arcs.len() < MOST_ARCS {
             Cancellation::current().check()?;
             let start = self.settled(speed, &p)?;
-            let curve = self.branch_to_turn(&start, upwards, range)?;
+            let curve = self.branch(&start, upwards, range, Extent::ToTurn)?;
             let stands = |e: &&Equilibrium| match curve.turns.first() {
                 None => true,
                 Some(turn) => {

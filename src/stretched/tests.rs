@@ -38,7 +38,7 @@ fn the_flat_blade_meets_every_pitchfork() {
     let start = blade.equilibrium(rad_per_s(1000.0), None).unwrap();
     assert_eq!(start.negative_eigenvalues, 0);
     let range = (rad_per_s(900.0), rad_per_s(2400.0));
-    let flat = blade.branch(&start, true, range).unwrap();
+    let flat = blade.branch(&start, true, range, Extent::Whole).unwrap();
     let expected: Vec<f64> = blade
         .pitchforks()
         .unwrap()
@@ -68,7 +68,7 @@ fn the_leaned_blade_comes_back_to_the_flat_one_at_the_critical_speed() {
     let leaned = blade.leaned(1.004 * critical, &shape).unwrap();
     assert_eq!(leaned.negative_eigenvalues, 0);
     let range = (0.99 * critical, 1.004 * critical);
-    let curve = blade.branch(&leaned, false, range).unwrap();
+    let curve = blade.branch(&leaned, false, range, Extent::Whole).unwrap();
     let turn = &curve.turns[0];
     assert_eq!((curve.turns.len(), turn.kind), (1, TurnKind::Bifurcation));
     let error = turn.equilibrium.speed_rad_per_s / critical - 1.0;
@@ -135,7 +135,7 @@ fn equilibria_are_as_many_as_morse_counts() {
             // Followed from near the pitchfork.
             let near = blade.leaned(critical * 1.0001, shape).unwrap();
             let curve = blade
-                .branch(&near, true, (near.speed_rad_per_s, speed))
+                .branch(&near, true, (near.speed_rad_per_s, speed), Extent::Whole)
                 .unwrap();
             let end = curve.equilibria.last().unwrap();
             assert_eq!(end.speed_rad_per_s, speed);
@@ -165,7 +165,9 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     let start = blade
         .equilibrium(most, Some(&(Scale(against) * &unit)))
         .unwrap();
-    let curve = blade.branch(&start, false, (0.0, most)).unwrap();
+    let curve = blade
+        .branch(&start, false, (0.0, most), Extent::Whole)
+        .unwrap();
     assert_eq!(curve.turns.len(), 1);
     let turn = &curve.turns[0];
     assert_eq!(turn.kind, TurnKind::Fold);
@@ -174,7 +176,9 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
     // From rest the blade leans with the force, further with every speed, without a turn.
     let rest = blade.equilibrium(0.0, None).unwrap();
-    let pressed = blade.branch(&rest, true, (0.0, most)).unwrap();
+    let pressed = blade
+        .branch(&rest, true, (0.0, most), Extent::Whole)
+        .unwrap();
     assert!(pressed.turns.is_empty());
     let at_rim = |e: &Equilibrium| blade.deflection_m(e, 0.355, 0.4);
     let rises = pressed.equilibria.windows(2);
@@ -305,7 +309,9 @@ fn a_lean_that_may_turn_is_refused() {
     assert!(matches!(leaned, Err(StretchedError::Axisymmetric)));
     let pressed = blade.pressed(5.0, (0.355, 0.3)).unwrap();
     let rest = pressed.equilibrium(0.0, None).unwrap();
-    let curve = pressed.branch(&rest, true, (0.0, 1.1 * critical)).unwrap();
+    let curve = pressed
+        .branch(&rest, true, (0.0, 1.1 * critical), Extent::Whole)
+        .unwrap();
     assert!(curve.turns.is_empty());
     let end = curve.equilibria.last().unwrap();
     // It leans towards the force, and is a minimum.
@@ -322,8 +328,16 @@ fn what_cannot_be_answered_is_refused() {
     let blade = StretchedBlade::new(&paper(), 4).unwrap();
     assert!(blade.equilibrium(f64::NAN, None).is_err());
     let start = blade.equilibrium(10.0, None).unwrap();
-    assert!(blade.branch(&start, true, (20.0, 30.0)).is_err());
-    assert!(blade.branch(&start, true, (10.0, 10.0)).is_err());
+    assert!(
+        blade
+            .branch(&start, true, (20.0, 30.0), Extent::Whole)
+            .is_err()
+    );
+    assert!(
+        blade
+            .branch(&start, true, (10.0, 10.0), Extent::Whole)
+            .is_err()
+    );
     let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
     let below = blade.leaned(0.9 * critical, &shape);
     assert!(matches!(below, Err(StretchedError::NotFound { .. })));
