@@ -12,12 +12,13 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter deflect                                # the built-in saw
   sawflutter deflect my-saw.json --force-n 10       # your own saw, pressed more
-  sawflutter deflect --force-n 0                    # which way the blade buckles
+  sawflutter deflect --force-n 0                    # which way does it buckle?
   sawflutter deflect --to-rpm 2000 --accuracy draft # faster
   sawflutter deflect --json | jq '.up.jumps[]'      # for scripts
 
-The blade stretches where it bends by more than a part of its thickness, and leans to
-one side where the flat blade is unstable. The deflection is read at the scene's `probe`.";
+The blade stretches where it bends by more than a part of its thickness, and
+leans to one side where the flat blade is unstable. The deflection is read at
+the scene's `probe`.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -95,7 +95,7 @@ Examples:
   sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
   sawflutter explore --open             # drag the guides in your browser
   sawflutter runup                      # what does it do on the way up?
-  sawflutter deflect                    # how far does it lean when it is unstable?
+  sawflutter deflect                    # how far does it lean?
   sawflutter schema > scene.schema.json # let your editor complete scene keys
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";

@@ -145,6 +145,7 @@ fn examples_of_every_help_fit_80_columns() {
         "export",
         "keys",
         "schema",
+        "deflect",
         "washboard",
     ];
     for command in commands {
