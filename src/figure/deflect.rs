@@ -69,7 +69,7 @@ fn facts(report: &DeflectReport) -> String {
         seen.count()
     };
     let jumps = format!(
-        "{} jumps while the speed rises, {} while it falls",
+        "jumps: {} while the speed rises, {} while it falls",
         jumps(&report.up),
         jumps(&report.down)
     );

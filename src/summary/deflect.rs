@@ -58,6 +58,9 @@ fn verdict(report: &DeflectReport) -> String {
             "no place of the blade leaves its plane by more than the thickness up to {:.0} rpm",
             report.to_rpm
         ),
+        Some(beyond) if beyond <= report.from_rpm => {
+            format!("the blade is deflected by more than its thickness at {beyond:.0} rpm already")
+        }
         Some(beyond) => {
             format!("the blade stands within its thickness up to {beyond:.0} rpm and leans beyond")
         }
