@@ -81,8 +81,8 @@ pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]
 pub use lowest::LowestModes;
 pub(crate) use matrix_slope::{Differences, matrix_slopes};
-pub(crate) use mode::classify;
 pub use mode::{Mode, ModeKind};
+pub(crate) use mode::{classify, krein_index};
 pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};
 pub(crate) use mode_pair::ModePair;

@@ -39,6 +39,11 @@ impl ModeKind {
     }
 }
 
+/// By Krein's theory the number of negative eigenvalues of K(Ω), from all modes of a speed.
+pub fn krein_index(modes: &[Mode]) -> usize {
+    modes.iter().map(|mode| mode.kind.krein_index()).sum()
+}
+
 /// A mode of one independent component of the blade.
 #[derive(Debug, Clone)]
 pub struct Mode {

@@ -7,7 +7,6 @@ use faer::{Col, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::companion::companion_eigenpairs;
 use super::error::SpectrumError;
 use super::half_order;
 use super::hamiltonian::{HamiltonianReduction, State};
@@ -84,25 +83,15 @@ impl<'a> ReflectedModel<'a> {
             }
             None => {
                 self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-                companion_eigenpairs(self.system, speed_rad_per_s)
+                half_order::eigenpairs(self.system, speed_rad_per_s)
             }
         }
-    }
-
-    /// The same at a speed where no two waves are about to coalesce, in a third of the time.
-    fn pairs_apart(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        if self.local.is_some() {
-            return self.pairs(speed_rad_per_s);
-        }
-        self.counters.cancellation.check()?;
-        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        half_order::eigenpairs(self.system, speed_rad_per_s)
     }
 
     /// Those of its lowest modes, also those that are no modes of their own, the mirror images of
     /// growing ones: to span others with, and to be refined.
     fn low_pairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let mut pairs = self.pairs_apart(speed_rad_per_s)?;
+        let mut pairs = self.pairs(speed_rad_per_s)?;
         pairs.retain(|(lambda, _)| lambda.im <= SPAN_MARGIN.get() * self.height_rad_per_s);
         Ok(pairs)
     }
@@ -184,6 +173,26 @@ impl<'a> ReflectedModel<'a> {
             self.height_rad_per_s,
             [first, second],
         ))
+    }
+
+    /// Whether modes are given in the coordinates of the projected system.
+    pub fn has(&self, modes: &[Mode]) -> bool {
+        let mut sizes = modes.iter().map(|mode| mode.coordinates.nrows());
+        sizes.all(|size| size == self.system.order())
+    }
+
+    /// Two modes of its own at a speed, refined on the projected system.
+    pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let pairs = modes
+            .each_ref()
+            .map(|mode| (mode.lambda, mode.coordinates.clone()));
+        ModePair::new(
+            self.system,
+            speed_rad_per_s,
+            self.height_rad_per_s,
+            pairs.each_ref(),
+        )
     }
 
     /// A pair at another speed, by a factorization in place of an eigenproblem.

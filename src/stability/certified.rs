@@ -4,11 +4,12 @@ use super::band::{Instability, InstabilityKind};
 use super::certificate::{Certificate, Mismatch, mismatches};
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::SignatureEvaluator;
-use super::flutter::flutter;
+use super::flutter::{Quadruple, flutter, quadruples};
 use super::found::Found;
 use super::full_basis::{FullBasis, Miscount};
+use super::partition::Plane;
+use super::pieces::{Piece, Search};
 use super::proof::Proof;
-use super::search::{Path, least_beside};
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
@@ -21,6 +22,12 @@ pub(super) enum Depth {
     Proof,
 }
 
+/// Relative error allowed of the square of an eigenvalue between two speeds of the search, and of a growth: what a band is
+/// made of is computed where the pieces say that it is.
+const SQUARE_TOLERANCE: f64 = 1e-3;
+const GROWTH_TOLERANCE: f64 = 0.05;
+/// Share of |ω| + Ω below which a growth rate is rounding.
+const GROWTH_NOISE: f64 = 1e-7;
 /// Even speeds at which modes are counted on the whole basis.
 const ANCHORS: usize = 12;
 /// The same, drawn at random from a fixed seed: speeds that no rule of the search prefers.
@@ -29,6 +36,8 @@ const DRAWN: u64 = 8;
 const DENSE_ANCHORS: usize = 3;
 /// Distance from the edges of a band at which its modes are counted, as a share of its width.
 const BESIDE: f64 = 0.02;
+/// The least distance from an edge, as a share of its speed.
+const LEAST_BESIDE: f64 = 6e-5;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
@@ -68,8 +77,8 @@ fn searched(
     (range, speeds): ((f64, f64), &[f64]),
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let signatures = evaluator.at_all(speeds)?;
     let Some(full) = full else {
+        evaluator.at_all(speeds)?;
         // Nothing couples the waves of a free blade, so they cross and never coalesce.
         // In the frame of the blade each harmonic is a symmetric problem.
         let certificate = Certificate {
@@ -78,10 +87,13 @@ fn searched(
         };
         return Ok((Vec::new(), certificate));
     };
-    let path = Path::search(&evaluator, signatures)?;
-    let mut found = divergence(model, &evaluator, &path, range)?;
+    let pieces = searched_pieces(&evaluator, speeds)?;
+    let signatures = evaluator.signatures();
+    let quadruples = quadruples(&evaluator, &pieces)?;
+    let real: Vec<f64> = quadruples.iter().flat_map(Quadruple::real_ends).collect();
+    let mut found = divergence(model, &evaluator, &signatures, &real, range)?;
     found.extend(close_pairs(model, &evaluator, speeds, range)?);
-    found.extend(flutter(&evaluator, &path, range)?);
+    found.extend(flutter(&evaluator, &quadruples, range)?);
     let (mut bands, mut within) = (Vec::new(), Vec::new());
     for Found {
         whole,
@@ -98,7 +110,7 @@ fn searched(
         evaluator: &evaluator,
         full,
         bands: &bands,
-        path: &path,
+        signatures: &signatures,
     };
     let mut certificate = checks.certificate(depth)?;
     if let Some(unproven) = &mut certificate.unproven_rad_per_s {
@@ -106,6 +118,24 @@ fn searched(
         *unproven = clipped(unproven, range);
     }
     Ok((within, certificate))
+}
+
+/// Pieces between the first and the last of some speeds.
+fn searched_pieces(
+    evaluator: &SignatureEvaluator<'_>,
+    speeds: &[f64],
+) -> Result<Vec<Piece>, SpectrumError> {
+    let top_rad_per_s = evaluator.height_rad_per_s();
+    let last = speeds.last().copied().unwrap_or(0.0);
+    let search = Search {
+        plane: Plane::Squares,
+        top_rad_per_s,
+        tolerance: SQUARE_TOLERANCE,
+        growth_tolerance: GROWTH_TOLERANCE,
+        noise_per_s: GROWTH_NOISE * (top_rad_per_s + last),
+        solve: &|speed| evaluator.sample(speed),
+    };
+    search.pieces(&evaluator.with_ends_of_intervals(speeds))
 }
 
 /// What of a range lies outside the speeds of a search. Below the lowest critical speed there is nothing to search for.
@@ -147,7 +177,7 @@ pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub full: &'a FullBasis<'a>,
     pub bands: &'a [Instability],
-    pub path: &'a Path,
+    pub signatures: &'a [Signature],
 }
 
 impl Checks<'_> {
@@ -156,7 +186,7 @@ impl Checks<'_> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn certificate(&self, depth: Depth) -> Result<Certificate, SpectrumError> {
-        let mut contradicted = contradictions(self.bands, &self.path.signatures, GROWTH_FLOOR);
+        let mut contradicted = contradictions(self.bands, self.signatures, GROWTH_FLOOR);
         let mut miscounts = self.at_anchors()?;
         let mut unproven = None;
         let gave_up = self.evaluator.is_exhausted();
@@ -175,7 +205,7 @@ impl Checks<'_> {
                 evaluator: self.evaluator,
                 bands: self.bands,
             };
-            unproven = Some(proof.unproven(&self.path.signatures)?);
+            unproven = Some(proof.unproven(self.signatures)?);
         }
         Ok(Certificate {
             mismatches: contradicted,
@@ -189,7 +219,7 @@ impl Checks<'_> {
 
     /// Counts at some of the speeds of the search.
     fn at_anchors(&self) -> Result<Vec<Miscount>, SpectrumError> {
-        let signatures = &self.path.signatures;
+        let signatures = self.signatures;
         let count = match self.full.is_dense() {
             true => DENSE_ANCHORS,
             false => ANCHORS,
@@ -212,7 +242,7 @@ impl Checks<'_> {
 
     /// Both sides and the peak of every flutter band, and speeds drawn at random.
     fn chosen_speeds(&self) -> Vec<f64> {
-        let signatures = &self.path.signatures;
+        let signatures = self.signatures;
         let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
             return Vec::new();
         };
@@ -224,7 +254,7 @@ impl Checks<'_> {
             .filter(|b| b.kind == InstabilityKind::Flutter);
         let beside = flutter.flat_map(|band| {
             let (begin, end) = (band.from_rad_per_s, band.to_rad_per_s);
-            let away = (BESIDE * (end - begin)).max(least_beside() * end);
+            let away = (BESIDE * (end - begin)).max(LEAST_BESIDE * end);
             [begin - away, band.peak_rad_per_s, end + away]
         });
         let mut speeds: Vec<f64> = beside.chain(drawn).collect();

@@ -4,20 +4,18 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::found::Found;
 use super::maximum::{Sample, maximise};
-use super::pair_continuation::Coalescence;
-use super::search::{Event, Path};
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
-/// Stretches of speed with a real λ > 0. They begin and end at critical speeds, or where
-/// two real λ coalesce and go on as flutter.
+/// Stretches of speed with a real λ > 0, by ascending signatures. They begin and end at critical speeds, or at
+/// `coalescences`, where two real λ coalesce and go on as flutter.
 pub(super) fn divergence(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
-    path: &Path,
+    signatures: &[Signature],
+    coalescences: &[f64],
     range: (f64, f64),
 ) -> Result<Vec<Found>, SpectrumError> {
-    let signatures = &path.signatures;
     let is_unstable = |index: usize| !signatures[index].real.is_empty();
     let mut bands = Vec::new();
     let mut start = None;
@@ -25,13 +23,17 @@ pub(super) fn divergence(
         let first = *start.get_or_insert(index);
         let next = index + 1;
         if next == signatures.len() || !is_unstable(next) {
-            let begins = edge(model, path, first.checked_sub(1), first);
-            let ends = edge(
-                model,
-                path,
-                (next < signatures.len()).then_some(next),
-                index,
-            );
+            let edge = |stable: Option<usize>, unstable: usize| {
+                let stable = stable.map(|stable| signatures[stable].speed_rad_per_s);
+                edge(
+                    model,
+                    coalescences,
+                    stable,
+                    signatures[unstable].speed_rad_per_s,
+                )
+            };
+            let begins = edge(first.checked_sub(1), first);
+            let ends = edge((next < signatures.len()).then_some(next), index);
             let unstable = &signatures[first..next];
             bands.push(Found::new(range, |limits| {
                 band(evaluator, unstable, [begins, ends], limits)
@@ -86,8 +88,16 @@ fn band(
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximise(samples, at)?;
+    // The few states between two speeds say where growth is largest, the projection how large.
     let peak_growth_per_s = match found {
-        Some(found) if found.value > 0.0 => growth(evaluator, found.at, found.value.sqrt())?,
+        Some(found) if found.value > 0.0 => {
+            let exact = evaluator.divergence(found.at)?;
+            if exact > 0.0 {
+                exact
+            } else {
+                found.value.sqrt()
+            }
+        }
         _ => 0.0,
     };
     Ok(Instability {
@@ -100,19 +110,6 @@ fn band(
         frequency_rad_per_s: 0.0,
         curve: Vec::new(),
     })
-}
-
-/// The few states between two speeds say where the largest growth is, the projection how large.
-fn growth(
-    evaluator: &SignatureEvaluator<'_>,
-    speed_rad_per_s: f64,
-    nearly_per_s: f64,
-) -> Result<f64, SpectrumError> {
-    if let Some(refined) = evaluator.refined_divergence(speed_rad_per_s, nearly_per_s)? {
-        return Ok(refined);
-    }
-    let exact = evaluator.divergence(speed_rad_per_s)?;
-    Ok(if exact > 0.0 { exact } else { nearly_per_s })
 }
 
 /// Divergence between two critical speeds that the search passes in one step. Where the
@@ -168,26 +165,26 @@ enum Edge {
     Range,
 }
 
-/// Where divergence begins or ends between a stable and an unstable signature: at the
+/// Where divergence begins or ends between a stable and an unstable speed: at the
 /// critical speed or the coalescence of two real λ between them, or at the end of the range.
-fn edge(model: &SpectralModel, path: &Path, stable: Option<usize>, unstable: usize) -> (f64, Edge) {
-    let inner = path.signatures[unstable].speed_rad_per_s;
+fn edge(
+    model: &SpectralModel,
+    coalescences: &[f64],
+    stable: Option<f64>,
+    unstable: f64,
+) -> (f64, Edge) {
     let Some(stable) = stable else {
-        return (inner, Edge::Range);
+        return (unstable, Edge::Range);
     };
-    let outer = path.signatures[stable].speed_rad_per_s;
-    let (low, high) = (inner.min(outer), inner.max(outer));
+    let (low, high) = (unstable.min(stable), unstable.max(stable));
+    let is_between = |speed: &f64| (low..=high).contains(speed);
     let mut critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    if let Some(speed) = critical.find(|c| (low..=high).contains(c)) {
+    if let Some(speed) = critical.find(is_between) {
         return (speed, Edge::Critical);
     }
-    match path.steps[stable.min(unstable)].event {
-        Some(Event::Begin(_, edge) | Event::End(_, edge))
-            if edge.coalescence == Coalescence::Real =>
-        {
-            (edge.speed_rad_per_s, Edge::Coalescence)
-        }
-        // The events between the two were too close to tell apart.
-        _ => (inner, Edge::Coalescence),
-    }
+    // Of several between the two speeds the one that is next to what diverges.
+    let away = |x: &&f64| (*x - unstable).abs();
+    let between = coalescences.iter().filter(|speed| is_between(speed));
+    let nearest = between.min_by(|x, y| away(x).total_cmp(&away(y)));
+    (nearest.copied().unwrap_or(unstable), Edge::Coalescence)
 }

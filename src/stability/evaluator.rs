@@ -8,8 +8,12 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::certificate::Certificate;
-use super::signature::Signature;
-use crate::spectrum::{KnownStates, ModePair, ReflectedModel, SpectralModel, SpectrumError};
+use super::partition::Sample;
+use super::signature::{Signature, SignedMode};
+use crate::spectrum::{
+    KnownStates, Mode, ModeKind, ModePair, ReflectedModel, SpectralModel, SpectrumError,
+    krein_index,
+};
 use crate::tuned::Tuned;
 
 /// Relative distance kept from a critical speed: λ² passes through zero there, and is
@@ -37,19 +41,16 @@ fn most_full_solves(model: &SpectralModel) -> usize {
 
 /// A search on the whole basis begins with so many.
 const LEAST_FOR_A_SEARCH: usize = 25;
-/// Speeds at which the search solves the whole projected system; between two of them it goes
-/// by their modes.
-const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
-/// Speeds of which the modes are known may be so many times further apart.
-const LARGEST_GAP: f64 = 1.7;
-
 /// Relative distance from a speed at which the Krein index contradicts the modes, to the speeds at which it is asked again.
 /// At a coalescence the Krein signs of the two modes are rounding: squares of frequencies that are known to 1e-15 of the
 /// highest differ by so little within 1e-9 of it (a pad of 100 N/m, bands of 2e-6 of the speed).
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// A refined growth further than this from what it was refined from is another mode's.
-const SAME_GROWTH: f64 = 0.05;
+/// Speeds at which the search solves the whole projected system; between two of them it goes
+/// by their modes.
+const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
+/// Speeds of which the modes are known may be so many times further apart.
+const LARGEST_GAP: f64 = 1.7;
 
 /// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
@@ -59,13 +60,23 @@ struct Tally {
     violations: Mutex<Vec<f64>>,
 }
 
+/// The modes of a speed at which the search looked that grow or decay, and its signature.
+struct Seen {
+    signature: Signature,
+    coalesced: Vec<Mode>,
+}
+
+/// Modes above the highest frequency that is sound among which a search finds a gap to end in.
+const BESIDES: usize = 8;
+
 /// Evaluates signatures, checks the Krein index of each, and counts.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
     low: Option<ReflectedModel<'a>>,
     /// The same between neighbouring anchors, with the upper of both.
-    pieces: Vec<(f64, ReflectedModel<'a>)>,
+    intervals: Vec<(f64, ReflectedModel<'a>)>,
     tally: Tally,
+    seen: Mutex<Vec<Seen>>,
     /// Whether `low` is the whole basis.
     is_whole: bool,
 }
@@ -98,9 +109,9 @@ impl<'a> SignatureEvaluator<'a> {
         speeds: &[f64],
         is_whole: bool,
     ) -> Result<Self, SpectrumError> {
-        let mut pieces = Vec::new();
+        let mut intervals = Vec::new();
         if let Some(low) = &low {
-            pieces = anchor_states(low, speeds)?
+            intervals = anchor_states(low, speeds)?
                 .par_windows(2)
                 .map(|ends| (ends[1].0, low.between([&ends[0], &ends[1]])))
                 .collect();
@@ -108,10 +119,23 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(SignatureEvaluator {
             model,
             low,
-            pieces,
+            intervals,
             tally: Tally::default(),
+            seen: Mutex::default(),
             is_whole,
         })
+    }
+
+    /// Some ascending speeds, and those at which one interval ends and the next begins.
+    pub fn with_ends_of_intervals(&self, speeds: &[f64]) -> Vec<f64> {
+        let mut all = speeds.to_vec();
+        if let [first, .., last] = speeds {
+            let inner = self.intervals.iter().map(|(to, _)| *to);
+            all.extend(inner.filter(|speed| first < speed && speed < last));
+        }
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
     }
 
     /// The speeds checked so far.
@@ -140,86 +164,158 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        if let Some(low) = self.near(speed_rad_per_s) {
-            let modes = low.modes(speed_rad_per_s)?;
-            let signature = Signature::new(speed_rad_per_s, modes.iter());
-            if self.matches(&signature) {
-                return Ok(signature);
-            }
-        }
-        self.reduced_at(speed_rad_per_s)
-    }
-
-    /// The same from the smallest model, counted and checked nowhere: for a guess that is proven
-    /// or refuted by other means.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = match self.near(speed_rad_per_s).or(self.low.as_ref()) {
-            Some(low) => low.modes(speed_rad_per_s)?,
-            None => self.model.all_modes(speed_rad_per_s)?,
-        };
+        let modes = self.modes(speed_rad_per_s)?;
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
     }
 
-    /// The same from the whole reduced model, without the coarser models between anchors.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn exactly_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+    /// The modes of that signature.
+    fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        self.reduced_at(speed_rad_per_s)
-    }
-
-    fn reduced_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        if let Some(interval) = self.near(speed_rad_per_s) {
+            let modes = interval.modes(speed_rad_per_s)?;
+            if self.match_index(speed_rad_per_s, &modes) {
+                return Ok(modes);
+            }
+        }
         if self.is_whole {
             self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
         }
-        let signature = self.reduced_signature(speed_rad_per_s)?;
-        if self.matches(&signature) {
-            return Ok(signature);
+        let reduced = self.reduced_modes(speed_rad_per_s)?;
+        if self.match_index(speed_rad_per_s, &reduced) {
+            return Ok(reduced);
         }
         let before = self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        let signature = match before < most_full_solves(self.model) {
-            true => {
-                let modes = self.model.full_modes(speed_rad_per_s)?;
-                Signature::new(speed_rad_per_s, modes.iter())
-            }
-            false => signature,
+        let modes = match before < most_full_solves(self.model) {
+            true => self.model.full_modes(speed_rad_per_s)?,
+            false => reduced,
         };
-        if self.matches(&signature) {
-            return Ok(signature);
-        }
-        // Eigenvalues next to zero drown in the rounding of a large matrix before they do in
-        // that of a small one.
-        if let Some(low) = self.near(speed_rad_per_s) {
-            let modes = low.modes(speed_rad_per_s)?;
-            let coarse = Signature::new(speed_rad_per_s, modes.iter());
-            if self.matches(&coarse) {
-                return Ok(coarse);
-            }
+        if self.match_index(speed_rad_per_s, &modes) {
+            return Ok(modes);
         }
         for share in [1.0 - BESIDE_COALESCENCE, 1.0 + BESIDE_COALESCENCE] {
-            let beside = self.reduced_signature(share * speed_rad_per_s)?;
-            if self.matches(&beside) {
-                return Ok(signature);
+            let beside = share * speed_rad_per_s;
+            if self.match_index(beside, &self.reduced_modes(beside)?) {
+                return Ok(modes);
             }
         }
         if let Ok(mut violations) = self.tally.violations.lock() {
             violations.push(speed_rad_per_s);
         }
-        Ok(signature)
+        Ok(modes)
     }
 
-    /// The signature by the reduced model of the whole range.
-    fn reduced_signature(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
-            None => self.model.all_modes(speed_rad_per_s)?,
+    /// Those of the reduced model.
+    fn reduced_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        match &self.low {
+            Some(low) => low.modes(speed_rad_per_s),
+            None => self.model.all_modes(speed_rad_per_s),
+        }
+    }
+
+    /// The smallest model for a speed.
+    fn near(&self, speed_rad_per_s: f64) -> Option<&ReflectedModel<'a>> {
+        let place = self
+            .intervals
+            .partition_point(|(to, _)| *to < speed_rad_per_s);
+        self.intervals.get(place).map(|(_, interval)| interval)
+    }
+
+    /// The signature by the smallest model, counted and checked nowhere: for a guess that is proven
+    /// or refuted by other means.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
+        let modes = match self.near(speed_rad_per_s) {
+            Some(interval) => interval.modes(speed_rad_per_s)?,
+            None => self.reduced_modes(speed_rad_per_s)?,
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
+    }
+
+    /// The squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where their signs
+    /// are rounding, and once no more speeds may be looked at.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn sample(&self, speed_rad_per_s: f64) -> Result<Option<Sample>, SpectrumError> {
+        let away = 0.999 * CRITICAL_GAP.get() * speed_rad_per_s;
+        if self.is_exhausted()
+            || self.spans_critical(speed_rad_per_s - away, speed_rad_per_s + away)
+        {
+            return Ok(None);
+        }
+        let mut modes = self.modes(speed_rad_per_s)?;
+        let signature = Signature::new(speed_rad_per_s, modes.iter());
+        let sample = Sample::of_squares(speed_rad_per_s, self.squares(&modes));
+        modes.retain(|mode| matches!(mode.kind, ModeKind::Flutter | ModeKind::Decaying));
+        if let Ok(mut seen) = self.seen.lock() {
+            seen.push(Seen {
+                signature,
+                coalesced: modes,
+            });
+        }
+        Ok(Some(sample))
+    }
+
+    /// λ² with its slope and Krein sign of every mode up to a few above the height.
+    fn squares(&self, modes: &[Mode]) -> Vec<((c64, c64), i8)> {
+        let mut followed: Vec<&Mode> = modes.iter().collect();
+        followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+        let height = self.height_rad_per_s();
+        let below = followed.partition_point(|mode| mode.lambda.im <= height);
+        followed.truncate(below + BESIDES);
+        let mut squares = Vec::new();
+        for mode in followed {
+            let slope = match mode.kind {
+                ModeKind::Positive | ModeKind::Negative => c64::new(0.0, mode.frequency_slope),
+                ModeKind::Flutter | ModeKind::Divergent => mode.growth_slope,
+                ModeKind::Decaying | ModeKind::Rigid | ModeKind::Damped => continue,
+            };
+            let (square, slope) = (mode.lambda * mode.lambda, 2.0 * mode.lambda * slope);
+            if mode.kind == ModeKind::Flutter {
+                squares.push(((square, slope), 0));
+                squares.push(((square.conj(), slope.conj()), 0));
+            } else {
+                let real = |z: c64| c64::new(z.re, 0.0);
+                squares.push(((real(square), real(slope)), mode.krein_sign()));
+            }
+        }
+        squares
+    }
+
+    /// Signatures of the speeds of which samples were taken, ascending.
+    pub fn signatures(&self) -> Vec<Signature> {
+        let Ok(seen) = self.seen.lock() else {
+            return Vec::new();
+        };
+        let mut signatures: Vec<Signature> =
+            seen.iter().map(|seen| seen.signature.clone()).collect();
+        signatures.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        signatures
+    }
+
+    /// The quadruple at a speed next to an expected eigenvalue.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn quadruple(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Result<Option<SignedMode>, SpectrumError> {
+        let known = self.seen.lock().ok().and_then(|seen| {
+            let at = |seen: &&Seen| seen.signature.speed_rad_per_s == speed_rad_per_s;
+            seen.iter().find(at).map(|seen| seen.signature.clone())
+        });
+        let signature = match known {
+            Some(known) => known,
+            None => self.at(speed_rad_per_s)?,
+        };
+        let away = |mode: &&SignedMode| (mode.lambda - expected).norm();
+        let quadruples = signature.quadruples.iter();
+        let nearest = quadruples.min_by(|x, y| away(x).total_cmp(&away(y)));
+        Ok(nearest.copied())
     }
 
     /// Frequency up to which signatures are complete.
@@ -230,47 +326,41 @@ impl<'a> SignatureEvaluator<'a> {
         )
     }
 
-    /// The smallest model for a speed.
-    fn near(&self, speed_rad_per_s: f64) -> Option<&ReflectedModel<'a>> {
-        let place = self.pieces.partition_point(|(to, _)| *to < speed_rad_per_s);
-        self.pieces.get(place).map(|(_, low)| low)
-    }
-
-    /// The two modes of a speed next to two eigenvalues, to rounding.
+    /// The growing and the decaying mode of a quadruple at a speed, to rounding.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn pair(
         &self,
         speed_rad_per_s: f64,
-        lambdas: [c64; 2],
+        growing: c64,
     ) -> Result<Option<ModePair>, SpectrumError> {
-        match self.near(speed_rad_per_s).or(self.low.as_ref()) {
-            Some(low) => low.pair(speed_rad_per_s, lambdas),
-            None => Ok(None),
+        let Some(low) = &self.low else {
+            return Ok(None);
+        };
+        let lambdas = [growing, -growing.conj()];
+        let known = self.seen.lock().ok().and_then(|seen| {
+            let at = |seen: &&Seen| seen.signature.speed_rad_per_s == speed_rad_per_s;
+            let coalesced = &seen.iter().find(at)?.coalesced;
+            let nearest = |lambda: c64| {
+                let away = |mode: &&Mode| (mode.lambda - lambda).norm();
+                let nearest = coalesced.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
+                nearest.cloned()
+            };
+            Some([nearest(lambdas[0])?, nearest(lambdas[1])?])
+        });
+        match known {
+            Some(modes) if low.has(&modes) => Ok(low.pair_of(speed_rad_per_s, &modes)),
+            _ => {
+                let near = self.near(speed_rad_per_s);
+                near.unwrap_or(low).pair(speed_rad_per_s, lambdas)
+            }
         }
     }
 
     /// A pair followed to another speed.
     pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
         self.low.as_ref()?.moved(pair, speed_rad_per_s)
-    }
-
-    /// Growth of a divergent mode that is known nearly: it and its mirror image refined, in a tenth of the time of an
-    /// eigenproblem. `None` where they are lost.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn refined_divergence(
-        &self,
-        speed_rad_per_s: f64,
-        growth_per_s: f64,
-    ) -> Result<Option<f64>, SpectrumError> {
-        let lambdas = [growth_per_s, -growth_per_s].map(|real| c64::new(real, 0.0));
-        let pair = self.pair(speed_rad_per_s, lambdas)?;
-        let square = pair.map(|pair| -pair.squares(speed_rad_per_s)[1]);
-        let refined = square.filter(|square| *square > 0.0).map(f64::sqrt);
-        Ok(refined.filter(|refined| (refined / growth_per_s - 1.0).abs() < SAME_GROWTH))
     }
 
     /// Largest growth of a divergent mode next to a critical speed, where the Krein index
@@ -296,11 +386,8 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Holds the spectrum against the inertia of the stiffness, which comes from
     /// another, symmetric eigenproblem on the whole basis.
-    fn matches(&self, signature: &Signature) -> bool {
-        signature.krein_index()
-            == self
-                .model
-                .negative_stiffness_directions(signature.speed_rad_per_s)
+    fn match_index(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
+        krein_index(modes) == self.model.negative_stiffness_directions(speed_rad_per_s)
     }
 
     /// The signatures of many speeds, in parallel.

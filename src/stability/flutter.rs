@@ -1,22 +1,25 @@
 //! Flutter bands: what a quadruple does from the speed at which it begins to that at which it ends.
 
-use rayon::prelude::*;
-
 use faer::c64;
+use rayon::prelude::*;
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::found::Found;
-use super::matching::matched;
 use super::maximum::{Sample, between, maximise};
-use super::pair_continuation::{Edge, NarrowBand, PairContinuation};
-use super::search::{Event, Path};
-use super::signature::{Sign, SignedMode};
+use super::pair_continuation::{Coalescence, Edge, PairContinuation, VICINITY};
+use super::pieces::Piece;
+use super::quadruples::{Bound, Stretch, stretches};
+use super::signature::SignedMode;
 use crate::spectrum::SpectrumError;
 use crate::tuned::Tuned;
 
 /// Share of a band's width from its end at which a peak at the end is said to be.
 const BESIDE_END: Tuned = Tuned::new("stability/flutter::BESIDE_END", 1e-3);
+/// Share of a stretch from its expected end at which a quadruple is asked for, to be followed to its end.
+const INSIDE: f64 = 0.02;
+/// An end that is found further than this share of the way from what the pieces say is another's.
+const SAME_END: f64 = 0.1;
 
 /// A quadruple followed over speed.
 #[derive(Debug, Clone)]
@@ -34,7 +37,7 @@ enum End {
     Edge(Edge),
     /// Inside the band, at the end of the range.
     Range(f64),
-    /// Between two speeds too close to tell what happens.
+    /// It is not followed to its end.
     Unknown(f64),
 }
 
@@ -55,99 +58,36 @@ impl End {
     }
 }
 
-/// Joins the steps of a path: every quadruple that lasts from one speed to another.
-fn quadruples(path: &Path) -> Vec<Quadruple> {
-    let mut found: Vec<Quadruple> = Vec::new();
-    let Some(first) = path.signatures.first() else {
-        return found;
-    };
-    let mut start = |begin: End, speed: f64, mode: SignedMode| {
-        found.push(Quadruple {
-            begin,
-            end: End::Range(speed),
-            points: vec![(speed, mode)],
-        });
-        found.len() - 1
-    };
-    // For every quadruple of the present signature its place in the list.
-    let mut here: Vec<usize> = Vec::new();
-    for mode in &first.quadruples {
-        let speed = first.speed_rad_per_s;
-        here.push(start(End::Range(speed), speed, *mode));
-    }
-    let mut ends: Vec<(usize, End)> = Vec::new();
-    let mut points: Vec<(usize, (f64, SignedMode))> = Vec::new();
-    for (step, pair) in path.steps.iter().zip(path.signatures.windows(2)) {
-        let unknown = End::Unknown(0.5 * (pair[0].speed_rad_per_s + pair[1].speed_rad_per_s));
-        for (k, quadruple) in here.iter().enumerate() {
-            if step.continued.iter().all(|(before, _)| *before != k) {
-                let end = match step.event {
-                    Some(Event::End(index, edge)) if index == k => End::Edge(edge),
-                    _ => unknown,
-                };
-                ends.push((*quadruple, end));
-            }
-        }
-        let speed = pair[1].speed_rad_per_s;
-        let next = pair[1].quadruples.iter().enumerate().map(|(k, mode)| {
-            let before = step.continued.iter().find(|(_, after)| *after == k);
-            if let Some((before, _)) = before {
-                points.push((here[*before], (speed, *mode)));
-                return here[*before];
-            }
-            let begin = match step.event {
-                Some(Event::Begin(index, edge)) if index == k => End::Edge(edge),
-                _ => unknown,
-            };
-            start(begin, speed, *mode)
-        });
-        here = next.collect();
-    }
-    for (quadruple, point) in points {
-        found[quadruple].points.push(point);
-        found[quadruple].end = End::Range(point.0);
-    }
-    for (quadruple, end) in ends {
-        found[quadruple].end = end;
-    }
-    found
+/// Every quadruple that pieces of a search tell, by its begin.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub(super) fn quadruples(
+    evaluator: &SignatureEvaluator<'_>,
+    pieces: &[Piece],
+) -> Result<Vec<Quadruple>, SpectrumError> {
+    let found: Vec<Option<Quadruple>> = stretches(pieces)
+        .par_iter()
+        .map(|stretch| Quadruple::new(evaluator, stretch))
+        .collect::<Result<_, _>>()?;
+    let mut found: Vec<Quadruple> = found.into_iter().flatten().collect();
+    found.sort_by(|x, y| x.begin.speed().total_cmp(&y.begin.speed()));
+    Ok(found)
 }
 
 /// Bands in which a + and a − mode have coalesced.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
 pub(super) fn flutter(
     evaluator: &SignatureEvaluator<'_>,
-    path: &Path,
+    quadruples: &[Quadruple],
     range: (f64, f64),
 ) -> Result<Vec<Found>, SpectrumError> {
-    let wide: Vec<Result<Found, SpectrumError>> = quadruples(path)
-        .into_par_iter()
-        .map(|quadruple| Found::new(range, |limits| quadruple.band(evaluator, limits)))
-        .collect();
-    let narrow = path.steps.iter().filter_map(|step| match step.event {
-        Some(Event::Band(band)) => Some(band),
-        _ => None,
-    });
-    let narrow = narrow.map(|band| {
-        let quadruple = Quadruple::of_narrow(&band);
-        Found::new(range, |limits| match quadruple.part(limits).is_whole() {
-            true => Ok(narrow_band(&band)),
-            false => quadruple.band(evaluator, limits),
-        })
-    });
-    wide.into_iter().chain(narrow).collect()
-}
-
-fn narrow_band(band: &NarrowBand) -> Instability {
-    Instability {
-        kind: InstabilityKind::Flutter,
-        from_rad_per_s: band.edges[0].speed_rad_per_s,
-        to_rad_per_s: band.edges[1].speed_rad_per_s,
-        closed: true,
-        peak_rad_per_s: band.peak_rad_per_s,
-        peak_growth_per_s: band.growth_per_s,
-        frequency_rad_per_s: band.frequency_rad_per_s,
-        curve: Vec::new(),
-    }
+    let bands = quadruples
+        .par_iter()
+        .map(|quadruple| Found::new(range, |limits| quadruple.band(evaluator, limits)));
+    bands.collect()
 }
 
 /// The part of a quadruple between two speeds.
@@ -160,10 +100,6 @@ struct Part {
 }
 
 impl Part {
-    fn is_whole(&self) -> bool {
-        self.is_cut == [false; 2]
-    }
-
     /// The speeds at which the quadruple is cut.
     fn cuts(&self) -> impl Iterator<Item = f64> {
         let ends = [self.from, self.to].into_iter().zip(self.is_cut);
@@ -177,19 +113,111 @@ struct Cut {
     growth_and_frequency: (f64, f64),
 }
 
+/// A quadruple is another's where it is further from what the pieces say than this share of its growth.
+const SAME_QUADRUPLE: f64 = 0.7;
+
+fn is_expected(mode: &SignedMode, square: c64) -> bool {
+    let expected = square.sqrt();
+    let growth = mode.lambda.re.max(expected.re);
+    (mode.lambda - expected).norm() <= SAME_QUADRUPLE * growth
+}
+
 impl Quadruple {
-    /// That of a band between two speeds of the search.
-    fn of_narrow(band: &NarrowBand) -> Self {
-        let at_peak = SignedMode {
-            sign: Sign::Quadruple,
-            lambda: c64::new(band.growth_per_s, band.frequency_rad_per_s),
-            slope: c64::new(0.0, 0.0),
-        };
-        Quadruple {
-            begin: End::Edge(band.edges[0]),
-            end: End::Edge(band.edges[1]),
-            points: vec![(band.peak_rad_per_s, at_peak)],
+    /// That of a stretch; `None` where none is computed within it.
+    fn new(
+        evaluator: &SignatureEvaluator<'_>,
+        stretch: &Stretch<'_>,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let mut points: Vec<(f64, SignedMode)> = Vec::new();
+        for &(speed, square) in &stretch.points {
+            points.extend(
+                evaluator
+                    .quadruple(speed, square.sqrt())?
+                    .map(|mode| (speed, mode)),
+            );
         }
+        if points.is_empty() {
+            let speed = stretch.fastest_rad_per_s();
+            let Some(square) = stretch.square(speed) else {
+                return Ok(None);
+            };
+            let found = evaluator.quadruple(speed, square.sqrt())?;
+            points.extend(
+                found
+                    .filter(|mode| is_expected(mode, square))
+                    .map(|mode| (speed, mode)),
+            );
+        }
+        let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+            return Ok(None);
+        };
+        let begin = Self::end(evaluator, stretch, stretch.begin, first)?;
+        let end = Self::end(evaluator, stretch, stretch.end, last)?;
+        Ok(Some(Quadruple { begin, end, points }))
+    }
+
+    /// An end of a stretch, of which the quadruple is known at a speed inside.
+    fn end(
+        evaluator: &SignatureEvaluator<'_>,
+        stretch: &Stretch<'_>,
+        bound: Bound,
+        (inside, mode): (f64, SignedMode),
+    ) -> Result<End, SpectrumError> {
+        let (expected, outside) = match bound {
+            Bound::Coalescence {
+                expected_rad_per_s,
+                outside_rad_per_s,
+            } => (expected_rad_per_s, outside_rad_per_s),
+            Bound::Range(speed) => return Ok(End::Range(speed)),
+            Bound::Height(speed) => return Ok(End::Unknown(speed)),
+        };
+        let way = (expected - inside).abs();
+        let is_same = |edge: &Edge| {
+            (edge.speed_rad_per_s - expected).abs() <= SAME_END * way + VICINITY.get() * expected
+        };
+        let pair = PairContinuation::of_quadruple(evaluator, inside, &mode)?;
+        let followed = pair.and_then(|pair| pair.edge(outside)).filter(is_same);
+        if let Some(edge) = followed {
+            return Ok(End::Edge(edge));
+        }
+        let beside = expected + INSIDE * (inside - expected);
+        let square = stretch.square(beside);
+        let near = match square {
+            Some(square) => evaluator
+                .quadruple(beside, square.sqrt())?
+                .filter(|mode| is_expected(mode, square)),
+            None => None,
+        };
+        let (start, mode) = near.map_or((inside, mode), |near| (beside, near));
+        let pair = PairContinuation::of_quadruple(evaluator, start, &mode)?;
+        let followed = pair.and_then(|pair| pair.edge(outside)).filter(is_same);
+        if let Some(edge) = followed {
+            return Ok(End::Edge(edge));
+        }
+        let Some(square) = stretch.square(expected) else {
+            return Ok(End::Unknown(expected));
+        };
+        let is_real = square.re > 0.0;
+        Ok(End::Edge(Edge {
+            speed_rad_per_s: expected,
+            coalescence: if is_real {
+                Coalescence::Real
+            } else {
+                Coalescence::Waves
+            },
+            frequency_rad_per_s: if is_real { 0.0 } else { mode.lambda.im },
+            growth_square: if is_real { mode.lambda.re.powi(2) } else { 0.0 },
+            growth_square_slope: f64::NAN,
+        }))
+    }
+
+    /// Its ends as two real eigenvalues.
+    pub fn real_ends(&self) -> impl Iterator<Item = f64> {
+        let ends = [self.begin, self.end].into_iter();
+        ends.filter_map(|end| match end {
+            End::Edge(edge) if edge.coalescence == Coalescence::Real => Some(edge.speed_rad_per_s),
+            _ => None,
+        })
     }
 
     fn part(&self, (from, to): (f64, f64)) -> Part {
@@ -319,28 +347,22 @@ fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
     }
 }
 
-/// The quadruple at another speed, from what it is at those next to it. `None` where that is
-/// not certain.
+/// The quadruple at another speed, next to what it is at those beside it.
 fn continued(
     evaluator: &SignatureEvaluator<'_>,
     known: &[(f64, SignedMode)],
     speed: f64,
 ) -> Result<Option<SignedMode>, SpectrumError> {
-    let signature = evaluator.at(speed)?;
     let place = known.partition_point(|(at, _)| *at < speed);
-    let neighbours = [place.checked_sub(1), Some(place)];
-    let neighbours = neighbours
-        .into_iter()
-        .flatten()
-        .filter_map(|k| known.get(k));
-    let of = |(at, mode): &(f64, SignedMode)| {
-        let matching = matched(&[*mode], &signature.quadruples, speed - at);
-        matching.pairs.first().map(|(_, k)| *k)
+    let expected = match known.get(place.saturating_sub(1)..=place) {
+        Some([(from, before), (to, after)]) => {
+            let share = (speed - from) / (to - from);
+            before.lambda * (1.0 - share) + after.lambda * share
+        }
+        _ => {
+            let (at, mode) = nearest(known, speed);
+            mode.lambda + mode.slope * (speed - at)
+        }
     };
-    let mut found: Vec<usize> = neighbours.filter_map(of).collect();
-    found.dedup();
-    Ok(match found.as_slice() {
-        [one] => Some(signature.quadruples[*one]),
-        _ => None,
-    })
+    evaluator.quadruple(speed, expected)
 }

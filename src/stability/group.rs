@@ -10,6 +10,8 @@
 
 use faer::{Mat, c64};
 
+use super::interpolation::{self, sign_changes};
+
 /// An eigenvalue with its slope: λ and dλ/dΩ.
 pub type Sloped = (c64, c64);
 
@@ -35,6 +37,16 @@ impl Cubic {
         let s = 1.0 - t;
         let ([from, to], [first, last]) = (self.values, self.rises);
         (to - from) * (6.0 * t * s) + first * (s * (1.0 - 3.0 * t)) + last * (t * (3.0 * t - 2.0))
+    }
+}
+
+impl Cubic {
+    /// The real parts.
+    fn real(&self) -> interpolation::Cubic {
+        interpolation::Cubic {
+            values: self.values.map(|z| z.re),
+            slopes: self.rises.map(|z| z.re),
+        }
     }
 }
 
@@ -157,6 +169,72 @@ impl Group {
         let pairs = (0..z.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
         pairs.map(|(i, k)| (z[i] - z[k]) * (z[i] - z[k])).product()
     }
+}
+
+/// Steps in which a group of more than two is looked at for the speeds at which two become complex.
+const STEPS: usize = 32;
+/// Share of the size of a group below which an imaginary part is rounding.
+const REAL: f64 = 1e-9;
+
+impl Group {
+    /// Of a group of which the numbers are real or conjugates the stretches of the piece, by their shares from 0 to 1, over
+    /// which it has a pair of conjugates; then those over which it has two, and so on.
+    pub fn complex_stretches(&self) -> Vec<Vec<(f64, f64)>> {
+        let pairs = |t: f64| self.complex_pairs(t);
+        let mut bounds = match self.coefficients.as_slice() {
+            [] => return Vec::new(),
+            [last] => sign_changes(&last.real()),
+            _ => (1..=STEPS)
+                .filter_map(|k| {
+                    let ends = [k - 1, k].map(|k| k as f64 / STEPS as f64);
+                    (pairs(ends[0]) != pairs(ends[1])).then(|| changed(ends, pairs))
+                })
+                .collect(),
+        };
+        bounds.insert(0, 0.0);
+        bounds.push(1.0);
+        let counts: Vec<usize> = bounds
+            .windows(2)
+            .map(|pair| pairs(0.5 * (pair[0] + pair[1])))
+            .collect();
+        let of_level = |level: usize| {
+            let mut stretches: Vec<(f64, f64)> = Vec::new();
+            for (ends, count) in bounds.windows(2).zip(&counts) {
+                let (from, to) = (ends[0], ends[1]);
+                match stretches.last_mut() {
+                    Some(last) if *count >= level && last.1 == from => last.1 = to,
+                    _ if *count >= level => stretches.push((from, to)),
+                    _ => (),
+                }
+            }
+            stretches
+        };
+        (1..=self.size() / 2).map(of_level).collect()
+    }
+
+    /// Pairs of conjugates at a share of the piece.
+    fn complex_pairs(&self, t: f64) -> usize {
+        if let [last] = self.coefficients.as_slice() {
+            return usize::from(last.at(t).re > 0.0);
+        }
+        let values = self.at(self.from_rad_per_s + t * self.width_rad_per_s);
+        let size = values.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        values.iter().filter(|z| z.im > REAL * size).count()
+    }
+}
+
+/// The share between two at which a count changes.
+fn changed([mut from, mut to]: [f64; 2], count: impl Fn(f64) -> usize) -> f64 {
+    let first = count(from);
+    for _ in 0..48 {
+        let middle = 0.5 * (from + to);
+        if count(middle) == first {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    0.5 * (from + to)
 }
 
 /// Roots of xⁿ + c₂xⁿ⁻² + … + c_n, as eigenvalues of the companion matrix.

@@ -10,7 +10,7 @@ use super::full_basis::{Miscount, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
-    DampedBasis, LowestModes, Mode, SpectrumError, WholeBasis, negative_eigenvalues,
+    DampedBasis, LowestModes, Mode, SpectrumError, WholeBasis, krein_index, negative_eigenvalues,
 };
 
 /// Growing modes of a plate at a speed, and what was checked of them.
@@ -87,7 +87,7 @@ impl GrowingModes {
             return found;
         };
         let signature = Signature::new(speed, modes.iter());
-        found.krein = Some([negative, signature.krein_index()]);
+        found.krein = Some([negative, krein_index(modes)]);
         if !plate.is_axisymmetric() {
             let highest = modes
                 .iter()

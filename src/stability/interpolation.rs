@@ -41,30 +41,33 @@ impl Cubic {
             if x.1 > best.1 { x } else { best }
         })
     }
+}
 
-    /// Its smallest value on [0, 1].
-    pub fn lowest(&self) -> f64 {
-        let all = self
-            .values
-            .into_iter()
-            .chain(self.stationary().map(|x| x.1));
-        all.fold(f64::INFINITY, f64::min)
-    }
+/// Where a cubic changes its sign inside (0, 1), ascending.
+pub fn sign_changes(cubic: &Cubic) -> Vec<f64> {
+    let mut bounds: Vec<f64> = cubic.stationary().map(|(t, _)| t).collect();
+    bounds.sort_by(f64::total_cmp);
+    bounds.insert(0, 0.0);
+    bounds.push(1.0);
+    let differ = |pair: &&[f64]| cubic.at(pair[0]) * cubic.at(pair[1]) < 0.0;
+    let within = bounds.windows(2).filter(differ);
+    within
+        .map(|pair| bisected(cubic, [pair[0], pair[1]]))
+        .collect()
+}
 
-    /// A zero in [0, 1] where the ends differ in sign, to seven digits: the cubic is a guess, and a
-    /// look at the very place where two waves meet would find eigenvalues that no sign can be told of.
-    pub fn sign_change(&self) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
-        for _ in 0..24 {
-            let middle = 0.5 * (low + high);
-            if self.at(middle) * self.values[0] > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
+/// The zero between two places at which a cubic differs in sign.
+fn bisected(cubic: &Cubic, [mut low, mut high]: [f64; 2]) -> f64 {
+    let first = cubic.at(low);
+    for _ in 0..64 {
+        let middle = 0.5 * (low + high);
+        if cubic.at(middle) * first > 0.0 {
+            low = middle;
+        } else {
+            high = middle;
         }
-        0.5 * (low + high)
     }
+    0.5 * (low + high)
 }
 
 #[cfg(test)]
@@ -95,7 +98,6 @@ mod tests {
         let (place, value) = hump.highest();
         assert!((place - (1.0 - 1.0 / 3.0_f64.sqrt())).abs() < 1e-12);
         assert!((value - 2.0 / 27.0_f64.sqrt()).abs() < 1e-12);
-        assert_eq!(hump.lowest(), 0.0);
     }
 
     #[test]
@@ -104,6 +106,23 @@ mod tests {
             values: [1.0, 3.0],
             slopes: [2.0, 2.0],
         };
-        assert_eq!((line.highest(), line.lowest()), ((1.0, 3.0), 1.0));
+        assert_eq!(line.highest(), (1.0, 3.0));
+        assert!(sign_changes(&line).is_empty());
+    }
+
+    /// (t − 0.2)(t − 0.5)(t − 0.9).
+    #[test]
+    fn all_three_zeros_of_a_cubic_are_found() {
+        let cubic = Cubic {
+            values: [-0.09, 0.04],
+            slopes: [0.73, 0.53],
+        };
+        let at = |t: f64| (t - 0.2) * (t - 0.5) * (t - 0.9);
+        assert!((cubic.at(0.3) - at(0.3)).abs() < 1e-12);
+        let zeros = sign_changes(&cubic);
+        assert_eq!(zeros.len(), 3);
+        for (zero, exact) in zeros.iter().zip([0.2, 0.5, 0.9]) {
+            assert!((zero - exact).abs() < 1e-12, "{zero}");
+        }
     }
 }

@@ -106,7 +106,7 @@ pub fn search_bands(
     let saw = saw.into();
     if saw.plate.is_conservative() {
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Bands)?;
-        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS.count())?);
+        return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
     }
     let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
     let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;

@@ -7,27 +7,20 @@
 
 mod looked;
 
-use faer::c64;
-
 use self::looked::Looked;
 use super::evaluator::SignatureEvaluator;
-use super::maximum::{Sample, maximise};
+use super::maximum::Sample;
 use super::signature::SignedMode;
 use crate::spectrum::{ModePair, SpectrumError};
 use crate::tuned::Tuned;
 
-/// Relative differences of speed for the slope and the curvature of σ²: its rounding is 1e-15
-/// of ω², and the pair is exact to the square of the distance.
-const NEWTON_DIFFERENCE: Tuned = Tuned::new("stability/pair_continuation::NEWTON_DIFFERENCE", 1e-6);
-const VERTEX_DIFFERENCE: Tuned = Tuned::new("stability/pair_continuation::VERTEX_DIFFERENCE", 1e-5);
+/// Relative difference of speed for the slope of σ²: its rounding is 1e-15 of ω², and the pair is exact to the square of the
+/// distance.
+const DIFFERENCE: f64 = 1e-6;
 /// A last step of this relative length leaves its square, times how many widths of the
 /// band the speed is: below the accuracy asked.
 const NEWTON_TOLERANCE: f64 = 1e-8;
-/// The same for the vertex of a crossing: what is left of it, (nΩδ)², is below the square of
-/// the least growth rate told from rounding.
-const VERTEX_TOLERANCE: f64 = 1e-6;
 const MAX_STEPS: usize = 40;
-const MAX_NEWTON: usize = 8;
 /// Share of the way to the coalescence of two real λ that one step goes: beyond it the pair has
 /// no complex states to be followed by.
 const SHORT_OF_REAL: f64 = 0.999;
@@ -35,10 +28,6 @@ const SHORT_OF_REAL: f64 = 0.999;
 /// anchors of the search may be off.
 const LIKENESS: Tuned = Tuned::new("stability/pair_continuation::LIKENESS", 0.05);
 pub const VICINITY: Tuned = Tuned::new("stability/pair_continuation::VICINITY", 3e-5);
-
-/// Bands wider than this share of their speed are sampled in so many parts for a second hump.
-const NARROW: Tuned = Tuned::new("stability/pair_continuation::NARROW", 1e-4);
-const PARTS: Tuned = Tuned::new("stability/pair_continuation::PARTS", 6.0);
 
 /// How a quadruple begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,28 +64,6 @@ impl Edge {
     }
 }
 
-/// What a pair of waves that has exchanged its order did in between.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Passage {
-    /// It crossed.
-    Crossing,
-    /// It coalesced and split.
-    Band(NarrowBand),
-}
-
-/// A band between two speeds at which the pair is apart.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NarrowBand {
-    /// Onset and end.
-    pub edges: [Edge; 2],
-    /// Speed of the largest growth, in rad/s.
-    pub peak_rad_per_s: f64,
-    /// Largest growth.
-    pub growth_per_s: f64,
-    /// Frequency there, in rad/s.
-    pub frequency_rad_per_s: f64,
-}
-
 /// A pair at a speed.
 pub struct PairContinuation<'a> {
     evaluator: &'a SignatureEvaluator<'a>,
@@ -105,20 +72,6 @@ pub struct PairContinuation<'a> {
 }
 
 impl<'a> PairContinuation<'a> {
-    /// The pair of two eigenvalues. `None` where there are none such.
-    fn begin(
-        evaluator: &'a SignatureEvaluator<'a>,
-        speed: f64,
-        lambdas: [c64; 2],
-    ) -> Result<Option<Self>, SpectrumError> {
-        let pair = evaluator.pair(speed, lambdas)?;
-        Ok(pair.map(|pair| PairContinuation {
-            evaluator,
-            pair,
-            speed,
-        }))
-    }
-
     /// The pair of a quadruple: it and its mirror image.
     ///
     /// # Errors
@@ -128,8 +81,12 @@ impl<'a> PairContinuation<'a> {
         speed_rad_per_s: f64,
         mode: &SignedMode,
     ) -> Result<Option<Self>, SpectrumError> {
-        let lambdas = [mode.lambda, -mode.lambda.conj()];
-        let begun = Self::begin(evaluator, speed_rad_per_s, lambdas)?;
+        let pair = evaluator.pair(speed_rad_per_s, mode.lambda)?;
+        let begun = pair.map(|pair| PairContinuation {
+            evaluator,
+            pair,
+            speed: speed_rad_per_s,
+        });
         Ok(begun.filter(|pair| pair.is_mode(mode)))
     }
 
@@ -166,14 +123,11 @@ impl<'a> PairContinuation<'a> {
         off(growth, sigma, mode.slope.re) && off(frequency, omega, mode.slope.im)
     }
 
-    /// First derivatives of σ² and ω² and the second of σ², by central differences.
-    fn derivatives(&self, relative_difference: f64) -> ([f64; 2], f64) {
-        let h = relative_difference * self.speed;
-        let at = |d: f64| self.pair.squares(self.speed + d);
-        let (before, here, after) = (at(-h), at(0.0), at(h));
-        let slopes = [0, 1].map(|k| (after[k] - before[k]) / (2.0 * h));
-        let bend = (before[0] - 2.0 * here[0] + after[0]) / (h * h);
-        (slopes, bend)
+    /// Derivatives of σ² and ω², by central differences.
+    fn slopes(&self) -> [f64; 2] {
+        let h = DIFFERENCE * self.speed;
+        let [before, after] = [-h, h].map(|d| self.pair.squares(self.speed + d));
+        [0, 1].map(|k| (after[k] - before[k]) / (2.0 * h))
     }
 
     /// What is known of σ² and ω² here.
@@ -181,7 +135,7 @@ impl<'a> PairContinuation<'a> {
         Looked {
             speed: self.speed,
             squares: self.squares(),
-            slopes: self.derivatives(NEWTON_DIFFERENCE.get()).0,
+            slopes: self.slopes(),
         }
     }
 
@@ -262,99 +216,11 @@ impl<'a> PairContinuation<'a> {
 
     /// σ² with its slope, for the search of its maximum.
     pub fn sample(&self) -> Sample {
-        let ([slope, _], _) = self.derivatives(NEWTON_DIFFERENCE.get());
+        let [slope, _] = self.slopes();
         Sample {
             at: self.speed,
             value: self.squares()[0],
             slope,
         }
     }
-
-    /// Speed, σ² and ω² of the fastest growth between two edges. The vertex of a parabola is
-    /// only one of the humps that a wider band may have.
-    fn fastest(&self, edges: [Edge; 2]) -> Result<(f64, [f64; 2]), SpectrumError> {
-        let [from, to] = edges.map(|edge| edge.speed_rad_per_s);
-        let at = |speed: f64| Ok(self.to(speed).map(|pair| pair.sample()));
-        let mut samples: Vec<Sample> = edges.iter().map(Edge::sample).collect();
-        samples.push(self.sample());
-        if to - from > NARROW.get() * self.speed {
-            for part in 1..PARTS.count() {
-                samples.extend(at(from + (to - from) * part as f64 / PARTS.count() as f64)?);
-            }
-        }
-        samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-        let peak = maximise(samples, at)?.map_or(self.speed, |sample| sample.at);
-        let there = self.to(peak).map_or(self.squares(), |pair| pair.squares());
-        Ok((peak, there))
-    }
-
-    /// The speed of largest σ² between the ends, and its curvature there: the zero of its
-    /// slope by the secant method, for a pair's own curvature lacks what it becomes elsewhere.
-    fn vertex(mut self, ends: (f64, f64)) -> Option<(Self, f64)> {
-        let ([mut slope, _], mut bend) = self.derivatives(VERTEX_DIFFERENCE.get());
-        for _ in 0..MAX_NEWTON {
-            let step = -slope / bend;
-            if bend >= 0.0 || !(ends.0..=ends.1).contains(&(self.speed + step)) {
-                return None;
-            }
-            self = self.to(self.speed + step)?;
-            if step.abs() <= VERTEX_TOLERANCE * self.speed {
-                return Some((self, bend));
-            }
-            let ([next, _], _) = self.derivatives(VERTEX_DIFFERENCE.get());
-            (slope, bend) = (next, (next - slope) / step);
-        }
-        None
-    }
-}
-
-/// What the two waves do whose crossing is expected at a speed and a frequency, between two
-/// speeds at which they stand in opposite order. `None` where they cannot be followed.
-///
-/// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
-pub fn passage(
-    evaluator: &SignatureEvaluator<'_>,
-    ends: (f64, f64),
-    (speed, waves): (f64, [&SignedMode; 2]),
-    floor_per_s: f64,
-) -> Result<Option<Passage>, SpectrumError> {
-    let lambdas = waves.map(|wave| wave.lambda);
-    let Some(pair) = PairContinuation::begin(evaluator, speed, lambdas)? else {
-        return Ok(None);
-    };
-    let Some((vertex, bend)) = pair.vertex(ends) else {
-        return Ok(None);
-    };
-    let [largest, _] = vertex.squares();
-    if largest <= floor_per_s.powi(2) {
-        // Two waves of one sign avoid each other: σ² stays below zero.
-        return Ok((largest >= -floor_per_s.powi(2)).then_some(Passage::Crossing));
-    }
-    let shown = evaluator.at(vertex.speed)?;
-    if !shown.quadruples.iter().any(|mode| vertex.is_mode(mode)) {
-        return Ok(None);
-    }
-    let half = (-2.0 * largest / bend).sqrt();
-    let edge = |outer: f64, end: f64| {
-        // A little outside the parabola's root: the pair is followed from inside.
-        let reach = vertex.speed + 2.0 * (outer - vertex.speed);
-        let is_nearer = (end - vertex.speed).abs() < (reach - vertex.speed).abs();
-        let end = if is_nearer { end } else { reach };
-        vertex
-            .to(vertex.speed + 0.5 * (outer - vertex.speed))?
-            .edge(end)
-    };
-    let from = edge(vertex.speed - half, ends.0);
-    let to = edge(vertex.speed + half, ends.1);
-    let Some(edges) = from.zip(to) else {
-        return Ok(None);
-    };
-    let (peak, fastest) = vertex.fastest(edges.into())?;
-    Ok(Some(Passage::Band(NarrowBand {
-        edges: edges.into(),
-        peak_rad_per_s: peak,
-        growth_per_s: fastest[0].max(0.0).sqrt(),
-        frequency_rad_per_s: fastest[1].max(0.0).sqrt(),
-    })))
 }

@@ -4,17 +4,47 @@ use faer::c64;
 
 use super::group::Sloped;
 
-/// Frequencies or growths nearer than this share of the highest frequency are not told apart.
+/// Numbers nearer than this share of that of the highest frequency are not told apart.
 const LEAST_STEP: f64 = 1e-9;
 /// Two eigenvalues may meet where their difference, continued by its slope, falls below this share of itself.
 const MEETING: f64 = 0.3;
 
-/// The low eigenvalues of a damped saw at a speed, with their conjugates.
+/// Which numbers of a saw a search follows over speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plane {
+    /// λ, with the conjugate of each that oscillates.
+    Eigenvalues,
+    /// z = λ² of an undamped saw, one for each pair ±λ: a wave has z < 0, a divergent mode z > 0, and the two modes of a
+    /// quadruple ±σ ± iω have conjugate z. A mode that stops to diverge passes z = 0 as any other number.
+    Squares,
+}
+
+impl Plane {
+    /// Re λ ≥ 0 of a number, or the decay where all that it stands for decays.
+    pub fn growth_per_s(self, number: c64) -> f64 {
+        match self {
+            Plane::Eigenvalues => number.re,
+            Plane::Squares => number.sqrt().re,
+        }
+    }
+
+    /// The number of an eigenvalue of a size.
+    pub fn sized(self, size_rad_per_s: f64) -> f64 {
+        match self {
+            Plane::Eigenvalues => size_rad_per_s,
+            Plane::Squares => size_rad_per_s * size_rad_per_s,
+        }
+    }
+}
+
+/// The low eigenvalues of a saw at a speed, or their squares.
 #[derive(Debug, Clone)]
 pub struct Sample {
     pub speed_rad_per_s: f64,
-    /// By frequency; conjugates lie symmetrically about the middle.
+    /// By frequency; conjugates of eigenvalues lie symmetrically about the middle, those of squares side by side.
     pub eigenvalues: Vec<Sloped>,
+    /// For each eigenvalue of an undamped saw the Krein sign of a wave, and zero of every other mode.
+    pub signs: Vec<i8>,
 }
 
 impl Sample {
@@ -35,6 +65,21 @@ impl Sample {
         Sample {
             speed_rad_per_s,
             eigenvalues,
+            signs: Vec::new(),
+        }
+    }
+
+    /// From the squares of the eigenvalues of an undamped saw, each with its Krein sign.
+    pub fn of_squares(speed_rad_per_s: f64, mut squares: Vec<(Sloped, i8)>) -> Self {
+        let order = |x: &(Sloped, i8), y: &(Sloped, i8)| {
+            let by_size = y.0.0.re.total_cmp(&x.0.0.re);
+            by_size.then(x.0.0.im.total_cmp(&y.0.0.im))
+        };
+        squares.sort_by(order);
+        Sample {
+            speed_rad_per_s,
+            eigenvalues: squares.iter().map(|(square, _)| *square).collect(),
+            signs: squares.iter().map(|(_, sign)| *sign).collect(),
         }
     }
 
@@ -46,28 +91,55 @@ impl Sample {
 /// Places of the eigenvalues of a group in the samples at both ends.
 pub type Places = [Vec<usize>; 2];
 
-/// Groups from the real axis up: between them neighbours stay apart, by values and slopes from both ends. `None`
-/// where nothing closes above the highest frequency.
-pub fn partition(ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> {
+/// Groups that make up all numbers up to a frequency: between them neighbours stay apart, by values and slopes from both
+/// ends. `None` where nothing closes above the highest frequency.
+pub fn partition(plane: Plane, ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> {
     let [a, b] = ends.map(|end| end.speed_rad_per_s);
-    let middles = ends.map(|end| end.middle());
-    let count = middles
-        .iter()
-        .zip(ends)
-        .map(|(middle, end)| end.eigenvalues.len() - middle)
-        .min()?;
-    let by_frequency = ends.map(|end| (0..end.eigenvalues.len()).collect::<Vec<_>>());
     let sides = [0, 1].map(|end| Side {
         z: &ends[end].eigenvalues,
         width: [b - a, a - b][end],
-        least: LEAST_STEP * top_rad_per_s,
+        least: LEAST_STEP * plane.sized(top_rad_per_s),
     });
-    let is_cut = [0, 1].map(|end| sides[end].cuts(&by_frequency[end], |z| z.im));
+    match plane {
+        Plane::Eigenvalues => by_frequency(&sides, ends.map(Sample::middle), top_rad_per_s),
+        Plane::Squares => by_square(&sides, plane.sized(top_rad_per_s)),
+    }
+}
+
+/// Groups of squares, from the fastest divergence to the first gap above the highest frequency.
+fn by_square(sides: &[Side<'_>; 2], top: f64) -> Option<Vec<Places>> {
+    let all = [0, 1].map(|end| (0..sides[end].z.len()).collect::<Vec<_>>());
+    let is_cut = [0, 1].map(|end| sides[end].cuts(&all[end], |z| -z.re));
+    let count = all[0].len().min(all[1].len());
+    let mut bounds = vec![0];
+    for j in (1..count).filter(|&j| is_cut[0][j] && is_cut[1][j]) {
+        bounds.push(j);
+        if sides.iter().all(|side| -side.z[j].0.re > top) {
+            let pairs = bounds.windows(2);
+            return Some(
+                pairs
+                    .map(|pair| [0, 1].map(|_| (pair[0]..pair[1]).collect()))
+                    .collect(),
+            );
+        }
+    }
+    None
+}
+
+/// Groups of eigenvalues, from the real axis up.
+fn by_frequency(
+    sides: &[Side<'_>; 2],
+    middles: [usize; 2],
+    top_rad_per_s: f64,
+) -> Option<Vec<Places>> {
+    let count = (0..2).map(|end| sides[end].z.len() - middles[end]).min()?;
+    let all = [0, 1].map(|end| (0..sides[end].z.len()).collect::<Vec<_>>());
+    let is_cut = [0, 1].map(|end| sides[end].cuts(&all[end], |z| z.im));
     let mut cuts: Vec<usize> = Vec::new();
     let mut is_closed = false;
     for j in (0..count).filter(|&j| is_cut[0][middles[0] + j] && is_cut[1][middles[1] + j]) {
         cuts.push(j);
-        let above = |end: usize| ends[end].eigenvalues[middles[end] + j].0.im > top_rad_per_s;
+        let above = |end: usize| sides[end].z[middles[end] + j].0.im > top_rad_per_s;
         if above(0) && above(1) {
             is_closed = true;
             break;
@@ -75,7 +147,7 @@ pub fn partition(ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> 
     }
     let lowest = cuts.first().copied().filter(|_| is_closed)?;
     let mut parts = about_the_axis(
-        &sides,
+        sides,
         middles.map(|m| (m - lowest, m + lowest)),
         top_rad_per_s,
     );

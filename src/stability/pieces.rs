@@ -10,14 +10,16 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::group::{Group, Sloped};
-use super::partition::{Places, Sample, partition};
-use crate::spectrum::SpectrumError;
+use super::partition::{Places, Plane, Sample, partition};
+use crate::spectrum::{SpectrumError, Work};
 
 /// A group between two samples.
 #[derive(Debug, Clone)]
 pub struct Grouped {
     pub group: Group,
     pub places: Places,
+    /// The Krein sign of all of it, where there is one: then nothing of it coalesces.
+    sign: Option<i8>,
 }
 
 /// Between two neighbouring speeds that were asked.
@@ -28,10 +30,11 @@ pub struct Piece {
     pub groups: Vec<Grouped>,
 }
 
-/// Eigenvalues of one group at most; of more than two in narrow pieces only.
-const LARGEST: usize = 4;
+/// Eigenvalues of one group at most where a piece is wide.
 const USUAL: usize = 2;
-/// Width of such pieces as a share of the speed.
+/// Eigenvalues of one group at most in a narrow piece, and of one of which all are waves of one Krein sign.
+const LARGEST: usize = 4;
+/// Width of a narrow piece, as a share of the speed.
 const NARROW: f64 = 3e-4;
 /// Share of the last speed below which a piece is not parted.
 const LEAST_WIDTH: f64 = 1e-9;
@@ -41,18 +44,22 @@ const MARGIN: f64 = 0.05;
 const STEPS: usize = 16;
 /// A discriminant that falls below this share of its values at the ends may hide a coalescence.
 const DIP: f64 = 0.05;
+/// Relative error allowed of waves of one Krein sign, of which none can coalesce with another.
+const DEFINITE_TOLERANCE: f64 = 0.05;
 
 /// How closely eigenvalues are followed, and from what.
 pub struct Search<'a> {
+    /// What is followed.
+    pub plane: Plane,
     /// Frequency up to which they are followed, in rad/s.
     pub top_rad_per_s: f64,
-    /// Relative error allowed of an eigenvalue.
+    /// Relative error allowed of what is followed.
     pub tolerance: f64,
     /// Relative error allowed of a growth.
     pub growth_tolerance: f64,
     /// Growth that is rounding, in 1/s.
     pub noise_per_s: f64,
-    /// Eigenvalues at a speed; `None` once no more may be asked for.
+    /// What is followed, at a speed or next to it; `None` once no more may be asked for.
     pub solve: &'a (dyn Fn(f64) -> Result<Option<Sample>, SpectrumError> + Sync),
 }
 
@@ -68,67 +75,96 @@ impl Search<'_> {
             .map(|&speed| (self.solve)(speed))
             .collect::<Result<_, _>>()?;
         let samples: Vec<Arc<Sample>> = samples.into_iter().flatten().map(Arc::new).collect();
+        let work = &Work::of("pieces of the search", samples.len().saturating_sub(1));
         let pieces: Vec<Vec<Piece>> = samples
             .par_windows(2)
-            .map(|ends| self.between([&ends[0], &ends[1]], least))
+            .map(|ends| {
+                let found = self.between([&ends[0], &ends[1]], None, least, work);
+                work.advance();
+                found
+            })
             .collect::<Result<_, _>>()?;
         Ok(pieces.into_iter().flatten().collect())
     }
 
+    /// Pieces between two samples, by groups that were held against a sample before where there are such.
     fn between(
         &self,
         ends: [&Arc<Sample>; 2],
+        kept: Option<Vec<Grouped>>,
         least_rad_per_s: f64,
+        work: &Work,
     ) -> Result<Vec<Piece>, SpectrumError> {
         let [a, b] = ends.map(|end| end.speed_rad_per_s);
-        let unsettled = || {
-            Ok(vec![Piece {
+        let alone = |groups: Vec<Grouped>| {
+            vec![Piece {
                 ends: ends.map(Arc::clone),
-                groups: Vec::new(),
-            }])
+                groups,
+            }]
         };
         if b - a < least_rad_per_s {
-            return unsettled();
+            return Ok(alone(kept.unwrap_or_default()));
         }
-        let parts = partition(ends.map(Arc::as_ref), self.top_rad_per_s);
-        let is_wide = b - a > NARROW * b;
-        let may_be = if is_wide { USUAL } else { LARGEST };
-        let is_fit = |parts: &Vec<Places>| parts.iter().all(|[x, _]| x.len() <= may_be);
-        let groups = parts.filter(is_fit).map(|parts| grouped(ends, &parts));
+        let is_kept = kept.is_some();
+        let groups = kept.or_else(|| self.groups(ends));
         let place = groups
             .as_ref()
             .and_then(|groups| self.place_to_ask(groups, (a, b)));
+        if let (true, None, Some(groups)) = (is_kept, place, &groups) {
+            return Ok(alone(groups.clone()));
+        }
         let asked = place.unwrap_or(0.5 * (a + b));
         let asked = asked.clamp(a + MARGIN * (b - a), b - MARGIN * (b - a));
         let Some(found) = (self.solve)(asked)? else {
-            return unsettled();
+            return Ok(alone(Vec::new()));
         };
         let found = Arc::new(found);
-        let told: Option<Vec<Vec<usize>>> = groups.as_ref().and_then(|groups| {
+        work.extend(1);
+        let halves = [[ends[0], &found], [&found, ends[1]]];
+        let told: Option<Vec<Told>> = groups.as_ref().and_then(|groups| {
             let all = groups.iter().map(|g| self.told(g, ends, &found));
             all.collect()
         });
-        let halves = [[ends[0], &found], [&found, ends[1]]];
-        // The halves keep the groups that were held against what was found.
-        if let (Some(groups), Some(told)) = (groups, told)
-            && are_distinct(told.iter().flatten())
-        {
-            let within = |end: usize| {
-                let parts = groups.iter().zip(&told).map(|(grouped, middle)| {
-                    let mut places = [middle.clone(), middle.clone()];
+        let told =
+            told.filter(|told| are_distinct(told.iter().flat_map(|group| group.places.iter())));
+        let misfit = told.iter().flatten().map(|group| group.misfit);
+        let misfit = misfit.fold(0.0, f64::max);
+        let share = (asked - a) / (b - a);
+        let mut pieces = Vec::new();
+        for (end, half) in halves.into_iter().enumerate() {
+            // A half keeps the groups that were held against what was found, where they are close enough over all of it.
+            let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
+            let kept = groups.as_ref().zip(told.as_ref()).filter(|_| is_close);
+            let kept = kept.map(|(groups, told)| {
+                let parts = groups.iter().zip(told).map(|(grouped, told)| {
+                    let mut places = [told.places.clone(), told.places.clone()];
                     places[end].clone_from(&grouped.places[end]);
                     places
                 });
-                Piece {
-                    ends: halves[end].map(Arc::clone),
-                    groups: grouped(halves[end], &parts.collect::<Vec<_>>()),
-                }
-            };
-            return Ok(vec![within(0), within(1)]);
+                grouped_by(half, &parts.collect::<Vec<_>>())
+            });
+            pieces.extend(self.between(half, kept, least_rad_per_s, work)?);
         }
-        let mut pieces = self.between(halves[0], least_rad_per_s)?;
-        pieces.extend(self.between(halves[1], least_rad_per_s)?);
+        work.advance();
         Ok(pieces)
+    }
+
+    /// The groups between two samples; `None` where one of them is too large.
+    fn groups(&self, ends: [&Arc<Sample>; 2]) -> Option<Vec<Grouped>> {
+        let [a, b] = ends.map(|end| end.speed_rad_per_s);
+        let is_wide = b - a > NARROW * b;
+        let is_fit = |places: &Places| {
+            let is_definite = definite_sign(places, ends).is_some();
+            let most = if is_wide && !is_definite {
+                USUAL
+            } else {
+                LARGEST
+            };
+            places[0].len() <= most
+        };
+        let parts = partition(self.plane, ends.map(Arc::as_ref), self.top_rad_per_s);
+        let parts = parts.filter(|parts| parts.iter().all(is_fit))?;
+        Some(grouped_by(ends, &parts))
     }
 
     /// Where two eigenvalues of a group come nearest between the ends, else where one that decays at both ends may
@@ -140,36 +176,35 @@ impl Search<'_> {
             let shift = parabola(values.get(least.checked_sub(1)?..=least + 1)?);
             Some((least, speed(least) + shift * (b - a) / STEPS as f64))
         };
-        let dip = groups.iter().filter(|g| g.group.size() > 1).find_map(|g| {
+        let may_meet = |g: &&Grouped| g.group.size() > 1 && g.sign.is_none();
+        let dips = groups.iter().filter(may_meet).filter_map(|g| {
             let sizes: Vec<f64> = (0..=STEPS)
                 .map(|k| g.group.discriminant(speed(k)).norm())
                 .collect();
             let (least, place) = inner(&sizes)?;
-            (sizes[least] < DIP * sizes[0].max(sizes[STEPS])).then_some(place)
+            let share = sizes[least] / sizes[0].max(sizes[STEPS]);
+            (share < DIP).then_some((share, place))
         });
-        dip.or_else(|| {
+        let deepest = dips.min_by(|x, y| x.0.total_cmp(&y.0));
+        deepest.map(|(_, place)| place).or_else(|| {
+            let slowest = |g: &Grouped, speed: f64| {
+                let growth = g
+                    .group
+                    .at(speed)
+                    .into_iter()
+                    .map(|z| self.plane.growth_per_s(z));
+                -growth.fold(f64::MIN, f64::max)
+            };
             groups.iter().find_map(|g| {
-                let decay: Vec<f64> = (0..=STEPS)
-                    .map(|k| {
-                        -g.group
-                            .at(speed(k))
-                            .iter()
-                            .fold(f64::MIN, |top, z| top.max(z.re))
-                    })
-                    .collect();
+                let decay: Vec<f64> = (0..=STEPS).map(|k| slowest(g, speed(k))).collect();
                 let (least, place) = inner(&decay)?;
                 (decay[least] < 0.0 && decay[0] > 0.0 && decay[STEPS] > 0.0).then_some(place)
             })
         })
     }
 
-    /// Places of the eigenvalues found that a group told; `None` where it told others.
-    fn told(
-        &self,
-        grouped: &Grouped,
-        ends: [&Arc<Sample>; 2],
-        sample: &Sample,
-    ) -> Option<Vec<usize>> {
+    /// The eigenvalues found that a group told; `None` where it told others.
+    fn told(&self, grouped: &Grouped, ends: [&Arc<Sample>; 2], sample: &Sample) -> Option<Told> {
         let told = grouped.group.at(sample.speed_rad_per_s);
         let nearest = |z: &c64| {
             let away = |&place: &usize| (sample.eigenvalues[place].0 - z).norm();
@@ -181,35 +216,92 @@ impl Search<'_> {
             .iter()
             .map(|&place| sample.eigenvalues[place].0)
             .collect();
-        let pairs = || told.iter().zip(&found);
-        let off = pairs().map(|(x, z)| (x - z).norm()).fold(0.0, f64::max);
+        let off = told.iter().zip(&found).map(|(x, z)| (x - z).norm());
+        let off = off.fold(0.0, f64::max);
         let size = told.iter().map(|z| z.norm()).fold(0.0, f64::max);
-        if off.is_nan() || off > self.tolerance * size.max(1e-3 * self.top_rad_per_s) {
-            return None;
-        }
-        let at_ends = [0, 1].into_iter().flat_map(|end| {
-            let places = grouped.places[end].iter();
-            places.map(move |&place| ends[end].eigenvalues[place].0.re)
-        });
-        let growth = at_ends.chain(found.iter().chain(&told).map(|z| z.re));
-        let fastest = growth.fold(0.0, f64::max);
-        let least = self.growth_tolerance * fastest + self.noise_per_s;
-        // How fast something decays is of no account.
-        let is_growth_told = |(x, z): (&c64, &c64)| {
-            let decay = -x.re.max(z.re);
-            (x.re - z.re).abs() <= least.max(0.3 * decay)
+        let size = size.max(self.plane.sized(1e-3 * self.top_rad_per_s));
+        let misfit = match grouped.sign {
+            Some(sign) if places.iter().any(|&place| sample.signs[place] != sign) => return None,
+            Some(_) => off / (DEFINITE_TOLERANCE * size),
+            None => {
+                let at_ends = [0, 1].map(|end| {
+                    let places = grouped.places[end].iter();
+                    let numbers = places.map(|&place| ends[end].eigenvalues[place].0);
+                    numbers.collect::<Vec<_>>()
+                });
+                let of_growth = self.misfit_of_growth(&at_ends, [&told, &found]);
+                (off / (self.tolerance * size)).max(of_growth)
+            }
         };
-        if !pairs().all(is_growth_told) {
-            return None;
-        }
-        let apart = (0..told.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
-        let gap = apart
-            .map(|(i, k)| (told[i] - told[k]).norm())
-            .fold(f64::INFINITY, f64::min);
-        let decay = -told.iter().fold(f64::MIN, |top, z| top.max(z.re));
-        let is_pair_told = told.len() == 1 || off <= least.max(0.05 * gap).max(0.3 * decay);
-        is_pair_told.then_some(places)
+        (misfit <= 1.0).then_some(Told { places, misfit })
     }
+
+    /// How far off the growth is that a group told, as a share of what is allowed.
+    fn misfit_of_growth(&self, at_ends: &[Vec<c64>; 2], [told, found]: [&[c64]; 2]) -> f64 {
+        let by_growth = |numbers: &[c64]| {
+            let growth = numbers.iter().map(|z| self.plane.growth_per_s(*z));
+            let mut growth: Vec<f64> = growth.collect();
+            growth.sort_by(|x, y| y.total_cmp(x));
+            growth
+        };
+        let ends = at_ends.each_ref().map(|numbers| by_growth(numbers));
+        let (growth_told, growth_found) = (by_growth(told), by_growth(found));
+        let all = [&ends[0], &ends[1], &growth_told, &growth_found];
+        // Relative to each: a slow growth is told as well as the fast one beside it.
+        let allowed = |rank: usize| {
+            let fastest = all.iter().map(|growth| growth[rank]).fold(0.0, f64::max);
+            (self.growth_tolerance * fastest).max(self.noise_per_s)
+        };
+        let misfit = |rank: usize| {
+            let (x, z) = (growth_told[rank], growth_found[rank]);
+            // How fast something decays is of no account.
+            let allowed = allowed(rank).max(0.3 * -x.max(z));
+            ((x - z).abs() - self.noise_per_s).max(0.0) / allowed
+        };
+        let of_each = (0..told.len()).map(misfit).fold(0.0, f64::max);
+        if told.len() == 1 {
+            return of_each;
+        }
+        let pairs = (0..told.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
+        let gap = pairs.map(|(i, k)| (told[i] - told[k]).norm());
+        let gap = gap.fold(f64::INFINITY, f64::min);
+        let off = told.iter().zip(found).map(|(x, z)| (x - z).norm());
+        let off = off.fold(0.0, f64::max);
+        let least = match self.plane {
+            Plane::Eigenvalues => allowed(0),
+            Plane::Squares => {
+                2.0 * allowed(0) * told.iter().map(|z| z.norm()).fold(0.0, f64::max).sqrt()
+            }
+        };
+        let allowed = least.max(0.05 * gap).max(0.3 * -growth_told[0]);
+        of_each.max(off / allowed)
+    }
+}
+
+/// What a group told of a sample within its piece.
+struct Told {
+    /// The places of its eigenvalues.
+    places: Vec<usize>,
+    /// How far off they are, as a share of what is allowed.
+    misfit: f64,
+}
+
+/// How far off a cubic is over a part of a piece, as a share of what is allowed there, where the one over the whole
+/// piece was off by `misfit` at a share of it. The error of Hermite's formula goes with t²(1 − t)² and the fourth power of the
+/// width. What is seldom looked at may be off by a quarter of what is allowed where it is.
+fn left_by(misfit: f64, share: f64, part: f64) -> f64 {
+    let of_whole = misfit / (16.0 * (share * (1.0 - share)).powi(2));
+    4.0 * of_whole * part.powi(4)
+}
+
+/// The Krein sign of a group, where all that it has at both ends are waves of one sign.
+fn definite_sign(places: &Places, ends: [&Arc<Sample>; 2]) -> Option<i8> {
+    let mut signs = [0, 1].into_iter().flat_map(|end| {
+        let places = places[end].iter();
+        places.map(move |&place| ends[end].signs.get(place).copied().unwrap_or(0))
+    });
+    let first = signs.next().filter(|sign| *sign != 0)?;
+    signs.all(|sign| sign == first).then_some(first)
 }
 
 fn are_distinct<'a>(places: impl Iterator<Item = &'a usize>) -> bool {
@@ -220,7 +312,7 @@ fn are_distinct<'a>(places: impl Iterator<Item = &'a usize>) -> bool {
     places.len() == count
 }
 
-fn grouped(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
+fn grouped_by(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
     let speeds = ends.map(|end| end.speed_rad_per_s);
     let of = |places: &Places| {
         let at = |end: usize| -> Vec<Sloped> {
@@ -230,6 +322,7 @@ fn grouped(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
         Grouped {
             group: Group::new((speeds[0], speeds[1]), [&at(0), &at(1)]),
             places: places.clone(),
+            sign: definite_sign(places, ends),
         }
     };
     parts.iter().map(of).collect()

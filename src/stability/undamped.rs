@@ -9,11 +9,10 @@ use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
-use crate::tuned::Tuned;
 
 /// Even speeds from which the bands of a chart are searched: the same bands come out of any
 /// number of them.
-pub(super) const SEARCH_SPEEDS: Tuned = Tuned::new("stability/undamped::SEARCH_SPEEDS", 25.0);
+pub(super) const SEARCH_SPEEDS: usize = 9;
 /// Speeds drawn within and beside a band, as shares of its width, besides that of its peak.
 pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
@@ -37,7 +36,7 @@ pub(super) fn charted(
     // A free blade has no bands to search for, and is only held against the Krein index.
     let search = match model.plate.is_axisymmetric() {
         true => from_lowest_critical(model, speeds.clone()),
-        false => search_speeds(model, range, SEARCH_SPEEDS.count()),
+        false => search_speeds(model, range, SEARCH_SPEEDS),
     };
     let (within_bands, closeness, depth) = match detail {
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
@@ -125,8 +124,7 @@ fn critical_gap(critical: &[f64], index: usize) -> f64 {
 /// Relative distance from a critical speed at which an eigenvalue is told from zero by far.
 const CLEAR: f64 = 1e-5;
 
-/// The speeds, and both sides of each group of critical speeds in the range, and the
-/// middle between groups.
+/// The speeds, and both sides of each group of critical speeds in the range.
 pub(super) fn with_critical_speeds(
     model: &SpectralModel,
     range: (f64, f64),
@@ -163,8 +161,7 @@ pub(super) fn with_critical_speeds(
             Some(last) if speed <= last * (1.0 + CRITICAL_GROUP) => {
                 sides.pop();
             }
-            Some(last) => sides.extend([0.5 * (last + below), below]),
-            None => sides.push(below),
+            _ => sides.push(below),
         }
         sides.push(above);
         previous = Some(speed);

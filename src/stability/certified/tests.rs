@@ -45,15 +45,15 @@ fn held_against(
     change: impl Fn(&mut Signature),
 ) -> Certificate {
     let evaluator = SignatureEvaluator::new(&sound.model, &sound.speeds).unwrap();
-    let signatures = evaluator.at_all(&sound.speeds).unwrap();
-    let mut path = Path::search(&evaluator, signatures).unwrap();
-    path.signatures.iter_mut().for_each(change);
+    searched_pieces(&evaluator, &sound.speeds).unwrap();
+    let mut signatures = evaluator.signatures();
+    signatures.iter_mut().for_each(change);
     let full = FullBasis::new(&sound.model).unwrap();
     let checks = Checks {
         evaluator: &evaluator,
         full: &full,
         bands,
-        path: &path,
+        signatures: &signatures,
     };
     checks.certificate(Depth::Proof).unwrap()
 }
@@ -261,29 +261,28 @@ fn cost_of_the_proof() {
 fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
     let full = timed("prepared", || FullBasis::new(model).unwrap());
     let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
-    let path = timed("path", || {
-        Path::search(&evaluator, evaluator.at_all(speeds).unwrap()).unwrap()
-    });
+    timed("pieces", || searched_pieces(&evaluator, speeds).unwrap());
+    let signatures = evaluator.signatures();
     let checks = Checks {
         evaluator: &evaluator,
         full: &full,
         bands,
-        path: &path,
+        signatures: &signatures,
     };
     timed("counts at anchors", || checks.at_anchors().unwrap());
     let extra = timed("extra", || {
         evaluator.at_all(&checks.chosen_speeds()).unwrap()
     });
-    let signatures: Vec<_> = extra.iter().collect();
+    let extra: Vec<_> = extra.iter().collect();
     let height = evaluator.height_rad_per_s();
-    timed("miscounts", || full.miscounts(&signatures, height).unwrap());
+    timed("miscounts", || full.miscounts(&extra, height).unwrap());
     let before = evaluator.certificate().speeds_checked;
     let proof = Proof {
         full: &full,
         evaluator: &evaluator,
         bands,
     };
-    timed("lines", || proof.unproven(&path.signatures).unwrap());
+    timed("lines", || proof.unproven(&signatures).unwrap());
     println!(
         "{} counts in all, {} speeds of the lines",
         full.counted(),

@@ -43,7 +43,7 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
             let (kept, lost) = linked(tips, ends[1].clone(), to);
             (open, tips) = (kept, lost);
         }
-        for Grouped { group, places } in &piece.groups {
+        for Grouped { group, places, .. } in &piece.groups {
             let at_end = |end: usize| {
                 let all = &piece.ends[end].eigenvalues;
                 let own: Vec<Sloped> = places[end].iter().map(|&place| all[place]).collect();
@@ -241,7 +241,7 @@ fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::partition::Sample;
+    use crate::stability::partition::{Plane, Sample};
     use crate::stability::pieces::Search;
 
     /// Curves of eigenvalues in closed form over 0 to 10 rad/s, and how many speeds were asked.
@@ -255,6 +255,7 @@ mod tests {
             Ok(Some(Sample::new(speed, all.filter(|(z, _)| z.im >= 0.0))))
         };
         let search = Search {
+            plane: Plane::Eigenvalues,
             top_rad_per_s: 20.0,
             tolerance: 1e-3,
             growth_tolerance: 0.01,

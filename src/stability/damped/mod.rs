@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::band::Instability;
 use super::certificate::Certificate;
 use super::error::AnalysisError;
+use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
 use crate::campbell::{self, Progress, SpeedSample};
@@ -103,6 +104,7 @@ fn searched(
 ) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
     let solve = |speed: f64| solver.sample(speed, component);
     let search = Search {
+        plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
         tolerance: EIGENVALUE_TOLERANCE,
         growth_tolerance: GROWTH_TOLERANCE,

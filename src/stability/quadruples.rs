@@ -1,0 +1,234 @@
+//! Stretches of speed over which two modes of an undamped blade have coalesced, read off the pieces of a search.
+
+use faer::c64;
+
+use super::partition::{Plane, Sample};
+use super::pieces::{Grouped, Piece};
+
+/// Where a stretch begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bound {
+    /// Two modes coalesce about here.
+    Coalescence {
+        expected_rad_per_s: f64,
+        /// The nearest speed of the search outside the stretch.
+        outside_rad_per_s: f64,
+    },
+    /// The search ends inside it.
+    Range(f64),
+    /// It comes from above the highest frequency, or goes there.
+    Height(f64),
+}
+
+/// A stretch over which a quadruple ±σ ± iω lasts; of its squares (σ + iω)² that with σω > 0.
+#[derive(Debug, Clone)]
+pub struct Stretch<'a> {
+    pub begin: Bound,
+    pub end: Bound,
+    /// Speeds of the search within, and the square at each.
+    pub points: Vec<(f64, c64)>,
+    parts: Vec<Part<'a>>,
+}
+
+/// A stretch within a piece.
+#[derive(Debug, Clone)]
+struct Part<'a> {
+    from_rad_per_s: f64,
+    to_rad_per_s: f64,
+    grouped: &'a Grouped,
+    /// How many squares of the group have a larger imaginary part.
+    rank: usize,
+}
+
+/// Steps in which a part of a stretch is looked at for its fastest growth.
+const STEPS: usize = 16;
+
+impl Stretch<'_> {
+    /// The square at a speed as the pieces tell it.
+    pub fn square(&self, speed_rad_per_s: f64) -> Option<c64> {
+        let covers =
+            |part: &&Part<'_>| (part.from_rad_per_s..=part.to_rad_per_s).contains(&speed_rad_per_s);
+        let part = self.parts.iter().find(covers)?;
+        let mut values = part.grouped.group.at(speed_rad_per_s);
+        values.sort_by(|x, y| y.im.total_cmp(&x.im));
+        let square = values.get(part.rank)?;
+        Some(c64::new(square.re, square.im.max(0.0)))
+    }
+
+    /// The speed of the fastest growth that the pieces tell.
+    pub fn fastest_rad_per_s(&self) -> f64 {
+        let growth = |speed: f64| {
+            let square = self.square(speed);
+            square.map_or(0.0, |square| Plane::Squares.growth_per_s(square))
+        };
+        let speeds = self.parts.iter().flat_map(|part| {
+            let (from, to) = (part.from_rad_per_s, part.to_rad_per_s);
+            let at = |k: usize| from + (to - from) * k as f64 / STEPS as f64;
+            (0..=STEPS).map(at).collect::<Vec<f64>>()
+        });
+        let fastest = speeds.max_by(|x, y| growth(*x).total_cmp(&growth(*y)));
+        fastest.unwrap_or(0.0)
+    }
+}
+
+/// A stretch that is not at its end, and the place of its square in the last sample.
+type Open<'a> = (Stretch<'a>, usize);
+
+/// Every stretch, in the order in which they end.
+pub fn stretches(pieces: &[Piece]) -> Vec<Stretch<'_>> {
+    let mut ended: Vec<Stretch<'_>> = Vec::new();
+    let mut open: Vec<Open<'_>> = Vec::new();
+    if let Some(first) = pieces.first() {
+        let [sample, _] = &first.ends;
+        let of = |place: usize| {
+            let begin = Bound::Range(sample.speed_rad_per_s);
+            (begun(begin, sample, place), place)
+        };
+        open = quadruples_of(sample).map(of).collect();
+    }
+    for piece in pieces {
+        let mut next: Vec<Open<'_>> = Vec::new();
+        if piece.groups.is_empty() {
+            (next, ended) = across_unsettled(piece, open, ended);
+        } else {
+            for grouped in &piece.groups {
+                across(piece, grouped, &mut open, &mut next, &mut ended);
+            }
+            ended.extend(open.into_iter().map(|(stretch, _)| Stretch {
+                end: Bound::Height(piece.ends[0].speed_rad_per_s),
+                ..stretch
+            }));
+        }
+        open = next;
+    }
+    let last = pieces
+        .last()
+        .map_or(0.0, |piece| piece.ends[1].speed_rad_per_s);
+    ended.extend(open.into_iter().map(|(stretch, _)| Stretch {
+        end: Bound::Range(last),
+        ..stretch
+    }));
+    ended
+}
+
+/// Places of the squares with Im z > 0.
+fn quadruples_of(sample: &Sample) -> impl Iterator<Item = usize> {
+    let all = sample.eigenvalues.iter().enumerate();
+    all.filter(|(_, (z, _))| z.im > 0.0).map(|(place, _)| place)
+}
+
+fn coalescence(expected_rad_per_s: f64, outside_rad_per_s: f64) -> Bound {
+    Bound::Coalescence {
+        expected_rad_per_s,
+        outside_rad_per_s,
+    }
+}
+
+fn begun<'a>(begin: Bound, sample: &Sample, place: usize) -> Stretch<'a> {
+    Stretch {
+        begin,
+        end: begin,
+        points: vec![(sample.speed_rad_per_s, sample.eigenvalues[place].0)],
+        parts: Vec::new(),
+    }
+}
+
+/// What the quadruples of a group do over a piece.
+fn across<'a>(
+    piece: &'a Piece,
+    grouped: &'a Grouped,
+    open: &mut Vec<Open<'a>>,
+    next: &mut Vec<Open<'a>>,
+    ended: &mut Vec<Stretch<'a>>,
+) {
+    let [a, b] = piece.ends.each_ref().map(|end| end.speed_rad_per_s);
+    let at_end = |end: usize| {
+        let values = &piece.ends[end].eigenvalues;
+        let mut places = grouped.places[end].clone();
+        places.retain(|&place| values[place].0.im > 0.0);
+        places.sort_by(|&x, &y| values[y].0.im.total_cmp(&values[x].0.im));
+        places.into_iter()
+    };
+    let (mut firsts, mut lasts) = (at_end(0), at_end(1));
+    for (rank, (first_share, last_share)) in group_stretches(grouped) {
+        let speed = |share: f64| if share < 1.0 { a + share * (b - a) } else { b };
+        let (from_rad_per_s, to_rad_per_s) = (speed(first_share), speed(last_share));
+        let first = (first_share == 0.0).then(|| firsts.next()).flatten();
+        let mut stretch = match first {
+            Some(place) => {
+                taken(open, place).unwrap_or_else(|| begun(Bound::Height(a), &piece.ends[0], place))
+            }
+            None => Stretch {
+                begin: coalescence(from_rad_per_s, a),
+                end: coalescence(to_rad_per_s, b),
+                points: Vec::new(),
+                parts: Vec::new(),
+            },
+        };
+        stretch.parts.push(Part {
+            from_rad_per_s,
+            to_rad_per_s,
+            grouped,
+            rank,
+        });
+        let last = (last_share == 1.0).then(|| lasts.next()).flatten();
+        if let Some(place) = last {
+            stretch.points.push((b, piece.ends[1].eigenvalues[place].0));
+            next.push((stretch, place));
+        } else {
+            stretch.end = coalescence(to_rad_per_s, b);
+            ended.push(stretch);
+        }
+    }
+    // Next to a coalescence a sample may have coalesced where the group, which is not exact, has not.
+    ended.extend(firsts.filter_map(|place| {
+        let end = coalescence(a, b);
+        taken(open, place).map(|stretch| Stretch { end, ..stretch })
+    }));
+    next.extend(lasts.map(|place| (begun(coalescence(b, a), &piece.ends[1], place), place)));
+}
+
+/// The stretches of a group, each with the rank of its square.
+fn group_stretches(grouped: &Grouped) -> impl Iterator<Item = (usize, (f64, f64))> {
+    let by_rank = grouped.group.complex_stretches().into_iter().enumerate();
+    by_rank.flat_map(|(rank, all)| all.into_iter().map(move |stretch| (rank, stretch)))
+}
+
+/// The open stretch of which the square has a place in the last sample.
+fn taken<'a>(open: &mut Vec<Open<'a>>, place: usize) -> Option<Stretch<'a>> {
+    let known = open.iter().position(|(_, at)| *at == place)?;
+    Some(open.swap_remove(known).0)
+}
+
+/// Quadruples on both sides of a piece that no number of speeds settled, linked to the nearest; the others end or begin
+/// in its middle.
+fn across_unsettled<'a>(
+    piece: &'a Piece,
+    open: Vec<Open<'a>>,
+    mut ended: Vec<Stretch<'a>>,
+) -> (Vec<Open<'a>>, Vec<Stretch<'a>>) {
+    let [from, to] = &piece.ends;
+    let [a, b] = piece.ends.each_ref().map(|end| end.speed_rad_per_s);
+    let middle = 0.5 * (a + b);
+    let mut left: Vec<usize> = quadruples_of(to).collect();
+    let mut next = Vec::new();
+    for (mut stretch, place) in open {
+        let away = |other: usize| (to.eigenvalues[other].0 - from.eigenvalues[place].0).norm();
+        let nearest = (0..left.len()).min_by(|&x, &y| away(left[x]).total_cmp(&away(left[y])));
+        if let Some(nearest) = nearest {
+            let place = left.swap_remove(nearest);
+            stretch
+                .points
+                .push((to.speed_rad_per_s, to.eigenvalues[place].0));
+            next.push((stretch, place));
+        } else {
+            stretch.end = coalescence(middle, b);
+            ended.push(stretch);
+        }
+    }
+    next.extend(
+        left.into_iter()
+            .map(|place| (begun(coalescence(middle, a), to, place), place)),
+    );
+    (next, ended)
+}
