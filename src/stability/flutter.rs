@@ -20,6 +20,8 @@ const BESIDE_END: Tuned = Tuned::new("stability/flutter::BESIDE_END", 1e-3);
 const INSIDE: f64 = 0.02;
 /// An end that is found further than this share of the way from what the pieces say is another's.
 const SAME_END: f64 = 0.1;
+/// One that is found nearer than this share of the way is certain.
+const CERTAIN_END: f64 = 0.01;
 
 /// A quadruple followed over speed.
 #[derive(Debug, Clone)]
@@ -172,26 +174,27 @@ impl Quadruple {
             Bound::Height(speed) => return Ok(End::Unknown(speed)),
         };
         let way = (expected - inside).abs();
-        let is_same = |edge: &Edge| {
-            (edge.speed_rad_per_s - expected).abs() <= SAME_END * way + VICINITY.get() * expected
+        let off = |edge: &Edge| (edge.speed_rad_per_s - expected).abs();
+        let followed = |start: f64, mode: &SignedMode| -> Result<Option<Edge>, SpectrumError> {
+            let pair = PairContinuation::of_quadruple(evaluator, start, mode)?;
+            let edge = pair.and_then(|pair| pair.edge(outside));
+            Ok(edge.filter(|edge| off(edge) <= SAME_END * way + VICINITY.get() * expected))
         };
-        let pair = PairContinuation::of_quadruple(evaluator, inside, &mode)?;
-        let followed = pair.and_then(|pair| pair.edge(outside)).filter(is_same);
-        if let Some(edge) = followed {
+        let from_inside = followed(inside, &mode)?;
+        if let Some(edge) = from_inside.filter(|edge| off(edge) <= CERTAIN_END * way) {
             return Ok(End::Edge(edge));
         }
+        // On a long way the pair may be taken for another that ends next to it.
         let beside = expected + INSIDE * (inside - expected);
-        let square = stretch.square(beside);
-        let near = match square {
+        let near = match stretch.square(beside) {
             Some(square) => evaluator
                 .quadruple(beside, square.sqrt())?
                 .filter(|mode| is_expected(mode, square)),
             None => None,
         };
-        let (start, mode) = near.map_or((inside, mode), |near| (beside, near));
-        let pair = PairContinuation::of_quadruple(evaluator, start, &mode)?;
-        let followed = pair.and_then(|pair| pair.edge(outside)).filter(is_same);
-        if let Some(edge) = followed {
+        let from_beside = near.map_or(Ok(None), |near| followed(beside, &near))?;
+        let both = [from_beside, from_inside].into_iter().flatten();
+        if let Some(edge) = both.min_by(|x, y| off(x).total_cmp(&off(y))) {
             return Ok(End::Edge(edge));
         }
         let Some(square) = stretch.square(expected) else {
