@@ -6,7 +6,8 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
-use super::vectors::real_times;
+use super::companion::time_scale;
+use super::vectors::{real_times, unit};
 
 /// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
 pub fn with_speed(
@@ -18,6 +19,107 @@ pub fn with_speed(
     let change = speed_slope(system, speed_rad_per_s, lambda, x);
     along(system, speed_rad_per_s, (lambda, x), &change)
 }
+
+/// dλ/dΩ of every eigenvalue at once, from all eigenpairs of Im λ ≥ 0. `None` where they do not span the states (q, λq): two
+/// of them have coalesced, or rigid motions are left out.
+///
+/// Of the matrix X of all states the rows of X⁻¹ are the left vectors.
+pub fn of_all_with_speed(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    pairs: &[(c64, &Col<c64>)],
+) -> Option<Vec<c64>> {
+    let order = system.order();
+    let width = |lambda: c64| if lambda.im > 0.0 { 2 } else { 1 };
+    let count: usize = pairs.iter().map(|(lambda, _)| width(*lambda)).sum();
+    let scale = time_scale(&system.stiffness);
+    if count != 2 * order {
+        return None;
+    }
+    let (mut states, mut changes) = (Mat::zeros(count, count), Mat::zeros(count, count));
+    let mut column = 0;
+    for (lambda, x) in pairs {
+        let change = speed_slope(system, speed_rad_per_s, *lambda, x);
+        let is_pair = lambda.im > 0.0;
+        let set = |matrix: &mut Mat<f64>, row: usize, z: c64| {
+            matrix[(row, column)] = z.re;
+            if is_pair {
+                matrix[(row, column + 1)] = z.im;
+            }
+        };
+        for i in 0..order {
+            set(&mut states, i, x[i]);
+            set(&mut states, order + i, lambda * x[i] / scale);
+            set(&mut changes, order + i, -change[i] / scale);
+        }
+        column += width(*lambda);
+    }
+    let slopes = states.partial_piv_lu().solve(changes);
+    let mut column = 0;
+    let all = pairs.iter().map(|(lambda, _)| {
+        let k = column;
+        column += width(*lambda);
+        if lambda.im > 0.0 {
+            // Of the rows a and b of X⁻¹ the left vector of re + i·im is (a − ib)/2.
+            let re = slopes[(k, k)] + slopes[(k + 1, k + 1)];
+            c64::new(re, slopes[(k, k + 1)] - slopes[(k + 1, k)]) * 0.5
+        } else {
+            c64::new(slopes[(k, k)], 0.0)
+        }
+    });
+    let all: Vec<c64> = all.collect();
+    all.iter().all(|slope| slope.is_finite()).then_some(all)
+}
+
+/// The eigenvalue next to an expected one and its slope, by Newton's method with the right and the left vector,
+/// λ ← λ − yᴴL(λ)x / yᴴL′(λ)x. `None` where it does not converge.
+pub fn next_to(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    expected: c64,
+) -> Option<(c64, c64)> {
+    let (stiffness, velocity) = (
+        system.stiffness_at(speed_rad_per_s),
+        system.velocity_at(speed_rad_per_s),
+    );
+    // No vector of a blade is orthogonal to such a one.
+    let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
+    let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
+    for step in 0..NEWTON_STEPS {
+        let factors = dynamic_stiffness(&stiffness, &velocity, beside(lambda)).partial_piv_lu();
+        let turned = velocity.transpose().to_owned();
+        for _ in 0..if step == 0 { FIRST_ITERATIONS } else { 1 } {
+            let right: Col<c64> = factors.solve(with_lambda(&velocity, lambda, &x));
+            let left: Col<c64> = factors.solve_adjoint(with_lambda(&turned, lambda.conj(), &y));
+            (x, y) = (unit(right.as_ref()), unit(left.as_ref()));
+        }
+        let residual = Scale(lambda * lambda) * &x
+            + Scale(lambda) * real_times(&velocity, &x)
+            + real_times(&stiffness, &x);
+        let change = -(y.adjoint() * residual) / (y.adjoint() * with_lambda(&velocity, lambda, &x));
+        lambda += change;
+        if !lambda.is_finite() {
+            return None;
+        }
+        if change.norm() <= NEWTON_TOLERANCE * lambda.norm() {
+            if expected.im == 0.0 {
+                lambda.im = 0.0;
+            }
+            let changed = speed_slope(system, speed_rad_per_s, lambda, &x);
+            let inertia = with_lambda(&velocity, lambda, &x);
+            let slope = -(y.adjoint() * changed) / (y.adjoint() * inertia);
+            return slope.is_finite().then_some((lambda, slope));
+        }
+    }
+    None
+}
+
+/// Steps of Newton's method at most: the correction is cubed by each.
+const NEWTON_STEPS: usize = 6;
+/// A last correction of this share leaves nothing but rounding.
+const NEWTON_TOLERANCE: f64 = 1e-9;
+/// Inverse iterations from a vector that knows nothing of the mode.
+const FIRST_ITERATIONS: usize = 4;
 
 /// dλ for a small change of the matrices.
 pub fn with_change(
@@ -104,9 +206,7 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
     }
     let stiffness = system.stiffness_at(speed);
     let velocity = system.velocity_at(speed);
-    // A hair off the eigenvalue, so that L is not singular to the last bit.
-    let shifted = lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0);
-    let factors = dynamic_stiffness(&stiffness, &velocity, shifted).partial_piv_lu();
+    let factors = dynamic_stiffness(&stiffness, &velocity, beside(lambda)).partial_piv_lu();
     let mut y = x.clone();
     for _ in 0..3 {
         let solved: Col<c64> = factors.solve_adjoint(&y);
@@ -117,4 +217,9 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
         y = Scale(c64::new(1.0 / norm, 0.0)) * solved;
     }
     y
+}
+
+/// A hair off an eigenvalue, so that L is not singular to the last bit.
+fn beside(lambda: c64) -> c64 {
+    lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0)
 }

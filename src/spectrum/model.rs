@@ -19,7 +19,7 @@ use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction;
 use super::inertia::WholeBasis;
-use super::mode::{Mode, ModeKind, classify, is_seen};
+use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::reflected::ReflectedModel;
@@ -297,6 +297,34 @@ impl SpectralModel {
     pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
         let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
+    }
+
+    /// dλ/dΩ of every mode of one component at a speed.
+    pub(crate) fn eigenvalue_slopes(
+        &self,
+        component: usize,
+        speed_rad_per_s: f64,
+        modes: &[Mode],
+    ) -> Vec<c64> {
+        let system = &self.components[component].at(speed_rad_per_s).reduced;
+        let all = derivative::of_all_with_speed(system, speed_rad_per_s, &pairs_of(modes));
+        all.unwrap_or_else(|| {
+            let modes = modes.iter();
+            let slopes = modes.map(|mode| self.eigenvalue_slope(speed_rad_per_s, mode));
+            slopes.collect()
+        })
+    }
+
+    /// The eigenvalue of a component next to an expected one, and dλ/dΩ, without an eigenproblem. `None` where none is found.
+    pub(crate) fn eigenvalue_next_to(
+        &self,
+        component: usize,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<(c64, c64)> {
+        let system = &self.components[component].at(speed_rad_per_s).reduced;
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        derivative::next_to(system, speed_rad_per_s, expected)
     }
 
     /// What rounding may change a frequency at rest by, relative to it: a backward stable

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::spectrum::{Mode, ModeKind, SpectralModel, SpectrumError};
+use crate::spectrum::{ModeKind, SpectralModel, SpectrumError};
 use crate::stability::partition::Sample;
 use crate::stability::pieces::Piece;
 
@@ -15,6 +15,9 @@ const MOST_SPECTRA: usize = 12_000;
 
 /// Modes above the highest frequency that is sound among which a search finds a gap to end in.
 const BESIDES: usize = 8;
+
+/// An eigenvalue further than this share of itself from what the pieces say may be another one.
+const SAME: f64 = 1e-5;
 
 /// An eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy)]
@@ -51,12 +54,12 @@ impl<'a> Solver<'a> {
 
     /// The eigenvalues of a speed.
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
-        let modes = self.modes(speed)?;
-        let values = modes.iter().map(|mode| self.eigenvalue(speed, mode));
-        Ok(Spectrum {
-            speed,
-            values: values.collect(),
-        })
+        let mut values = Vec::new();
+        for component in 0..self.model.components.len() {
+            values.extend(self.eigenvalues(speed, component)?);
+        }
+        values.retain(|value| value.lambda.im <= self.highest());
+        Ok(Spectrum { speed, values })
     }
 
     /// The spectra of a search on the one component of a saw.
@@ -83,15 +86,11 @@ impl<'a> Solver<'a> {
         if self.is_exhausted() {
             return Ok(None);
         }
-        let mut modes = self.modes_of(speed, component)?;
-        let is_followed = |mode: &Mode| mode.lambda.im <= self.highest();
-        let followed = modes.iter().filter(|mode| is_followed(mode)).count();
-        modes.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
-        modes.truncate(followed + BESIDES);
-        let sloped = modes.iter().map(|mode| {
-            let found = self.eigenvalue(speed, mode);
-            (found.lambda, found.slope)
-        });
+        let mut values = self.eigenvalues(speed, component)?;
+        values.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+        let followed = values.partition_point(|value| value.lambda.im <= self.highest());
+        values.truncate(followed + BESIDES);
+        let sloped = values.iter().map(|value| (value.lambda, value.slope));
         Ok(Some(Sample::new(speed, sloped)))
     }
 
@@ -102,36 +101,39 @@ impl<'a> Solver<'a> {
         component: usize,
         expected: c64,
     ) -> Result<Option<Eigenvalue>, SpectrumError> {
-        let modes = self.modes_of(speed, component)?;
-        let distance = |m: &&Mode| (m.lambda - expected).norm();
-        let nearest = modes
-            .iter()
-            .min_by(|x, y| distance(x).total_cmp(&distance(y)));
-        Ok(nearest.map(|mode| self.eigenvalue(speed, mode)))
-    }
-
-    fn modes_of(&self, speed: f64, component: usize) -> Result<Vec<Mode>, SpectrumError> {
-        self.spent.fetch_add(1, Ordering::Relaxed);
-        let mut modes = self.model.modes_of(component, speed)?;
-        modes.retain(|m| m.kind != ModeKind::Rigid);
-        Ok(modes)
-    }
-
-    fn modes(&self, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
-        self.spent.fetch_add(1, Ordering::Relaxed);
-        let mut modes = self.model.all_modes(speed)?;
-        modes.retain(|m| m.kind != ModeKind::Rigid && m.lambda.im <= self.highest());
-        Ok(modes)
-    }
-
-    fn eigenvalue(&self, speed: f64, mode: &Mode) -> Eigenvalue {
-        let slope = self.model.eigenvalue_slope(speed, mode);
-        let is_finite = slope.re.is_finite() && slope.im.is_finite();
-        Eigenvalue {
-            lambda: mode.lambda,
-            // Where two eigenvalues meet.
-            slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
+        let found = self.model.eigenvalue_next_to(component, speed, expected);
+        let is_same = |lambda: c64| (lambda - expected).norm() <= SAME * expected.norm();
+        if let Some((lambda, slope)) = found.filter(|(lambda, _)| is_same(*lambda)) {
+            return Ok(Some(Eigenvalue { lambda, slope }));
         }
+        let values = self.eigenvalues(speed, component)?;
+        let distance = |value: &Eigenvalue| (value.lambda - expected).norm();
+        let nearest = values
+            .into_iter()
+            .min_by(|x, y| distance(x).total_cmp(&distance(y)));
+        Ok(nearest)
+    }
+
+    /// Those of a component but for its rigid motions.
+    fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Eigenvalue>, SpectrumError> {
+        self.spent.fetch_add(1, Ordering::Relaxed);
+        let modes = self.model.modes_of(component, speed)?;
+        let slopes = self.model.eigenvalue_slopes(component, speed, &modes);
+        let is_finite = |slope: c64| slope.re.is_finite() && slope.im.is_finite();
+        let values = modes
+            .iter()
+            .zip(slopes)
+            .filter(|(mode, _)| mode.kind != ModeKind::Rigid)
+            .map(|(mode, slope)| Eigenvalue {
+                lambda: mode.lambda,
+                // Where two eigenvalues meet.
+                slope: if is_finite(slope) {
+                    slope
+                } else {
+                    c64::new(0.0, 0.0)
+                },
+            });
+        Ok(values.collect())
     }
 
     /// Frequency up to which eigenvalues are complete and accurate.
