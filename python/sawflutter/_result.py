@@ -9,21 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import _native
+from ._drawn import Drawn
 from ._entry import Entry
 from ._view import html
 from .errors import InputError, ModelWarning
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from plotly.graph_objects import Figure
-
-    from .plot.chart import Chart
     from .scene import Scene
 
 R = TypeVar("R", bound="Result")
 
 
-class Result(Entry):
+class Result(Drawn, Entry):
     """Base of all results. A result is made of the JSON that the program writes and keeps it word
     for word: :meth:`save` writes the same bytes as the program does.
     """
@@ -122,28 +119,6 @@ class Result(Entry):
             One of :attr:`figure_names`, PNG or SVG.
         """
         return _native.picture(name, self._text)
-
-    def chart(self) -> Chart:
-        """What :meth:`plot` and :meth:`plot_matplotlib` draw: lines, points and bands as numbers."""
-        raise NotImplementedError
-
-    def plot(self) -> Figure:
-        """A plotly figure."""
-        from .plot import with_plotly
-
-        return with_plotly.draw(self.chart())
-
-    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """A matplotlib figure; its upper or only axes.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Axes to draw the upper panel into; without them, a figure with all panels is begun.
-        """
-        from .plot import with_matplotlib
-
-        return with_matplotlib.draw(self.chart(), ax)
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):

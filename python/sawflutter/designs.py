@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from ._drawn import Drawn
 from ._extras import extra
 from ._report_types import FitReport, PlaceReport, Setting, StudyReport
 from ._result import Result
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
+    from typing_extensions import Unpack
 
+    from ._drawn import Look
     from .plot.chart import Chart
 
 
@@ -193,22 +196,60 @@ class StudyResults(Result, StudyReport):
         return grid(self, rows, (paths[0], paths[1]), speed)
 
     def plot_map(
-        self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
+        self,
+        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
+        fig: Figure | None = None,
+        **look: Unpack[Look],
     ) -> Figure:
-        """:meth:`map_chart` as a plotly figure."""
-        from .plot import with_plotly
+        """Draws :meth:`map_chart` with plotly.
 
-        return with_plotly.draw(self.map_chart(speed))
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which, as in :meth:`map_chart`.
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+        """
+        return self.map_chart(speed).plot(fig, **look)
 
     def plot_map_matplotlib(
         self,
         speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
         ax: Axes | None = None,
+        **look: Unpack[Look],
     ) -> Axes:
-        """:meth:`map_chart` with matplotlib; its axes."""
-        from .plot import with_matplotlib
+        """Draws :meth:`map_chart` with matplotlib.
 
-        return with_matplotlib.draw(self.map_chart(speed), ax)
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which, as in :meth:`map_chart`.
+        ax : Axes, optional
+            Axes to draw into; by default those of a new figure.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+        """
+        return self.map_chart(speed).plot_matplotlib(ax, **look)
 
     def chart(self) -> Chart:
         """Shares of the saws below a speed, and those that can be run at one."""
@@ -224,7 +265,7 @@ class StudyResults(Result, StudyReport):
         return f"{self.all.saws} saws{said}{kept}"
 
 
-class TradeoffResults:
+class TradeoffResults(Drawn):
     """Computing time against true error, for bases of several sizes."""
 
     def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
@@ -255,18 +296,6 @@ class TradeoffResults:
         from .plot.design import tradeoff
 
         return tradeoff(self.settings, self.name)
-
-    def plot(self) -> Figure:
-        """A plotly figure."""
-        from .plot import with_plotly
-
-        return with_plotly.draw(self.chart())
-
-    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """A matplotlib figure; its axes."""
-        from .plot import with_matplotlib
-
-        return with_matplotlib.draw(self.chart(), ax)
 
     def __eq__(self, other: object) -> bool:
         return self._text == other._text if isinstance(other, TradeoffResults) else NotImplemented

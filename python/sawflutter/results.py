@@ -33,7 +33,9 @@ from .errors import InputError
 if TYPE_CHECKING:
     import pandas as pd
     from plotly.graph_objects import Figure
+    from typing_extensions import Unpack
 
+    from ._drawn import Look
     from .plot.chart import Chart
 
 Table: TypeAlias = Literal["branches", "modes_at_rest", "critical_speeds", "bands"]
@@ -136,11 +138,30 @@ class CampbellResults(Result, CampbellReport):
 
         return root_loci(self)
 
-    def plot_root_loci(self) -> Figure:
-        """The two modes that meet at the flutter speed, in the complex plane: a plotly figure."""
-        from .plot import with_plotly
+    def plot_root_loci(
+        self, fig: Figure | None = None, **look: Unpack[Look]
+    ) -> Figure:
+        """Draws :meth:`root_loci_chart` with plotly.
 
-        return with_plotly.draw(self.root_loci_chart())
+        Parameters
+        ----------
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.plot_root_loci(frequency_units="rad/s").layout.yaxis.title.text
+        'Im λ [rad/s]'
+        """
+        return self.root_loci_chart().plot(fig, **look)
 
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
@@ -230,11 +251,32 @@ class CutResults(Result, CutReport):
 
         return cut_map(self, run)
 
-    def plot_map(self, run: int = 0) -> Figure:
-        """Growth over guide angle and load: a plotly figure."""
-        from .plot import with_plotly
+    def plot_map(
+        self, run: int = 0, fig: Figure | None = None, **look: Unpack[Look]
+    ) -> Figure:
+        """Draws :meth:`map_chart` with plotly.
 
-        return with_plotly.draw(self.map_chart(run))
+        Parameters
+        ----------
+        run : int
+            Which of :attr:`runs`, counted from 0.
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
+        >>> cut.plot_map().layout.yaxis.title.text
+        'multiple of the forces'
+        """
+        return self.map_chart(run).plot(fig, **look)
 
     def _facts(self) -> str:
         return ", ".join(
@@ -274,11 +316,30 @@ class RunUpResults(Result, RunUpReport):
 
         return response(self)
 
-    def plot_response(self) -> Figure:
-        """Deflection per newton over speed and frequency: a plotly figure."""
-        from .plot import with_plotly
+    def plot_response(
+        self, fig: Figure | None = None, **look: Unpack[Look]
+    ) -> Figure:
+        """Draws :meth:`response_chart` with plotly.
 
-        return with_plotly.draw(self.response_chart())
+        Parameters
+        ----------
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> up.plot_response(harmonics=[1]).layout.xaxis.title.text
+        'rotation speed Ω [rpm]'
+        """
+        return self.response_chart().plot(fig, **look)
 
     def _facts(self) -> str:
         last = self.rpm[-1]

@@ -272,21 +272,61 @@ class Scene(Questions, Mapping[str, Any]):
             return self.replace({"tolerance": tolerance})
         return self
 
-    def plot_saw(self) -> Figure:
-        """The saw seen along its axis, as a plotly figure: blade, guides, cut, probe, and which way
-        the rotation and angles are positive."""
-        from .plot import with_plotly
+    def plot_saw(self, fig: Figure | None = None) -> Figure:
+        """Draws the saw seen along its axis with plotly: blade, guides, cut, probe, and which way
+        the rotation and angles are positive.
 
-        return with_plotly.draw(self.chart())
+        Parameters
+        ----------
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> figure = sf.Scene.paper().plot_saw()
+        >>> [trace.name for trace in figure.data][:3]
+        ['rim', 'bore', 'guides[0]']
+        """
+        return self.chart().plot(fig)
 
     def plot_saw_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """The same with matplotlib; its axes."""
-        from .plot import with_matplotlib
+        """Draws the same as :meth:`plot_saw` with matplotlib.
 
-        return with_matplotlib.draw(self.chart(), ax)
+        Parameters
+        ----------
+        ax : Axes, optional
+            Axes to draw into; by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Scene.paper().plot_saw_matplotlib().get_ylabel()
+        'y [m]'
+        """
+        return self.chart().plot_matplotlib(ax)
 
     def chart(self) -> Chart:
-        """What :meth:`plot_saw` draws."""
+        """What :meth:`plot_saw` draws, as numbers.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> len(sf.Scene.paper().chart().panels)
+        1
+        """
         from .plot.saw import saw
 
         return saw(self)

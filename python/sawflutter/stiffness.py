@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._drawn import Drawn
 from ._entry import Entry, FloatArray
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from plotly.graph_objects import Figure
-
     from .plot.chart import Chart
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StiffnessMap(Entry):
+class StiffnessMap(Drawn, Entry):
     """Critical speeds of a saw whose guides are more or less stiff, as rotor dynamics shows them
     over the stiffness of bearings. :meth:`sawflutter.Scene.run_stiffness_map` makes it."""
 
@@ -38,18 +36,6 @@ class StiffnessMap(Entry):
         from .plot.design import stiffness
 
         return stiffness(self)
-
-    def plot(self) -> Figure:
-        """A plotly figure."""
-        from .plot import with_plotly
-
-        return with_plotly.draw(self.chart())
-
-    def plot_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """A matplotlib figure; its axes."""
-        from .plot import with_matplotlib
-
-        return with_matplotlib.draw(self.chart(), ax)
 
 
 def rows(values: list[FloatArray]) -> FloatArray:

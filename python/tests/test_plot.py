@@ -244,3 +244,62 @@ def test_bands_are_drawn_in_full_and_limits_by_name(
     assert list(check.plot().layout.yaxis.ticktext) == names
     labels = check.plot_matplotlib().get_yticklabels()
     assert [label.get_text() for label in labels] == names
+
+
+def test_units_change_numbers_and_names_together(report: sf.CampbellResults) -> None:
+    """An angular frequency is 2π times a frequency, and a turn a second is 60 rpm."""
+    plain = report.plot()
+    radians = report.plot(speed_units="Hz", frequency_units="rad/s")
+    assert radians.layout.yaxis.title.text == "Im λ [rad/s]"
+    assert radians.layout.xaxis2.title.text == "rotation speed Ω [Hz]"
+    assert len(plain.data) == len(radians.data)
+    upper = [(a, b) for a, b in zip(plain.data, radians.data) if a.yaxis == "y"]
+    for before, after in upper:
+        assert np.allclose(after.x, before.x / 60.0, equal_nan=True)
+        assert np.allclose(after.y, 2.0 * np.pi * before.y, equal_nan=True)
+    # Growth rates are no frequencies.
+    for before, after in zip(plain.data, radians.data):
+        if before.yaxis == "y2":
+            assert np.array_equal(after.y, before.y, equal_nan=True)
+    for before, after in zip(plain.layout.shapes, radians.layout.shapes):
+        assert after.x0 == pytest.approx(before.x0 / 60.0)
+    axes = report.plot_matplotlib(frequency_units="rad/s")
+    assert axes.get_ylim() == pytest.approx(radians.layout.yaxis.range)
+    with pytest.raises(ValueError, match="speed_units.*'rpm', 'Hz', 'rad/s'"):
+        report.plot(speed_units="rps")  # type: ignore[arg-type]
+
+
+def test_harmonics_are_multiples_of_the_speed(draft: sf.Scene, report: sf.CampbellResults) -> None:
+    scene = draft.replace({"excitation": {"orders": 2}}).run_campbell()
+    for figure in (report.plot(harmonics=[1, 2.5]), draft.run_up().plot_response(harmonics=[1])):
+        (line,) = (trace for trace in figure.data if trace.name == "1× speed")
+        assert line.y == pytest.approx(line.x / 60.0) and line.line.dash == "dash"
+    own = next(line for line in scene.plot(harmonics=[3]).data if line.name == "3× speed")
+    top = scene.plot().layout.yaxis.range[1]
+    assert own.y == pytest.approx(3.0 * own.x / 60.0) and max(own.y) <= top * (1.0 + 1e-12)
+    labels = [line.get_label() for line in report.plot_matplotlib(harmonics=[4]).lines]
+    assert "4× speed" in labels
+    with pytest.raises(ValueError, match="does not show"):
+        draft.check().plot(harmonics=[1])
+    with pytest.raises(ValueError, match="positive"):
+        report.plot(harmonics=[0])
+
+
+def test_figures_and_axes_of_ones_own_are_drawn_into(
+    draft: sf.Scene, report: sf.CampbellResults
+) -> None:
+    import plotly.graph_objects as go
+    from plotly.subplots import make_subplots
+
+    plain = go.Figure(layout={"title": {"text": "mine"}})
+    assert report.plot(plain) is plain and plain.layout.title.text == "mine"
+    assert {trace.yaxis for trace in plain.data} <= {None, "y"}
+    rows = make_subplots(rows=2, cols=1)
+    assert len(report.plot(rows).data) == len(report.plot().data) > len(plain.data)
+    before = len(rows.data)
+    draft.replace({"guides": []}).run_campbell().plot(rows)
+    assert len(rows.data) > before
+    figure, own = plt.subplots(2, 1)
+    assert report.plot_matplotlib(own) is own[0]
+    assert own[1].get_ylabel().startswith("Re λ") and len(plt.get_fignums()) == 1
+    assert draft.plot_saw(go.Figure()).data and figure.axes

@@ -26,6 +26,7 @@ def campbell(r: CampbellReport, facts: str) -> Chart:
         x_range=speeds,
         y_range=(0.0, highest_shown_hz(r)),
         share=2.0,
+        harmonics=True,
     )
     growth, range_per_s = _growth(r)
     lower = Panel(

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from .. import _native
+from .._drawn import Drawn
 from .._entry import FloatArray
 
 # Width of curves and of the stretches that matter most, in the units of the program's figures.
@@ -130,19 +131,38 @@ class Panel:
     title: str = ""
     equal: bool = False
     """Whether a metre is as long on both axes."""
+    harmonics: bool = False
+    """Whether it shows frequencies over the rotation speed, so that its multiples are lines."""
 
 
 @dataclass(frozen=True)
-class Chart:
+class Chart(Drawn):
     """Panels one above the other, the x axis shared where they name it alike."""
 
     title: str
     facts: str
     panels: Sequence[Panel] = field(default_factory=tuple)
 
+    def chart(self) -> Chart:
+        """Itself.
+
+        Returns
+        -------
+        Chart
+        """
+        return self
+
     def lines(self) -> list[str]:
         """The facts in lines that a figure has room for."""
         return textwrap.wrap(self.facts, FACTS)
+
+    def shown(self) -> Sequence[Panel]:
+        """The panels, or an empty one where there are none."""
+        return self.panels or (Panel("", "", ()),)
+
+    def together(self) -> bool:
+        """Whether the panels share their x axis."""
+        return len({panel.x_name for panel in self.shown()}) == 1
 
 
 def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:

@@ -101,7 +101,7 @@ def fit(r: FitReport, facts: str) -> Chart:
         ),
     ]
     name = "rotation speed Ω [rpm]"
-    upper = Panel(name, "frequency [Hz]", items, share=2.0)
+    upper = Panel(name, "frequency [Hz]", items, share=2.0, harmonics=True)
     return Chart(r.scene["name"], facts, (upper, Panel(name, "computed − measured [Hz]", left)))
 
 

@@ -107,7 +107,6 @@ def response(r: RunUpReport) -> Chart:
         speed = np.full(len(below), row["rpm"])
         items.append(Points(speed, below, colours()["ink"], hollow=True))
     speeds = (float(of.rpm[0]), float(of.rpm[-1]))
-    panel = Panel(
-        "rotation speed Ω [rpm]", "frequency of the force [Hz]", items, speeds, (0.0, limit)
-    )
+    y_name, limits = "frequency of the force [Hz]", (0.0, limit)
+    panel = Panel("rotation speed Ω [rpm]", y_name, items, speeds, limits, harmonics=True)
     return Chart(r.scene["name"], "deflection at the probe per newton", (panel,))

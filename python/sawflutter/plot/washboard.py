@@ -31,6 +31,6 @@ def lobes(r: WashboardReport, facts: str) -> Chart:
     speed = "rotation speed Ω [rpm]"
     panels = (
         Panel(speed, "cutting stiffness [N/m]", boundary, speeds, y_log=True),
-        Panel(speed, "frequency [Hz]", [*teeth, onset], speeds),
+        Panel(speed, "frequency [Hz]", [*teeth, onset], speeds, harmonics=True),
     )
     return Chart(r.scene["name"], facts, panels)

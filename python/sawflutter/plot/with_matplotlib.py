@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .._extras import extra
-from .chart import (
-    Bars,
-    Chart,
-    Heat,
-    Item,
-    Panel,
-    Points,
-    Shade,
-    Upright,
-    colours,
-    end_labels,
-    root_ticks,
-)
+from .chart import Bars, Chart, Heat, Item, Panel, Points, Shade, Upright, colours
+from .chart import end_labels, root_ticks
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,17 +20,17 @@ WIDTH_INCHES = 10.0
 FONTS = ["Inter", "Helvetica", "Arial", "DejaVu Sans"]
 
 
-def draw(chart: Chart, ax: Axes | None = None) -> Axes:
-    """Draws the panels of a chart into a new figure, or the first into axes that are there."""
+def draw(chart: Chart, ax: Axes | Sequence[Axes] | None = None) -> Axes:
+    """Draws the panels of a chart into a new figure, or into axes that are there."""
     if ax is not None:
-        for panel in chart.panels[:1]:
-            _panel(ax, panel, last=True)
-        return ax
+        into: list[Axes] = np.ravel(np.asarray(ax, object)).tolist()
+        for own, panel in zip(into, chart.panels):
+            _panel(own, panel, last=True)
+        return into[0]
     with extra("plot"):
         import matplotlib.pyplot as plt
 
-    panels = chart.panels or (Panel("", "", ()),)
-    together = len({panel.x_name for panel in panels}) == 1
+    panels, together = chart.shown(), chart.together()
     figure, axes = plt.subplots(
         len(panels),
         1,

@@ -7,49 +7,52 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._extras import extra
-from .chart import (
-    Bars,
-    Chart,
-    Heat,
-    Item,
-    Line,
-    Panel,
-    Points,
-    Shade,
-    Upright,
-    colours,
-    end_labels,
-    root_ticks,
-)
+from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import end_labels, root_ticks
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
 
-def draw(chart: Chart) -> Figure:
-    """A figure with the panels of a chart, one above the other."""
+def draw(chart: Chart, fig: Figure | None = None) -> Figure:
+    """A figure with the panels of a chart, one above the other, or a given one with as many of them
+    as it has rows."""
+    if fig is None:
+        return _laid_out(chart)
+    rows = _rows(fig)
+    panels = chart.panels[: max(rows, 1)]
+    for row, panel in enumerate(panels, start=1):
+        at = {"row": row, "col": 1} if rows else {}
+        _panel(fig, panel, at, last=row == len(panels))
+    return fig
+
+
+def _rows(fig: Figure) -> int:
+    """Rows of a figure of ``make_subplots``; none where it was made without."""
+    rows = 0
+    try:
+        while fig.get_subplot(rows + 1, 1) is not None:
+            rows += 1
+    except Exception:  # noqa: BLE001 plotly raises nothing narrower
+        pass
+    return rows
+
+
+def _laid_out(chart: Chart) -> Figure:
     with extra("plot"):
-        import plotly.graph_objects as go
         from plotly.subplots import make_subplots
 
-    panels = chart.panels or (Panel("", "", ()),)
+    panels, together = chart.shown(), chart.together()
     figure = make_subplots(
         rows=len(panels),
         cols=1,
         row_heights=[panel.share for panel in panels],
-        shared_xaxes=len({panel.x_name for panel in panels}) == 1,
-        vertical_spacing=0.05 if len({panel.x_name for panel in panels}) == 1 else 0.14,
+        shared_xaxes=together,
+        vertical_spacing=0.05 if together else 0.14,
         subplot_titles=[panel.title for panel in panels] if any(p.title for p in panels) else None,
     )
     for row, panel in enumerate(panels, start=1):
-        for item in panel.items:
-            _add(go, figure, item, panel, row)
-        for line, place in end_labels(panel, apart=0.08 / panel.share):
-            figure.add_annotation(
-                x=float(line.x[-1]), y=place, text=line.end, font={"color": line.colour, "size": 12},
-                showarrow=False, xanchor="left", xshift=6, row=row, col=1,
-            )  # fmt: skip
-        _axes(figure, panel, row, last=row == len(panels))
+        _panel(figure, panel, {"row": row, "col": 1}, last=row == len(panels))
     facts = f"<br><span style='font-size:13px;color:{colours()['quiet']}'>{'<br>'.join(chart.lines())}</span>"
     figure.update_layout(
         title={
@@ -74,17 +77,31 @@ def draw(chart: Chart) -> Figure:
     return figure
 
 
+def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
+    for item in panel.items:
+        _add(figure, item, panel, at)
+    for line, place in end_labels(panel, apart=0.08 / panel.share):
+        figure.add_annotation(
+            x=float(line.x[-1]), y=place, text=line.end, font={"color": line.colour, "size": 12},
+            showarrow=False, xanchor="left", xshift=6, **at,
+        )  # fmt: skip
+    _axes(figure, panel, at, last)
+
+
 def _scaled(values: Any, panel: Panel) -> Any:
     """Places on the y axis."""
     values = np.asarray(values, float)
     return np.sign(values) * np.sqrt(np.abs(values)) if panel.y_root else values
 
 
-def _add(go: Any, figure: Figure, item: Item, panel: Panel, row: int) -> None:
-    at = {"row": row, "col": 1}
+def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
+    import plotly.graph_objects as go
+
     # Plotly leaves out what is drawn into panels that are still empty, and its template draws the
     # rest with an opacity of 30 %, which narrow bands are not seen with.
-    opaque = {**at, "exclude_empty_subplots": False, "opacity": 1.0}
+    opaque: dict[str, Any] = {**at, "opacity": 1.0}
+    if at:
+        opaque["exclude_empty_subplots"] = False
     if isinstance(item, Shade):
         figure.add_vrect(
             item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **opaque
@@ -125,28 +142,28 @@ def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
     return go.Scatter(mode="lines", line=line, **shared)
 
 
-def _axes(figure: Figure, panel: Panel, row: int, last: bool) -> None:
+def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
     quiet = {"linecolor": colours()["quiet"], "tickcolor": colours()["quiet"]}
     figure.update_xaxes(
-        range=panel.x_range, type="log" if panel.x_log else None, row=row, col=1, **quiet
+        range=panel.x_range, type="log" if panel.x_log else None, **at, **quiet
     )
     if last or not panel.x_range:
-        figure.update_xaxes(title_text=panel.x_name, row=row, col=1)
+        figure.update_xaxes(title_text=panel.x_name, **at)
     figure.update_yaxes(
         title_text=panel.y_name, type="log" if panel.y_log else None,
-        showgrid=True, gridcolor=colours()["grid"], row=row, col=1, **quiet,
+        showgrid=True, gridcolor=colours()["grid"], **at, **quiet,
     )  # fmt: skip
     if panel.y_range is not None:
         low, high = panel.y_range
-        figure.update_yaxes(range=_scaled([low, high], panel).tolist(), row=row, col=1)
+        figure.update_yaxes(range=_scaled([low, high], panel).tolist(), **at)
         if panel.equal:
-            figure.update_yaxes(scaleanchor="x", row=row, col=1)
+            figure.update_yaxes(scaleanchor="x", **at)
         if panel.y_names:
             places = list(range(1, len(panel.y_names) + 1))
-            figure.update_yaxes(tickvals=places, ticktext=list(panel.y_names), row=row, col=1)
+            figure.update_yaxes(tickvals=places, ticktext=list(panel.y_names), **at)
         if panel.y_root:
             ticks = root_ticks(low, high)
             figure.update_yaxes(
                 tickvals=_scaled(ticks, panel).tolist(), ticktext=[f"{tick:g}" for tick in ticks],
-                row=row, col=1,
+                **at,
             )  # fmt: skip

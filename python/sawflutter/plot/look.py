@@ -1,0 +1,109 @@
+"""A chart in other units, and with multiples of the rotation speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from math import isfinite, tau
+from typing import Any, SupportsFloat, get_args
+
+import numpy as np
+
+from .._drawn import Units
+from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+
+# What one turn a second is in each of the units.
+TURN: dict[str, float] = {"rpm": 60.0, "Hz": 1.0, "rad/s": tau}
+
+
+def looking(
+    chart: Chart,
+    *,
+    speed_units: Units = "rpm",
+    frequency_units: Units = "Hz",
+    harmonics: Iterable[SupportsFloat] = (),
+) -> Chart:
+    """The chart as the arguments of :meth:`sawflutter.Result.plot` ask for it."""
+    for name, given in (("speed_units", speed_units), ("frequency_units", frequency_units)):
+        if given not in TURN:
+            allowed = ", ".join(map(repr, get_args(Units)))
+            raise ValueError(f"{name} is {given!r}, but must be one of {allowed}")
+    panels = with_harmonics(chart.panels, [float(order) for order in harmonics])
+    units: dict[str, str] = {"rpm": speed_units, "Hz": frequency_units}
+    return replace(chart, panels=tuple(_in_units(panel, units) for panel in panels))
+
+
+def with_harmonics(panels: Sequence[Panel], orders: Sequence[float]) -> Sequence[Panel]:
+    """The panels with lines at multiples of the rotation speed."""
+    for order in orders:
+        if not (isfinite(order) and order > 0.0):
+            raise ValueError(f"harmonics has {order:g}, but a multiple must be positive and finite")
+    if orders and not any(panel.harmonics for panel in panels):
+        raise ValueError(
+            "harmonics are lines of frequency over the rotation speed, which this figure does not "
+            "show; leave the argument out"
+        )
+    lines = [
+        replace(panel, items=[*panel.items, *(_harmonic(panel, order) for order in orders)])
+        for panel in panels
+        if panel.harmonics
+    ]
+    return [lines.pop(0) if panel.harmonics else panel for panel in panels]
+
+
+def _harmonic(panel: Panel, order: float) -> Line:
+    """A line that ends where it leaves the panel."""
+    first, last = panel.x_range or _reach(panel.items)
+    top = panel.y_range[1] if panel.y_range is not None else np.inf
+    end = max(first, min(last, 60.0 * top / order))
+    rpm, name = np.array([first, end]), f"{order:g}× speed"
+    hover = [f"{name}<br>{at:.1f} rpm<br>{order * at / 60.0:.3f} Hz" for at in rpm]
+    label = name if end == last else ""
+    return Line(rpm, order * rpm / 60.0, colours()["quiet"], name, 1.0, True, hover, label)
+
+
+def _reach(items: Iterable[Item]) -> tuple[float, float]:
+    """The speeds that curves and points of a panel have."""
+    speeds = np.concatenate([np.ravel(of.x) for of in items if isinstance(of, Line | Points)])
+    return float(np.nanmin(speeds)), float(np.nanmax(speeds))
+
+
+def _in_units(panel: Panel, units: dict[str, str]) -> Panel:
+    x_name, x = _axis(panel.x_name, units)
+    y_name, y = _axis(panel.y_name, units)
+    return replace(
+        panel,
+        x_name=x_name,
+        y_name=y_name,
+        items=[_scaled(item, x, y, units) for item in panel.items],
+        x_range=_times(panel.x_range, x),
+        y_range=_times(panel.y_range, y),
+    )
+
+
+def _axis(name: str, units: dict[str, str]) -> tuple[str, float]:
+    """The name of an axis in other units, and what its numbers are to be multiplied by."""
+    for own, wanted in units.items():
+        if own != wanted and f"[{own}]" in name:
+            # The imaginary part of an eigenvalue is in rad/s.
+            said = name.replace("Im λ / 2π", "Im λ" if wanted == "rad/s" else "frequency")
+            return said.replace(f"[{own}]", f"[{wanted}]"), TURN[wanted] / TURN[own]
+    return name, 1.0
+
+
+def _scaled(item: Item, x: float, y: float, units: dict[str, str]) -> Item:
+    if isinstance(item, Shade):
+        return replace(item, start=x * item.start, end=x * item.end)
+    if isinstance(item, Upright):
+        return replace(item, x=x * item.x)
+    if isinstance(item, Bars):
+        return replace(item, edges=x * item.edges)
+    if isinstance(item, Heat):
+        name, z = _axis(item.name, units)
+        shown = _times(item.range, z)
+        return replace(item, x=x * item.x, y=y * item.y, z=z * item.z, name=name, range=shown)
+    return replace(item, x=x * item.x, y=y * item.y)
+
+
+def _times(ends: tuple[float, float] | None, factor: float) -> Any:
+    return None if ends is None else (factor * ends[0], factor * ends[1])
