@@ -998,6 +998,23 @@ class ToothPassing(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class CutStretching(Entry):
+    """A cut of a blade that stretches."""
+
+    shapes: int
+    """Shapes of the basis that the deflection is made of."""
+
+    step_s: float
+    """Longest step of the integration."""
+
+    largest_slope: float
+    """Largest slope of the blade that was seen."""
+
+    valid_until_s: float | None
+    """When slopes exceed 0.1, where the record ends; null where they do not."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class VerdictMap(Entry):
     """Growth rates over guide angle and load."""
 
@@ -1129,21 +1146,24 @@ class CutRun(Entry):
 
     linear_until_s: float | None
     """When the deflection at the probe leaves the linear model, where the record ends; null
-    when it does not."""
+    when it does not, and with stretching."""
 
     largest_deflection_in_cut_m: float | None
-    """Largest deflection at the probe before the forces end; null where the linear model ends
-    before them."""
+    """Largest deflection at the probe before the forces end; null where the model, linear or with
+    stretching, ends before them."""
 
     largest_deflection_after_m: float | None
-    """Largest deflection at the probe after the forces ended; null where the linear model ends
-    before the record should."""
+    """Largest deflection at the probe after the forces ended; null where the model, linear or with
+    stretching, ends before the record should."""
 
     forces_from_s: float
     """When the forces set in."""
 
     forces_to_s: float
     """When they end."""
+
+    stretching: CutStretching | None
+    """What stretching adds, where the scene asks for it."""
 
     time_s: FloatArray
     """Times of the record."""

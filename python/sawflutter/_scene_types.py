@@ -419,6 +419,11 @@ class CutDict(TypedDict, total=False):
     """The force on a tooth that cuts the surface left by the one before, for `sawflutter
     washboard`. None by default."""
 
+    stretching: bool
+    """Whether the blade stretches where it bends by more than a part of its thickness: then the
+    record does not end at five thicknesses, but where slopes exceed 0.1. What says whether a
+    motion grows stays linear. It takes longer."""
+
     speeds: list[CutSpeedDict]
     """Speeds at which the saw cuts, and what differs there. By default the operating speed."""
 

@@ -279,9 +279,11 @@ class CutResults(Result, CutReport):
         return self.map_chart(run).plot(fig, **look)
 
     def _facts(self) -> str:
-        return ", ".join(
+        verdicts = ", ".join(
             f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs
         )
+        stretched = any(run.stretching is not None for run in self.runs)
+        return f"{verdicts}, with stretching" if stretched else verdicts
 
 
 class RunUpResults(Result, RunUpReport):

@@ -13,6 +13,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter cut                               # the built-in saw, two speeds
   sawflutter cut my-saw.json --rpm 2400        # your own saw at another speed
+  sawflutter cut --stretching                  # past five thicknesses
   sawflutter cut --json | jq '.runs[].verdict' # for scripts
 
 The forces are the scene's `cut`; `sawflutter schema` says what it may contain.";
@@ -24,11 +25,17 @@ pub struct Arguments {
     /// Speed to cut at, in place of the scene's; may be given more than once
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Vec<f64>,
+    /// Let the blade stretch where it bends by more than a part of its thickness, as `cut.stretching` does
+    #[arg(long)]
+    stretching: bool,
 }
 
 /// Computes a cut, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.common.scene()?;
+    let mut scene = arguments.common.scene()?;
+    if arguments.stretching {
+        scene = scene.edited(|file| file.cut.iter_mut().for_each(|cut| cut.stretching = true))?;
+    }
     let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
     let folder = arguments.common.folder()?;
     let cutting = watched(|progress| {

@@ -89,16 +89,23 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
-    draw_envelope(sheet, panel, run, place);
+    // Stretching turns the growth back.
+    if run.stretching.is_none() {
+        draw_envelope(sheet, panel, run, place);
+    }
     let record = run.time_s.iter().zip(&run.deflection_m);
     let places: Vec<[f64; 2]> = record.map(|(t, w)| place(*t, *w)).collect();
     for part in clip(&places, panel) {
         sheet.line(part, Stroke::solid(FORWARD, CURVE));
     }
-    if let Some(until_s) = run.linear_until_s {
+    if let Some(until_s) = run.ends_s() {
         let x = time.at(until_s);
         draw_end_of_model(sheet, panel, x);
-        label_end_of_model(sheet, panel, x, "the linear model ends");
+        let label = match run.stretching {
+            Some(_) => "the model ends",
+            None => "the linear model ends",
+        };
+        label_end_of_model(sheet, panel, x, label);
     }
     draw_verdict(sheet, panel, run);
 }
@@ -123,7 +130,7 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
     // Beside the line at which the linear model ends, where that is in the cut.
-    let end = run.linear_until_s.map_or(in_cut.right, |s| time.at(s));
+    let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
     let end = end.clamp(in_cut.left, in_cut.right);
     let free = match end - in_cut.left < in_cut.right - end {
         true => [end, in_cut.right],
@@ -213,8 +220,12 @@ fn facts(run: &CutRunEntry) -> String {
         // A line ends between two of them.
         format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
+    let with = match run.stretching {
+        Some(_) => "with stretching, largest",
+        None => "largest",
+    };
     format!(
-        "largest {}; {}\u{a0}1/s",
+        "{with} {}; {}\u{a0}1/s",
         length(largest_m(run)),
         criteria.collect::<Vec<_>>().join(", ")
     )

@@ -87,18 +87,21 @@ pub struct CutRunEntry {
     /// Loads that pass with the teeth against loads that stand still.
     pub tooth_passing: ToothPassingEntry,
     /// When the deflection at the probe leaves the linear model, where the record ends; null
-    /// when it does not.
+    /// when it does not, and with stretching.
     pub linear_until_s: Option<f64>,
-    /// Largest deflection at the probe before the forces end; null where the linear model
-    /// ends before them.
+    /// Largest deflection at the probe before the forces end; null where the model, linear or with
+    /// stretching, ends before them.
     pub largest_deflection_in_cut_m: Option<f64>,
-    /// Largest deflection at the probe after the forces ended; null where the linear model
-    /// ends before the record should.
+    /// Largest deflection at the probe after the forces ended; null where the model, linear or with
+    /// stretching, ends before the record should.
     pub largest_deflection_after_m: Option<f64>,
     /// When the forces set in.
     pub forces_from_s: f64,
     /// When they end.
     pub forces_to_s: f64,
+    /// What stretching adds, where the scene asks for it.
+    #[serde(default)]
+    pub stretching: Option<CutStretchingEntry>,
     /// Times of the record.
     pub time_s: Vec<f64>,
     /// Deflection at the probe.
@@ -107,6 +110,20 @@ pub struct CutRunEntry {
     pub map: VerdictMapEntry,
     /// The cut with the reaction of the simulated spline teeth, when the scene asks for it.
     pub spline: Option<SplineEntry>,
+}
+
+/// A cut of a blade that stretches.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutStretchingEntry {
+    /// Shapes of the basis that the deflection is made of.
+    pub shapes: usize,
+    /// Longest step of the integration.
+    pub step_s: f64,
+    /// Largest slope of the blade that was seen.
+    pub largest_slope: f64,
+    /// When slopes exceed 0.1, where the record ends; null where they do not.
+    pub valid_until_s: Option<f64>,
 }
 
 /// A cut with the force that its power allows.
@@ -150,6 +167,15 @@ pub struct VerdictMapEntry {
     pub load_level: Vec<f64>,
     /// One row a load level, one column an angle; one column without guides.
     pub growth_per_s: Vec<Vec<f64>>,
+}
+
+impl CutRunEntry {
+    /// When the model ends, linear or with stretching, and the record with it.
+    pub(crate) fn ends_s(&self) -> Option<f64> {
+        let stretched = self.stretching.as_ref();
+        self.linear_until_s
+            .or_else(|| stretched.and_then(|found| found.valid_until_s))
+    }
 }
 
 impl CutReport {
@@ -222,8 +248,11 @@ impl CutRunEntry {
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
         let criteria = criteria(scene, computed);
         let (growth, decided_by) = worst(&criteria);
-        let leaves_model =
-            history.linear_until_s.is_some() || passing.passing_deflection_m.is_none();
+        // With stretching the deflection is that of its record; moving loads are followed by the linear model.
+        let leaves_model = match &history.stretched {
+            Some(found) => found.valid_until_s.is_some(),
+            None => history.linear_until_s.is_some() || passing.passing_deflection_m.is_none(),
+        };
         let dominant = history.dominant_rad_per_s;
         let [in_cut_m, after_m] = largest_deflections(history);
         CutRunEntry {
@@ -262,6 +291,12 @@ impl CutRunEntry {
             largest_deflection_after_m: after_m,
             forces_from_s: history.forces_s.0,
             forces_to_s: history.forces_s.1,
+            stretching: history.stretched.as_ref().map(|found| CutStretchingEntry {
+                shapes: found.shapes,
+                step_s: found.step_s,
+                largest_slope: found.largest_slope,
+                valid_until_s: found.valid_until_s,
+            }),
             time_s: history.time_s.clone(),
             deflection_m: history.deflection_m.clone(),
             map: VerdictMapEntry::new(scene, map),
@@ -271,18 +306,18 @@ impl CutRunEntry {
 }
 
 /// Largest deflections at the probe until the forces end and after that, as far as the model
-/// is linear.
+/// holds.
 fn largest_deflections(history: &CutHistory) -> [Option<f64>; 2] {
     let (_, end_s) = history.forces_s;
-    let linear_until_s = history.linear_until_s.unwrap_or(f64::INFINITY);
+    let valid_until_s = history.valid_until_s().unwrap_or(f64::INFINITY);
     let largest = |after: bool| {
         let record = history.time_s.iter().zip(&history.deflection_m);
         record
             .filter(|(time, _)| (**time > end_s) == after)
             .fold(0.0_f64, |max, (_, w)| max.max(w.abs()))
     };
-    let in_cut = (linear_until_s > end_s).then(|| largest(false));
-    let after = history.linear_until_s.is_none().then(|| largest(true));
+    let in_cut = (valid_until_s > end_s).then(|| largest(false));
+    let after = history.valid_until_s().is_none().then(|| largest(true));
     [in_cut, after]
 }
 

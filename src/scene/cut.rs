@@ -27,6 +27,8 @@ pub struct Cut {
     pub(crate) wood: Option<Wood>,
     /// The force of the surface left by the tooth before, for a look at washboarding only.
     pub(crate) washboarding: Option<Washboarding>,
+    /// Whether the blade stretches.
+    pub stretching: bool,
     /// The forces that bear on a chart; `None` where it is of the idling saw.
     pub chart: Option<CutRun>,
     file: CutFile,
@@ -75,6 +77,7 @@ impl Cut {
             runs: Vec::new(),
             wood: None,
             washboarding: None,
+            stretching: typed.stretching,
             chart: None,
             file: typed.clone(),
             rim_radius_m: blade.outer_radius_m,

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::runup::is_false;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
 
@@ -53,6 +54,10 @@ pub struct CutFile {
     /// `sawflutter washboard`. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub washboarding: Option<WashboardingFile>,
+    /// Whether the blade stretches where it bends by more than a part of its thickness: then the record does not end
+    /// at five thicknesses, but where slopes exceed 0.1. What says whether a motion grows stays linear. It takes longer.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub stretching: bool,
     /// Speeds at which the saw cuts, and what differs there. By default the operating
     /// speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -170,6 +170,16 @@ impl StretchedBlade {
         Self::on(plate, &full, basis)
     }
 
+    /// Given shapes, orthonormal columns in the functions of the plate.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`].
+    pub(crate) fn of_shapes(plate: &Plate, shapes: Mat<f64>) -> Result<Self, StretchedError> {
+        let plate = plate.conservative();
+        let full = held(&plate, shapes.ncols())?;
+        Self::on(plate, &full, shapes)
+    }
+
     /// How much an equilibrium changes with more shapes, among which these are: ‖Δq‖ over ‖q‖.
     ///
     /// # Errors

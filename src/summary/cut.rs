@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
+use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 impl CutReport {
@@ -43,6 +44,9 @@ fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
     let rpm = run.rpm;
     match run.verdict {
         CutVerdict::Stable => format!("{rpm} rpm: stable"),
+        CutVerdict::LeavesModel if run.stretching.is_some() => format!(
+            "{rpm} rpm: NO GROWTH, BUT THE DEFLECTION LEAVES THE MODEL: slopes of the blade exceed {LARGEST_SLOPE}, where the model with stretching ends"
+        ),
         CutVerdict::LeavesModel => format!(
             "{rpm} rpm: NO GROWTH, BUT THE DEFLECTION LEAVES THE MODEL: it exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), more than any kerf",
             1e3 * linear_limit_m
@@ -92,6 +96,13 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         )?;
     }
     writeln!(text, "  {}", deflections(run))?;
+    if let Some(found) = &run.stretching {
+        writeln!(
+            text,
+            "  slopes of the blade of {:.3} at most",
+            found.largest_slope
+        )?;
+    }
     let statement = format!("  certificate: {}", run.certificate.statement);
     writeln!(text, "{}", wrapped(&statement))
 }
@@ -127,12 +138,18 @@ fn deflections(run: &CutRunEntry) -> String {
         run.largest_deflection_in_cut_m.map(millimetres),
         run.largest_deflection_after_m.map(millimetres),
     );
-    let probe = "largest deflection at the probe:";
+    let (probe, model) = match run.stretching {
+        Some(_) => (
+            "with stretching, largest deflection at the probe:",
+            "the model",
+        ),
+        None => ("largest deflection at the probe:", "the linear model"),
+    };
     match (in_cut, after) {
         (Some(in_cut), Some(after)) => format!("{probe} {in_cut} in the cut, {after} after it"),
         (Some(in_cut), None) => {
-            format!("{probe} {in_cut} in the cut; after it the linear model ends")
+            format!("{probe} {in_cut} in the cut; after it {model} ends")
         }
-        (None, _) => "the deflection in the cut leaves the linear model".into(),
+        (None, _) => format!("the deflection in the cut leaves {model}"),
     }
 }

@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 use super::linear::Gauge;
 use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
-use super::{Integrator, Propagator, State, TransientError};
+use super::{Integrator, Propagator, State, StretchedCut, TransientError, stretched_cut};
 
 /// How fast a saw's motion grows at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +72,8 @@ pub(crate) struct CutHistory {
     /// When the deflection leaves the linear model, where the record ends; `None` when it
     /// does not.
     pub linear_until_s: Option<f64>,
+    /// What stretching adds, where the scene asks for it.
+    pub stretched: Option<StretchedCut>,
     /// Times of the record.
     pub time_s: Vec<f64>,
     /// Deflection at the probe.
@@ -79,8 +81,8 @@ pub(crate) struct CutHistory {
 }
 
 /// Samples of a record: enough for a figure, and bounded.
-const SAMPLE_S: f64 = 1e-3;
-const MAX_SAMPLES: f64 = 20_000.0;
+pub(super) const SAMPLE_S: f64 = 1e-3;
+pub(super) const MAX_SAMPLES: f64 = 20_000.0;
 /// A motion grows by no more than this exponent from one sample to the next.
 const GROWTH_A_SAMPLE: f64 = 0.1;
 
@@ -108,7 +110,13 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         GrowingModes::of_plate(&saw.cutting, speed)?,
     ];
     let gauge = Gauge::new(plate, &saw.blade, probe);
-    let record = record(saw, &gauge, [idle, in_cut])?;
+    let (record, stretched) = match cut.stretching {
+        false => (record(saw, &gauge, [idle, in_cut])?, None),
+        true => {
+            let (record, found) = stretched_cut(saw, probe, [idle, in_cut])?;
+            (record, Some(found))
+        }
+    };
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
     Ok(CutHistory {
         run: **run,
@@ -120,16 +128,26 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         dominant_rad_per_s: sinusoids.iter().map(|s| s.lambda.im).find(|im| *im > 0.0),
         forces_s: (cut.idle_s, cut.idle_s + run.duration_s),
         linear_until_s: record.linear_until_s,
+        stretched,
         time_s: record.time_s,
         deflection_m: record.deflection_m,
     })
 }
 
 /// What the probe sees.
-struct Record {
-    time_s: Vec<f64>,
-    deflection_m: Vec<f64>,
-    linear_until_s: Option<f64>,
+pub(crate) struct Record {
+    pub(crate) time_s: Vec<f64>,
+    pub(crate) deflection_m: Vec<f64>,
+    pub(crate) linear_until_s: Option<f64>,
+}
+
+impl CutHistory {
+    /// When the model ends, linear or with stretching, and the record with it; `None` when it does not.
+    pub fn valid_until_s(&self) -> Option<f64> {
+        let stretched = self.stretched.as_ref();
+        self.linear_until_s
+            .or_else(|| stretched.and_then(|found| found.valid_until_s))
+    }
 }
 
 /// Steps through the idle saw, the cut, and the idle saw again, as far as the model is linear.
@@ -183,7 +201,7 @@ fn record(
     Ok(record)
 }
 
-fn longest_step_s(growth: Growth) -> f64 {
+pub(super) fn longest_step_s(growth: Growth) -> f64 {
     GROWTH_A_SAMPLE / growth.growth_per_s.max(f64::MIN_POSITIVE)
 }
 

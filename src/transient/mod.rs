@@ -22,6 +22,7 @@ mod runup;
 mod saw_in_cut;
 mod scenario;
 mod sinusoids;
+mod stretched_cut;
 mod stretched_runup;
 mod stretching;
 mod teeth;
@@ -44,6 +45,7 @@ pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
 #[doc(hidden)]
 pub use sinusoids::{FitError, fitted_growth};
+pub(crate) use stretched_cut::{StretchedCut, stretched_cut};
 pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
 pub(crate) use teeth::{ToothPassing, tooth_passing};
 pub(crate) use verdict_map::VerdictMap;

@@ -21,10 +21,10 @@ pub enum Verdict {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CutVerdict {
-    /// No motion grows as fast as the threshold, and the deflection stays within the linear model.
+    /// No motion grows as fast as the threshold, and the deflection stays within the model.
     Stable,
-    /// No motion grows so fast, but the forces alone deflect the blade beyond the linear model, and
-    /// beyond any kerf.
+    /// No motion grows so fast, but the forces alone deflect the blade beyond the linear model and
+    /// any kerf, or with stretching to slopes beyond 0.1.
     LeavesModel,
     /// Some motion grows.
     Unstable,

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{CutCriterion, CutRunEntry, CutVerdict, Verdict};
+use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 /// Beyond this many thicknesses a plate stretches as it bends, and is stiffer than a linear
@@ -93,6 +94,13 @@ fn one_digit(value: f64) -> String {
 
 /// Where the moving loads alone deflect the blade so far.
 fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+    if run.stretching.is_some() {
+        return run.tooth_passing.passing_deflection_m.is_none().then(|| format!(
+            "at {:.0} rpm the moving tooth loads, which are followed without stretching, deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has loads that stand still",
+            run.rpm,
+            1e3 * LINEAR_THICKNESSES * thickness_m
+        ));
+    }
     let alone = run.linear_until_s.is_none() && run.tooth_passing.passing_deflection_m.is_none();
     alone.then(|| {
         format!(
@@ -103,17 +111,30 @@ fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     })
 }
 
+/// How long after the beginning or the end of the forces.
+fn moment(run: &CutRunEntry, until_s: f64) -> String {
+    match until_s > run.forces_to_s {
+        true => format!("{} after the cut", seconds(until_s - run.forces_to_s)),
+        false => format!("{} into the cut", seconds(until_s - run.forces_from_s)),
+    }
+}
+
 fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+    if let Some(found) = &run.stretching {
+        return found.valid_until_s.map(|until_s| {
+            format!(
+                "at {:.0} rpm slopes of the blade exceed {LARGEST_SLOPE} {}: the model with stretching ends there, and the record with it",
+                run.rpm,
+                moment(run, until_s)
+            )
+        });
+    }
     if let Some(until_s) = run.linear_until_s {
-        let (since, moment) = match until_s > run.forces_to_s {
-            true => (run.forces_to_s, "after the cut"),
-            false => (run.forces_from_s, "into the cut"),
-        };
         return Some(format!(
-            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {} {moment}: the linear model ends there, and the record with it; whether and how fast a small motion grows stays right",
+            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {}: the linear model ends there, and the record with it; whether and how fast a small motion grows stays right",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m,
-            seconds(until_s - since),
+            moment(run, until_s),
         ));
     }
     let largest = [

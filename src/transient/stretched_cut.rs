@@ -1,0 +1,350 @@
+//! The cut of a blade that stretches.
+
+use std::f64::consts::TAU;
+
+use faer::{Col, Scale};
+
+use crate::scene::Probe;
+use crate::spectrum::{Cancellation, companion_eigenpairs};
+use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::system::GyroscopicSystem;
+
+use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, longest_step_s};
+use super::reduced::{ReducedBlade, Snapshot};
+use super::saw_in_cut::{SawInCut, lateral_load};
+use super::{Force, Growth, Integrator, Newmark, State, TransientError};
+
+/// What stretching adds to one speed of a cut.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StretchedCut {
+    /// Shapes that the deflection is made of.
+    pub shapes: usize,
+    /// Longest step of the integration.
+    pub step_s: f64,
+    /// Largest slope of the blade that was seen.
+    pub largest_slope: f64,
+    /// When slopes exceed 0.1, where the record ends.
+    pub valid_until_s: Option<f64>,
+}
+
+/// Modes of the idle and of the cutting saw that span its motions.
+const MODES: usize = 8;
+/// Steps a period of the highest of these modes.
+const STEPS_A_PERIOD: f64 = 24.0;
+/// Time from one look at the slopes to the next.
+const LOOK_S: f64 = 0.01;
+
+/// Steps through the idle saw, the cut, and the idle saw again with the potential of stretching, by steps that
+/// keep the energy of an undamped blade, as far as the model holds.
+///
+/// # Errors
+/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::NotBalanced`].
+pub fn stretched_cut(
+    saw: &SawInCut<'_>,
+    probe: &Probe,
+    growths: [Growth; 2],
+) -> Result<(Record, StretchedCut), TransientError> {
+    with_modes(saw, probe, growths, MODES)
+}
+
+fn with_modes(
+    saw: &SawInCut<'_>,
+    probe: &Probe,
+    growths: [Growth; 2],
+    modes: usize,
+) -> Result<(Record, StretchedCut), TransientError> {
+    let (cut, run) = (saw.cut, saw.run);
+    let reduced = basis(saw, modes);
+    let blade = StretchedBlade::of_shapes(saw.plate, reduced.basis().to_owned())?;
+    let load = Scale(run.lateral_n) * reduced.vector(&lateral_load(saw.plate, cut, 0.0));
+    let none = Col::zeros(load.nrows());
+    let idle = reduced.system(&saw.idle_system);
+    let cutting = reduced.system(&saw.cutting_system);
+    let probe = (probe.radius_m, probe.angle_rad);
+    let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
+    let sample_s = SAMPLE_S.max((2.0 * cut.idle_s + run.duration_s) / MAX_SAMPLES);
+    let mut state = State::rest(reduced.order());
+    let mut start_s = 0.0;
+    for (system, growth, duration_s, load) in [
+        (&idle, growths[0], cut.idle_s, &none),
+        (&cutting, growths[1], run.duration_s, &load),
+        (&idle, growths[0], cut.idle_s, &none),
+    ] {
+        let phase = Phase {
+            system,
+            load,
+            longest_s: longest_s(system, run.speed_rad_per_s, growth)?.min(sample_s),
+            span_s: (start_s, duration_s),
+        };
+        if !samples.through(&phase, &mut state, sample_s)? {
+            break;
+        }
+        start_s += duration_s;
+    }
+    Ok((samples.record, samples.found))
+}
+
+/// Modes of the saw with and without the forces at its speed, and the deflections under the load.
+fn basis(saw: &SawInCut<'_>, modes: usize) -> ReducedBlade {
+    let systems = [&saw.idle_system, &saw.cutting_system];
+    let snapshots = systems.map(|system| Snapshot {
+        system,
+        speed_rad_per_s: saw.run.speed_rad_per_s,
+    });
+    let load = lateral_load(saw.plate, saw.cut, 0.0);
+    ReducedBlade::new(saw.plate, &snapshots, modes, &[load])
+}
+
+/// A step that resolves the modes of the basis, of which there are fewer than shapes, and their growth.
+fn longest_s(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    growth: Growth,
+) -> Result<f64, TransientError> {
+    let pairs = companion_eigenpairs(system, speed_rad_per_s)?;
+    let mut frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im.abs()).collect();
+    frequencies.sort_by(f64::total_cmp);
+    let highest = frequencies.get(MODES - 1).or(frequencies.last());
+    let highest = highest.copied().unwrap_or_default().max(f64::MIN_POSITIVE);
+    Ok((TAU / (STEPS_A_PERIOD * highest)).min(longest_step_s(growth)))
+}
+
+/// A time in which the system and the load stay the same.
+struct Phase<'a> {
+    system: &'a GyroscopicSystem,
+    load: &'a Col<f64>,
+    longest_s: f64,
+    /// When it begins, and how long it lasts.
+    span_s: (f64, f64),
+}
+
+/// What the probe sees.
+struct Samples<'a> {
+    blade: &'a StretchedBlade,
+    probe: (f64, f64),
+    speed_rad_per_s: f64,
+    record: Record,
+    looked_s: f64,
+    found: StretchedCut,
+}
+
+impl<'a> Samples<'a> {
+    fn new(blade: &'a StretchedBlade, probe: (f64, f64), speed_rad_per_s: f64) -> Self {
+        Samples {
+            blade,
+            probe,
+            speed_rad_per_s,
+            record: Record {
+                time_s: vec![0.0],
+                deflection_m: vec![0.0],
+                linear_until_s: None,
+            },
+            looked_s: 0.0,
+            found: StretchedCut {
+                shapes: blade.shapes().ncols(),
+                step_s: 0.0,
+                largest_slope: 0.0,
+                valid_until_s: None,
+            },
+        }
+    }
+
+    /// Goes through a phase; false where slopes become too large.
+    fn through(
+        &mut self,
+        phase: &Phase<'_>,
+        state: &mut State,
+        sample_s: f64,
+    ) -> Result<bool, TransientError> {
+        let (start_s, duration_s) = phase.span_s;
+        let count = (duration_s / phase.longest_s).ceil() as usize;
+        if count == 0 {
+            return Ok(true);
+        }
+        let step_s = duration_s / count as f64;
+        self.found.step_s = self.found.step_s.max(step_s);
+        let stride = ((sample_s / step_s) as usize).max(1);
+        let forces: [&dyn Force; 1] = [self.blade.stretching()];
+        let loads = [phase.load.clone()];
+        let newmark = Newmark::new(phase.system, (self.speed_rad_per_s, 0.0), &loads, step_s);
+        let newmark = newmark.with_forces(&forces);
+        let stop = Cancellation::current();
+        for step in 1..=count {
+            // What is at rest without a force stays there, however fast it would grow.
+            if phase.load.norm_max() > 0.0 || state.displacement.norm_max() > 0.0 {
+                *state = newmark.step(state, [&[1.0], &[1.0]])?;
+            }
+            if step % stride == 0 || step == count {
+                stop.check()?;
+                if !self.take(state, start_s + step as f64 * step_s) {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    /// Adds a sample; false where slopes are too large.
+    fn take(&mut self, state: &State, time_s: f64) -> bool {
+        let at = Equilibrium {
+            speed_rad_per_s: self.speed_rad_per_s,
+            coordinates: state.displacement.clone(),
+            negative_eigenvalues: 0,
+        };
+        if time_s >= self.looked_s + LOOK_S {
+            self.looked_s = time_s;
+            let slope = self.blade.largest_slope(&at);
+            self.found.largest_slope = self.found.largest_slope.max(slope);
+            if slope > LARGEST_SLOPE {
+                self.found.valid_until_s = Some(time_s);
+                return false;
+            }
+        }
+        let deflection = self.blade.deflection_m(&at, self.probe.0, self.probe.1);
+        self.record.time_s.push(time_s);
+        self.record.deflection_m.push(deflection);
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Cut, CutRun, Scene, rad_per_s};
+    use crate::transient::cut_history;
+
+    fn plate() -> Plate {
+        let resolution = Resolution {
+            max_diameters: 8,
+            radial_functions: 5,
+        };
+        Plate::new(&Scene::paper(), resolution)
+    }
+
+    /// The paper's cut at its first speed, and whether the blade stretches.
+    fn cut(stretching: bool) -> Cut {
+        let scene = Scene::paper().edited(|saw| {
+            if let Some(cut) = &mut saw.cut {
+                cut.stretching = stretching;
+                cut.idle_s = 0.2;
+            }
+        });
+        scene.unwrap().cut().unwrap().clone()
+    }
+
+    fn largest(record: &[f64]) -> f64 {
+        record.iter().fold(0.0, |max, w| max.max(w.abs()))
+    }
+
+    /// Small deflections are those of the linear model, which is computed by another integrator on more shapes; at
+    /// 2800 rpm they grow.
+    #[test]
+    fn a_small_force_moves_the_blade_as_the_linear_model_says() {
+        let plate = plate();
+        for rpm in [1800.0, 2800.0] {
+            let records = [false, true].map(|stretching| {
+                let cut = cut(stretching);
+                let run = CutRun {
+                    lateral_n: 1e-6,
+                    duration_s: 0.6,
+                    ..cut.at_rpm(rpm).unwrap()
+                };
+                let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+                cut_history(&saw, Scene::paper().probe()).unwrap()
+            });
+            let [linear, stretched] = records.each_ref().map(|r| largest(&r.deflection_m));
+            assert!(linear > 1e-10);
+            let error = stretched / linear - 1.0;
+            println!("{rpm}: {linear:e} {error:e}");
+            assert!(error.abs() < 0.02, "{rpm}: {linear:e} {stretched:e}");
+            assert_eq!(records[1].valid_until_s(), None);
+        }
+    }
+
+    /// ½ q̇ᵀq̇ + ½ qᵀKq + U₄ − fᵀq of a blade without damping, under the forces of the cut: those in its plane are a
+    /// part of K.
+    #[test]
+    fn the_energy_of_an_undamped_blade_in_the_cut_is_kept() {
+        let plate = plate().conservative();
+        let cut = cut(true);
+        let run = cut.at_rpm(1800.0).unwrap();
+        let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+        let reduced = basis(&saw, MODES);
+        let blade = StretchedBlade::of_shapes(&plate, reduced.basis().to_owned()).unwrap();
+        let load = Scale(run.lateral_n) * reduced.vector(&lateral_load(&plate, &cut, 0.0));
+        let system = reduced.system(&saw.cutting_system);
+        let speed = run.speed_rad_per_s;
+        let mut samples = Samples::new(&blade, (0.4, 0.0), speed);
+        let phase = Phase {
+            system: &system,
+            load: &load,
+            longest_s: 1e-3,
+            span_s: (0.0, 1.0),
+        };
+        let mut state = State::rest(reduced.order());
+        assert!(samples.through(&phase, &mut state, 1e-3).unwrap());
+        let (q, v) = (&state.displacement, &state.velocity);
+        let linear = q.transpose() * system.stiffness_at(speed) * q;
+        let stored = blade.stretching().energy_j(q).unwrap();
+        let energy = 0.5 * (v.transpose() * v + linear) + stored - load.transpose() * q;
+        // From rest it is zero.
+        let moving = 0.5 * (v.transpose() * v);
+        assert!(stored > 1e-3 * moving, "{stored:e} {moving:e}");
+        assert!(energy.abs() < 1e-8 * moving, "{energy:e} {moving:e}");
+    }
+
+    /// A small force without forces in the plane, in a band of flutter: the blade rises to where the normal form of
+    /// two waves says, and no further.
+    #[test]
+    fn flutter_in_the_cut_rises_to_its_saturated_amplitude() {
+        let plate = plate().conservative();
+        let cut = cut(true);
+        let speed = rad_per_s(2264.0);
+        let near = StretchedBlade::at_speed(&plate, speed, 6).unwrap();
+        let predicted = near.saturation(speed).unwrap().unwrap();
+        let run = CutRun {
+            rpm: 2264.0,
+            speed_rad_per_s: speed,
+            tangential_n: 0.0,
+            radial_n: 0.0,
+            lateral_n: 1e-3,
+            duration_s: 14.0 / predicted.growth_per_s,
+            ..cut.at_rpm(1800.0).unwrap()
+        };
+        let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+        let probe = Probe {
+            radius_m: predicted.radius_m,
+            angle_rad: predicted.angle_rad,
+        };
+        let growth = Growth {
+            growth_per_s: predicted.growth_per_s,
+            frequency_rad_per_s: predicted.frequency_rad_per_s,
+        };
+        let (record, found) = stretched_cut(&saw, &probe, [growth; 2]).unwrap();
+        let seen = largest(&record.deflection_m);
+        let error = predicted.amplitude_m / seen - 1.0;
+        println!("{predicted:?} {seen} {error} {found:?}");
+        assert!(error.abs() < 0.05, "{predicted:?} {seen}");
+    }
+
+    /// More modes change the largest deflection of the paper's cut by little.
+    #[test]
+    fn the_modes_are_enough() {
+        let plate = plate();
+        let cut = cut(true);
+        let run = cut.at_rpm(1800.0).unwrap();
+        let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+        let none = Growth {
+            growth_per_s: 0.0,
+            frequency_rad_per_s: 0.0,
+        };
+        let seen = [8, 12].map(|modes| {
+            let (record, _) = with_modes(&saw, Scene::paper().probe(), [none; 2], modes).unwrap();
+            let upto = record.time_s.iter().take_while(|t| **t < 0.8).count();
+            largest(&record.deflection_m[..upto])
+        });
+        println!("{seen:?}");
+        assert!((seen[1] / seen[0] - 1.0).abs() < 0.03, "{seen:?}");
+    }
+}
