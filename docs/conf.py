@@ -66,3 +66,16 @@ html_theme_options = {
 math_eqref_format = "Eq. {number}"
 mathjax_path = "mathjax/tex-svg-full.js"
 mathjax4_config = mathjax3_config = {"options": {"enableMenu": False}}
+
+
+def _without_attributes(app, what, name, obj, options, lines):
+    """Fields are described one by one: the list that `help()` shows of them would say it twice."""
+    if what == "class" and "Attributes" in lines:
+        at = lines.index("Attributes")
+        if lines[at + 1 : at + 2] == ["----------"]:
+            del lines[at:]
+
+
+def setup(app):
+    # Before napoleon reads the sections.
+    app.connect("autodoc-process-docstring", _without_attributes, priority=100)

@@ -16,6 +16,8 @@ from __future__ import annotations
 
 from importlib.metadata import version as _version
 
+from . import _report_types, designs, matrices, modes, results, stiffness
+from ._entry import describe as _describe
 from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
 from ._scene_types import SceneDict, StudyDict
 from .errors import (
@@ -46,6 +48,9 @@ from .results import (
 from .scene import Scene
 from .stiffness import StiffnessMap
 from .study import Study
+
+for _module in (_report_types, designs, matrices, modes, results, stiffness):
+    _describe(_module.__name__)
 
 __version__ = _version("sawflutter")
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import ast
 import dataclasses
+import inspect
+import sys
+import textwrap
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -28,12 +32,46 @@ class Entry:
 
     @classmethod
     def from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
-        """Makes an entry of an object of the JSON; keys that it does not know are left out."""
+        """Makes an entry of an object of the JSON; keys that it does not know are left out.
+
+        Parameters
+        ----------
+        data : dict
+            The object.
+
+        Returns
+        -------
+        Entry
+            Of the class that is asked.
+
+        Raises
+        ------
+        TypeError
+            Where a key is missing.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> sf.CriticalSpeed.from_dict(r.raw["critical_speeds"][0]) == r.critical_speeds[0]
+        True
+        """
         return cls(**{name: read(data[key]) for name, key, read in _readers(cls) if key in data})
 
     @classmethod
     def required_keys(cls) -> frozenset[str]:
-        """The keys of the JSON that are always there."""
+        """The keys of the JSON that are always there.
+
+        Returns
+        -------
+        frozenset of str
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> 'rpm' in sf.CriticalSpeed.required_keys()
+        True
+        """
         fields = dataclasses.fields(cls)  # type: ignore[arg-type]
         always = (field for field in fields if field.default is dataclasses.MISSING)
         return frozenset(field.metadata.get("key", field.name) for field in always)
@@ -59,6 +97,44 @@ class Entry:
         fields = dataclasses.fields(self)  # type: ignore[arg-type]
         shown = (f"{f.name}={_short(getattr(self, f.name))}" for f in fields if f.repr)
         return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def describe(module: str) -> None:
+    """Adds the descriptions below the fields of the classes of a module to their docstrings, so that
+    ``help()`` shows them: without this only who reads the source sees them."""
+    try:
+        tree = ast.parse(inspect.getsource(sys.modules[module]))
+    except (OSError, TypeError):
+        # Without the source, as in a frozen program, there is none to be shown.
+        return
+    for node in tree.body:
+        cls = getattr(sys.modules[module], node.name, None) if isinstance(node, ast.ClassDef) else None
+        if isinstance(node, ast.ClassDef) and isinstance(cls, type) and issubclass(cls, Entry):
+            _DESCRIBED[cls] = dict(_below(node))
+            if dataclasses.is_dataclass(cls) and cls.__doc__:
+                cls.__doc__ = f"{inspect.cleandoc(cls.__doc__)}\n\n{_attributes(cls)}"
+
+
+_DESCRIBED: dict[type[Entry], dict[str, tuple[str, str]]] = {}
+
+
+def _below(node: ast.ClassDef) -> Iterator[tuple[str, tuple[str, str]]]:
+    """Of each field its name, type and what the words below it say."""
+    for field, words in zip(node.body, node.body[1:]):
+        if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name):
+            value = words.value if isinstance(words, ast.Expr) else None
+            said = value.value if isinstance(value, ast.Constant) else ""
+            yield field.target.id, (ast.unparse(field.annotation), inspect.cleandoc(str(said)))
+
+
+def _attributes(cls: type[Entry]) -> str:
+    lines = ["Attributes", "----------"]
+    for field in dataclasses.fields(cls):  # type: ignore[arg-type]
+        known = (_DESCRIBED.get(base, {}).get(field.name) for base in cls.__mro__)
+        kind, said = next((found for found in known if found), (str(field.type), ""))
+        if field.repr:
+            lines += [f"{field.name} : {kind}", textwrap.indent(said, "    ")]
+    return "\n".join(lines)
 
 
 def _same(first: Any, second: Any) -> bool:

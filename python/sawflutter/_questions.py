@@ -370,6 +370,16 @@ class Questions:
             Where the scene has no ``cut.washboarding``, or no speed is known.
         SceneError
             Where the scene has no damping.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> spring = {"stiffness_n_per_m": 1e5, "overlap": 1.0}
+        >>> changes = {"cut.washboarding": spring, "damping.air_n_s_per_m3": 50.0}
+        >>> saw = sf.Scene.paper().replace(changes)
+        >>> found = saw.run_washboard(1000, accuracy="draft")  # doctest: +SKIP
+        >>> found.rpm  # doctest: +SKIP
+        1000.0
         """
         scene = self.with_accuracy(accuracy, tolerance)
         with reporting(progress, "speeds") as told:
@@ -493,6 +503,15 @@ class Questions:
             Where the scene has no guide, or no number of a path.
         ArgumentError
             Where another argument is out of range.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = {"guides[0].radius_m": (0.20, 0.28)}
+        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
+        >>> [parameter.path for parameter in found.parameters]
+        ['guides[0].radius_m']
         """
         scene = self.with_accuracy(accuracy, tolerance)
         with reporting(progress, "saws") as told:
@@ -523,6 +542,19 @@ class Questions:
         Returns
         -------
         TradeoffResults
+
+        Raises
+        ------
+        AnalysisError
+            Where the saw cannot be analysed so far.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"guides": [], "sweep.to_rpm": 500})
+        >>> found = free.tradeoff()
+        >>> found.recommended(1e-2) is not None
+        True
         """
         with reporting(progress, "settings") as told:
             text = _native.tradeoff(self._text, progress=told)
@@ -548,6 +580,11 @@ class Questions:
         Returns
         -------
         Matrices
+
+        Raises
+        ------
+        ArgumentError
+            Where the basis is out of range.
 
         Examples
         --------

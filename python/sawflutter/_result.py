@@ -37,10 +37,27 @@ class Result(Drawn, Entry):
     def from_json(cls: type[R], text: str) -> R:
         """The result of a JSON text, as :meth:`to_json` gives it.
 
+        Parameters
+        ----------
+        text : str
+            The JSON text.
+
+        Returns
+        -------
+        Result
+            Of the class that is asked.
+
         Raises
         ------
         InputError
             Where the text is the report of something else.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> sf.CampbellResults.from_json(r.to_json()) == r
+        True
         """
         data = json.loads(text)
         try:
@@ -58,7 +75,30 @@ class Result(Drawn, Entry):
 
     @classmethod
     def computed(cls: type[R], text: str) -> R:
-        """The result of a report that was just made, with its warnings."""
+        """The result of a report that was just made, with its warnings.
+
+        Parameters
+        ----------
+        text : str
+            The report.
+
+        Returns
+        -------
+        Result
+            Of the class that is asked.
+
+        Raises
+        ------
+        InputError
+            Where the text is the report of something else.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> sf.CampbellResults.computed(r.to_json()) == r
+        True
+        """
         result = cls.from_json(text)
         for warning in result._warnings():
             # At the line that has called the method.
@@ -69,12 +109,32 @@ class Result(Drawn, Entry):
     def load(cls: type[R], path: str | os.PathLike[str]) -> R:
         """Reads a report of this kind that the program or :meth:`save` has written.
 
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Returns
+        -------
+        Result
+            Of the class that is asked.
+
         Raises
         ------
         InputError
             Where the file is the report of something else.
         OSError
             Where it cannot be read.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.json"
+        >>> r.save(path)
+        >>> sf.CampbellResults.load(path) == r
+        True
         """
         return cls.from_json(Path(path).read_text(encoding="utf-8"))
 
@@ -86,28 +146,89 @@ class Result(Drawn, Entry):
         return (*getattr(self, "unusual_numbers", ()), *getattr(self, "warnings", ()))
 
     def to_json(self) -> str:
-        """The report as the program writes it."""
+        """The report as the program writes it.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.to_json().startswith("{")
+        True
+        """
         return self._text
 
     @property
     def raw(self) -> dict[str, Any]:
-        """The report as a dict, with every key that it has."""
+        """The report as a dict, with every key that it has.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.raw["critical_speeds"][0]["rpm"] == r.critical_speeds[0].rpm
+        True
+        """
         data: dict[str, Any] = json.loads(self._text)
         return data
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it."""
+        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.json"
+        >>> r.save(path)
+        >>> path.read_text(encoding="utf-8") == r.to_json()
+        True
+        """
         Path(path).write_bytes(self._text.encode())
 
     @property
     def saw(self) -> Scene:
-        """The scene that was looked at; of a fit or a placement, the one that was found."""
+        """The scene that was looked at; of a fit or a placement, the one that was found.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.saw
+        <Scene 'Guided spline arbor saw': 710 mm outside, 2.8 mm thick, 1 guide>
+        """
         from .scene import Scene
 
         return Scene.from_json(json.dumps(self.raw["scene"]))
 
     def summary(self) -> str:
-        """The report in words, as the program prints it."""
+        """The report in words, as the program prints it.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> 'critical' in r.summary()
+        True
+        """
         return _native.summary(self.command, self._text)
 
     def figure(self, name: str) -> bytes | None:
@@ -117,6 +238,22 @@ class Result(Drawn, Entry):
         ----------
         name : str
             One of :attr:`figure_names`, PNG or SVG.
+
+        Returns
+        -------
+        bytes or None
+
+        Raises
+        ------
+        InputError
+            Where there is no figure of the name.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.figure("campbell.png")[1:4]
+        b'PNG'
         """
         return _native.picture(name, self._text)
 

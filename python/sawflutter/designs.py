@@ -33,11 +33,44 @@ class FitResults(Result, FitReport):
     figure_names = ("fit.svg", "fit.png")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a fitted number; needs pandas."""
+        """One row a fitted number; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = ["guides[0].stiffness_n_per_m"]
+        >>> found = saw.fit([7.9, 13.2, 25.9], free=free, starts=1)
+        >>> found.to_dataframe()["path"].tolist()
+        ['guides[0].stiffness_n_per_m']
+        """
         return frame(self.parameters)
 
     def chart(self) -> Chart:
-        """Measured and computed frequencies over speed."""
+        """Measured and computed frequencies over speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = ["guides[0].stiffness_n_per_m"]
+        >>> found = saw.fit([7.9, 13.2, 25.9], free=free, starts=1)
+        >>> [panel.y_name for panel in found.chart().panels]
+        ['frequency [Hz]', 'computed − measured [Hz]']
+        """
         from .plot.design import fit
 
         return fit(self, self._facts())
@@ -54,11 +87,45 @@ class PlaceResults(Result, PlaceReport):
     figure_names = ("place.svg", "place.png")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a number that was moved; needs pandas."""
+        """One row a number that was moved; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = {"guides[0].radius_m": (0.20, 0.28)}
+        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
+        >>> found.to_dataframe()["path"].tolist()
+        ['guides[0].radius_m']
+        """
         return frame(self.parameters)
 
     def chart(self) -> Chart:
-        """The goal over one or two numbers."""
+        """The goal over one or two numbers.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+            Without a panel where no map was asked for.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = {"guides[0].radius_m": (0.20, 0.28)}
+        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
+        >>> found.chart().panels
+        ()
+        """
         from .plot.design import place
 
         return place(self, self._facts())
@@ -84,14 +151,67 @@ class StudyResults(Result, StudyReport):
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> StudyResults:
         """Reads a report that the program or :meth:`save` has written, with the table of the saws
-        beside it: the file of the same name that ends in .csv."""
+        beside it: the file of the same name that ends in .csv.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Returns
+        -------
+        StudyResults
+
+        Raises
+        ------
+        InputError
+            Where the file is the report of something else.
+        OSError
+            Where it cannot be read.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> study.run(folder) == sf.StudyResults.load(folder / "study.json")
+        True
+        """
         result = super().load(path)
         object.__setattr__(result, "_table", _beside(path).absolute())
         return result
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the report, the same bytes as the program, and beside it the table of the saws, of
-        the same name that ends in .csv; :func:`sawflutter.load` reads both."""
+        the same name that ends in .csv; :func:`sawflutter.load` reads both.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> study.run(folder / "runs").save(folder / "thin.json")
+        >>> sorted(path.name for path in folder.glob("thin*"))
+        ['thin.csv', 'thin.json']
+        """
         table = self._csv()
         super().save(path)
         if table is not None and self._table != _beside(path).absolute():
@@ -100,10 +220,26 @@ class StudyResults(Result, StudyReport):
     def to_dataframe(self) -> pd.DataFrame:
         """One row a saw, from the table beside the report; needs pandas.
 
+        Returns
+        -------
+        pandas.DataFrame
+
         Raises
         ------
         FileNotFoundError
             Where the table is not beside the report.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> len(found.to_dataframe())
+        4
         """
         table = self._csv()
         if table is None:
@@ -146,6 +282,25 @@ class StudyResults(Result, StudyReport):
             ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
             is the same in all saws. A saw without a speed counts with the last speed looked at, and
             one that was not analysed does not count.
+
+        Raises
+        ------
+        ImportError
+            Where SALib or pandas is missing: it says how it is installed.
+        FileNotFoundError
+            Where the table is not beside the report.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 64, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> bool(found.sensitivity().loc["blade.thickness_m", "lowest_critical"] > 0.8)
+        True
         """
         with extra("sensitivity"):
             import pandas as pd
@@ -178,10 +333,27 @@ class StudyResults(Result, StudyReport):
         speed : {"lowest_critical_rpm", "flutter_rpm"}
             Which; the median where several saws are drawn in a point of the grid.
 
+        Returns
+        -------
+        sawflutter.plot.Chart
+
         Raises
         ------
         ValueError
             Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.map_chart("lowest_critical_rpm").panels[0].items[0].z.shape
+        (2, 2)
         """
         from .plot.design import grid
 
@@ -220,6 +392,19 @@ class StudyResults(Result, StudyReport):
         ------
         ValueError
             Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.plot_map("lowest_critical_rpm").layout.xaxis.title.text
+        'blade.thickness [m]'
         """
         return self.map_chart(speed).plot(fig, **look)
 
@@ -248,11 +433,41 @@ class StudyResults(Result, StudyReport):
         ------
         ValueError
             Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.plot_map_matplotlib("lowest_critical_rpm").get_xlabel()
+        'blade.thickness [m]'
         """
         return self.map_chart(speed).plot_matplotlib(ax, **look)
 
     def chart(self) -> Chart:
-        """Shares of the saws below a speed, and those that can be run at one."""
+        """Shares of the saws below a speed, and those that can be run at one.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> found.chart().panels[0].x_name
+        'lowest critical speed [rpm]'
+        """
         from .plot.design import study
 
         return study(self, self._facts())
@@ -275,24 +490,111 @@ class TradeoffResults(Drawn):
 
     @classmethod
     def from_json(cls, text: str, name: str = "") -> TradeoffResults:
-        """The result of a JSON text."""
+        """The result of a JSON text.
+
+        Parameters
+        ----------
+        text : str
+            As :meth:`save` writes it.
+        name : str
+            Title of the scene.
+
+        Returns
+        -------
+        TradeoffResults
+
+        Raises
+        ------
+        json.JSONDecodeError
+            Where the text is no JSON.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.TradeoffResults.from_json("[]", "none")
+        <TradeoffResults 'none': 0 settings>
+        """
         return cls((Setting.from_dict(setting) for setting in json.loads(text)), text, name)
 
     def recommended(self, error: float) -> Setting | None:
-        """The fastest chart within a relative error."""
+        """The fastest chart within a relative error.
+
+        Parameters
+        ----------
+        error : float
+            Largest true relative error.
+
+        Returns
+        -------
+        Setting or None
+            None where no chart is so accurate.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.TradeoffResults.from_json("[]").recommended(1e-3) is None
+        True
+        """
         charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``tradeoff.json``."""
+        """Writes ``tradeoff.json``.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "tradeoff.json"
+        >>> sf.TradeoffResults.from_json("[]").save(path)
+        >>> sf.load(path).settings
+        ()
+        """
         Path(path).write_bytes(self._text.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a setting; needs pandas."""
+        """One row a setting; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> len(sf.TradeoffResults.from_json("[]").to_dataframe())
+        0
+        """
         return frame(self.settings)
 
     def chart(self) -> Chart:
-        """Error over time."""
+        """Error over time.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.TradeoffResults.from_json("[]").chart().panels[0].y_name
+        'time [s]'
+        """
         from .plot.design import tradeoff
 
         return tradeoff(self.settings, self.name)

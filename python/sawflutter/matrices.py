@@ -48,14 +48,45 @@ class Matrices(Entry):
 
     @classmethod
     def of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
-        """The matrices of a scene as JSON, in a basis or in that of its accuracy."""
+        """The matrices of a scene as JSON, in a basis or in that of its accuracy.
+
+        Parameters
+        ----------
+        scene : str
+            The scene as JSON.
+        basis : (int, int) or None
+            Largest number of nodal diameters, and radial functions of each.
+
+        Returns
+        -------
+        Matrices
+
+        Raises
+        ------
+        ArgumentError
+            Where the basis is out of range.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> scene = sf.Scene.paper().to_json()
+        >>> sf.Matrices.of(scene, (6, 4)).radial_functions
+        4
+        """
         found, diameters, functions = _native.matrices(scene, basis=basis)
         arrays = {name: _square(found[name]) if name in found else None for name in _NAMES}
         return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)  # type: ignore[arg-type]
 
     @property
     def mass(self) -> FloatArray:
-        """M, one."""
+        """M, one.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> bool(sf.Scene.paper().matrices(basis=(6, 4)).mass[0, 0] == 1.0)
+        True
+        """
         one = np.eye(len(self.stiffness))
         one.setflags(write=False)
         return one

@@ -40,7 +40,25 @@ class Modes(Entry):
 
     @classmethod
     def of(cls, rpm: npt.ArrayLike, modes: list[list[dict[str, object]]]) -> Modes:
-        """The table of what the library reports of each speed."""
+        """The table of what the library reports of each speed.
+
+        Parameters
+        ----------
+        rpm : array_like
+            The speeds.
+        modes : list
+            The modes at each of them, as in the JSON.
+
+        Returns
+        -------
+        Modes
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Modes.of([], []).rpm.shape
+        (0,)
+        """
         found = tuple(tuple(Mode.from_dict(mode) for mode in of) for of in modes)
 
         def table(value: Callable[[Mode], float]) -> FloatArray:
@@ -55,7 +73,24 @@ class Modes(Entry):
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row a speed and mode: speed, frequency, growth rate, Krein sign, direction and the
-        number of nodal diameters that has the largest share; needs pandas."""
+        number of nodal diameters that has the largest share; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().with_accuracy("draft").modes([0, 500])
+        >>> sorted(set(found.to_dataframe()["rpm"].round(6)))
+        [0.0, 500.0]
+        """
         table = frame(mode for of in self.modes for mode in of)
         diameters = [mode.harmonics[0].nodal_diameters for of in self.modes for mode in of]
         table["nodal_diameters"] = diameters

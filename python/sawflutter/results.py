@@ -58,7 +58,15 @@ class CampbellResults(Result, CampbellReport):
 
     @property
     def critical_rpm(self) -> FloatArray:
-        """Critical speeds up to the end of the sweep, ascending."""
+        """Critical speeds up to the end of the sweep, ascending.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.critical_rpm[:2].round(-1).tolist()
+        [1530.0, 1550.0]
+        """
         speeds = np.array([critical.rpm for critical in self.critical_speeds])
         speeds.setflags(write=False)
         return speeds
@@ -66,25 +74,93 @@ class CampbellResults(Result, CampbellReport):
     @property
     def flutter_rpm(self) -> float | None:
         """Onset of the first flutter band whose peak growth reaches the threshold; None where there
-        is none within the sweep."""
+        is none within the sweep.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> 2250 < r.flutter_rpm < 2260
+        True
+        """
         return self.flutter_speed_rpm
 
     @property
     def bands(self) -> tuple[Instability, ...]:
-        """Bands of instability within the sweep, ascending."""
+        """Bands of instability within the sweep, ascending.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> [band.kind for band in r.bands[:2]]
+        ['divergence', 'flutter']
+        """
         return self.instabilities
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        """Modes followed over speed, by frequency at their lowest speed."""
+        """Modes followed over speed, by frequency at their lowest speed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.branches[0].branch
+        1
+        """
         return self.campbell.branches
 
     def modes(self, rpm: float) -> tuple[Mode, ...]:
-        """Modes at a speed of the sweep, with their shapes; see :meth:`sawflutter.Scene.modes`."""
+        """Modes at a speed of the sweep, with their shapes; see :meth:`sawflutter.Scene.modes`.
+
+        Parameters
+        ----------
+        rpm : float
+            A speed of the sweep.
+
+        Returns
+        -------
+        tuple of Mode
+            Ascending by frequency.
+
+        Raises
+        ------
+        ArgumentError
+            Where the speed is outside of the sweep.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.modes(1800)[0].direction
+        'reflected'
+        """
         return self.saw.modes(rpm)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``campbell.csv``, the same bytes as the program: one row a branch and speed."""
+        """Writes ``campbell.csv``, the same bytes as the program: one row a branch and speed.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "campbell.csv"
+        >>> r.to_csv(path)
+        >>> path.read_text().startswith("branch,")
+        True
+        """
         Path(path).write_bytes(_native.campbell_csv(self._text).encode())
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
@@ -96,6 +172,17 @@ class CampbellResults(Result, CampbellReport):
             Branches and speeds, with the columns of ``campbell.csv``; or modes at rest, critical
             speeds, or bands of instability, with the waves that make them, how those run
             (``directions``), and their nodal diameters.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ValueError
+            Where there is no such table.
+        ImportError
+            Where pandas is missing: it says how it is installed.
 
         Examples
         --------
@@ -127,13 +214,38 @@ class CampbellResults(Result, CampbellReport):
         return columns
 
     def chart(self) -> Chart:
-        """Frequencies over speed, growth rates below."""
+        """Frequencies over speed, growth rates below.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> [panel.y_name for panel in r.chart().panels]
+        ['Im λ / 2π [Hz]', 'Re λ [1/s], square root scale']
+        """
         from .plot.campbell import campbell
 
         return campbell(self, self._facts())
 
     def root_loci_chart(self) -> Chart:
-        """The two modes that meet at the flutter speed, in the complex plane."""
+        """The two modes that meet at the flutter speed, in the complex plane.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+            Without a panel where no two modes meet.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.root_loci_chart().panels[0].x_name
+        'Re λ [1/s]'
+        """
         from .plot.campbell import root_loci
 
         return root_loci(self)
@@ -197,16 +309,53 @@ class CheckResults(Result, CheckReport):
     @property
     def failures(self) -> tuple[str, ...]:
         """Numbers that no saw has, unless they were accepted, and names of the limits that are not
-        kept."""
+        kept.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
+        >>> check.failures
+        ('85 % rule',)
+        """
         unusual = () if self.accept_unusual else self.unusual_numbers
         return unusual + tuple(c.name for c in self.criteria if not c.passed)
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a limit; needs pandas."""
+        """One row a limit; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
+        >>> bool(check.to_dataframe()["passed"].all())
+        False
+        """
         return frame(self.criteria)
 
     def chart(self) -> Chart:
-        """Speeds that were asked for and found."""
+        """Speeds that were asked for and found.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
+        >>> check.chart().panels[0].y_names[-1]
+        '85 % rule'
+        """
         from .plot.design import check
 
         return check(self, self._facts())
@@ -236,17 +385,68 @@ class CutResults(Result, CutReport):
     )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a speed, without the histories and maps; needs pandas."""
+        """One row a speed, without the histories and maps; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
+        >>> cut.to_dataframe()["rpm"].tolist()
+        [1800.0]
+        """
         return frame(self.runs)
 
     def chart(self) -> Chart:
-        """Deflection at the probe over time, one panel a speed."""
+        """Deflection at the probe over time, one panel a speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
+        >>> len(cut.chart().panels) == len(cut.runs)
+        True
+        """
         from .plot.histories import cut
 
         return cut(self, self._facts())
 
     def map_chart(self, run: int = 0) -> Chart:
-        """Growth over guide angle and load, of one of the runs."""
+        """Growth over guide angle and load, of one of the runs.
+
+        Parameters
+        ----------
+        run : int
+            Which of :attr:`runs`, counted from 0.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Raises
+        ------
+        IndexError
+            Where there is no such run.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
+        >>> cut.map_chart().panels[0].y_name
+        'multiple of the forces'
+        """
         from .plot.histories import cut_map
 
         return cut_map(self, run)
@@ -300,20 +500,61 @@ class RunUpResults(Result, RunUpReport):
     )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Speed and deflection, one row a sample; needs pandas."""
+        """Speed and deflection, one row a sample; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> list(up.to_dataframe())
+        ['rpm', 'deflection_m']
+        """
         with extra("pandas"):
             import pandas as pd
 
         return pd.DataFrame({"rpm": self.rpm, "deflection_m": self.deflection_m})
 
     def chart(self) -> Chart:
-        """Deflection at the probe over speed."""
+        """Deflection at the probe over speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> up.chart().panels[0].y_name
+        'deflection [mm], square root scale'
+        """
         from .plot.histories import run_up
 
         return run_up(self, self._facts())
 
     def response_chart(self) -> Chart:
-        """Deflection per newton over speed and frequency, with the branches on top."""
+        """Deflection per newton over speed and frequency, with the branches on top.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> up.response_chart().panels[0].y_name
+        'frequency of the force [Hz]'
+        """
         from .plot.histories import response
 
         return response(self)
@@ -363,7 +604,24 @@ class DeflectResults(Result, DeflectReport):
     figure_names = ("deflect.svg", "deflect.png")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Stable equilibria, one row each, without the frequencies; needs pandas."""
+        """Stable equilibria, one row each, without the frequencies; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().run_deflect(to_rpm=1000, accuracy="draft")
+        >>> sorted(set(found.to_dataframe()["direction"]))
+        ['down', 'up']
+        """
         with extra("pandas"):
             import pandas as pd
 
@@ -382,7 +640,19 @@ class DeflectResults(Result, DeflectReport):
         return pd.concat(rows, ignore_index=True)
 
     def chart(self) -> Chart:
-        """Deflection at the probe over speed."""
+        """Deflection at the probe over speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().run_deflect(to_rpm=1000, accuracy="draft")
+        >>> found.chart().panels[0].y_name
+        'deflection [mm]'
+        """
         from .plot.histories import deflection
 
         return deflection(self, self._facts())
@@ -399,11 +669,46 @@ class WashboardResults(Result, WashboardReport):
     figure_names = ("washboard.svg", "washboard.png")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a mode; needs pandas."""
+        """One row a mode; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> spring = {"stiffness_n_per_m": 1e5, "overlap": 1.0}
+        >>> changes = {"cut.washboarding": spring, "damping.air_n_s_per_m3": 50.0}
+        >>> saw = sf.Scene.paper().replace(changes)
+        >>> found = saw.run_washboard(1000, accuracy="draft")  # doctest: +SKIP
+        >>> len(found.to_dataframe()) == len(found.modes)  # doctest: +SKIP
+        True
+        """
         return frame(self.modes)
 
     def chart(self) -> Chart:
-        """Least cutting stiffness at which a motion grows, and its frequency, over the speed."""
+        """Least cutting stiffness at which a motion grows, and its frequency, over the speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> spring = {"stiffness_n_per_m": 1e5, "overlap": 1.0}
+        >>> changes = {"cut.washboarding": spring, "damping.air_n_s_per_m3": 50.0}
+        >>> saw = sf.Scene.paper().replace(changes)
+        >>> found = saw.run_washboard(1000, accuracy="draft")  # doctest: +SKIP
+        >>> found.chart().panels[0].y_name  # doctest: +SKIP
+        'cutting stiffness [N/m]'
+        """
         from .plot.washboard import lobes
 
         return lobes(self, self._facts())
@@ -430,6 +735,23 @@ _KINDS: tuple[type[Result], ...] = (
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     """Reads a report that the program or :meth:`Result.save` has written.
 
+    Parameters
+    ----------
+    path : str or path
+        The file.
+
+    Returns
+    -------
+    Result or TradeoffResults
+        Of the kind that the file has.
+
+    Raises
+    ------
+    InputError
+        Where the file is no report.
+    OSError
+        Where it cannot be read.
+
     Examples
     --------
     >>> import tempfile, pathlib
@@ -441,7 +763,10 @@ def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     True
     """
     text = Path(path).read_text(encoding="utf-8")
-    data = json.loads(text)
+    try:
+        data = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path} is no report of sawflutter: it is no JSON ({error})") from None
     if isinstance(data, list):
         return TradeoffResults.from_json(text)
     # Of the kinds whose keys are all there, the one with the most: some have the keys of others.

@@ -99,10 +99,26 @@ class Scene(Questions, Mapping[str, Any]):
     def from_json(cls, text: str) -> Scene:
         """The scene of a JSON text.
 
+        Parameters
+        ----------
+        text : str
+            The JSON text.
+
+        Returns
+        -------
+        Scene
+
         Raises
         ------
         SceneError
             Where the scene is refused.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> sf.Scene.from_json(saw.to_json()) == saw
+        True
         """
         return cls._of(_native.scene(text))
 
@@ -110,62 +126,174 @@ class Scene(Questions, Mapping[str, Any]):
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a scene file.
 
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Returns
+        -------
+        Scene
+
         Raises
         ------
         SceneError
             Where the scene is refused.
         OSError
             Where the file cannot be read.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "saw.json"
+        >>> saw.save(path)
+        >>> sf.Scene.load(path) == saw
+        True
         """
         return cls._of(_native.read_scene(path))
 
     @classmethod
     def paper(cls) -> Scene:
-        """The guided spline saw that comes with the program, with the numbers of a paper."""
+        """The guided spline saw that comes with the program, with the numbers of a paper.
+
+        Returns
+        -------
+        Scene
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.name
+        'Guided spline arbor saw'
+        """
         return cls._of(_native.paper())
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a scene file.
 
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
         Raises
         ------
         OSError
             Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "saw.json"
+        >>> saw.save(path)
+        >>> sf.Scene.load(path) == saw
+        True
         """
         text = json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
         Path(path).write_text(text + "\n", encoding="utf-8")
 
     def to_dict(self) -> SceneDict:
-        """The scene as a dict of its own, to be changed and made a scene of again."""
+        """The scene as a dict of its own, to be changed and made a scene of again.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> data = saw.to_dict()
+        >>> data["name"] = "Mine"
+        >>> sf.Scene(data).name
+        'Mine'
+        """
         return cast(SceneDict, json.loads(self._text))
 
     def to_json(self) -> str:
-        """The scene as one line of JSON."""
+        """The scene as one line of JSON.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> sf.Scene.from_json(saw.to_json()) == saw
+        True
+        """
         return self._text
 
     @property
     def name(self) -> str:
-        """Title of reports and figures."""
+        """Title of reports and figures.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.name
+        'Guided spline arbor saw'
+        """
         return str(self._data["name"])
 
     @property
     def blade(self) -> BladeDict:
-        """The blade, like ``saw.blade["thickness_m"]``."""
+        """The blade, like ``saw.blade["thickness_m"]``.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.blade["thickness_m"]
+        0.0028
+        """
         return cast(BladeDict, self._data["blade"])
 
     @property
     def mount(self) -> MountDict | None:
-        """How the blade is held at the bore."""
+        """How the blade is held at the bore.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.mount['kind']
+        'spline'
+        """
         return self._data.get("mount")
 
     @property
     def guides(self) -> tuple[GuideDict, ...]:
-        """The guides, like ``saw.guides[0]["radius_m"]``."""
+        """The guides, like ``saw.guides[0]["radius_m"]``.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> len(saw.guides)
+        1
+        """
         return tuple(self._data.get("guides", ()))
 
     @property
     def cut(self) -> CutDict | None:
-        """The wood and its forces."""
+        """The wood and its forces.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.cut is None
+        False
+        """
         return self._data.get("cut")
 
     def __getitem__(self, path: str) -> Any:
@@ -231,6 +359,10 @@ class Scene(Questions, Mapping[str, Any]):
         stiffness_n_per_m, damping_n_s_per_m, gap_m : float, optional
             Its other numbers. A number that is left out is that of the last guide.
 
+        Returns
+        -------
+        Scene
+
         Raises
         ------
         SceneError
@@ -257,6 +389,24 @@ class Scene(Questions, Mapping[str, Any]):
 
     def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number = None) -> Scene:
         """The scene with another accuracy, by name or as a relative error.
+
+        Parameters
+        ----------
+        accuracy : {"draft", "design", "reference"}, optional
+            Accuracy by name.
+        tolerance : float, optional
+            Relative error allowed of critical speeds and onsets, instead of a name.
+
+        Returns
+        -------
+        Scene
+
+        Raises
+        ------
+        TypeError
+            Where both are given.
+        SceneError
+            Where one is refused.
 
         Examples
         --------

@@ -32,7 +32,19 @@ class StiffnessMap(Drawn, Entry):
     """Flutter speed of each; NaN where there is none within the sweep."""
 
     def chart(self) -> Chart:
-        """Critical speeds and flutter speed over the stiffness."""
+        """Critical speeds and flutter speed over the stiffness.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().run_stiffness_map([1e4, 1e8], accuracy="draft")
+        >>> found.chart().panels[0].x_name
+        'stiffness of each guide [N/m]'
+        """
         from .plot.design import stiffness
 
         return stiffness(self)

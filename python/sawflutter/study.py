@@ -31,8 +31,8 @@ class Study:
     scene : Scene
         The saw without deviations.
     study : dict or path
-        What varies, how, and which limits the saws have to keep, see ``sawflutter schema --study``
-        or :data:`sawflutter.StudyDict`.
+        What varies, how, and which limits the saws have to keep, see
+        :data:`sawflutter.StudyDict`.
 
     Examples
     --------
@@ -63,15 +63,66 @@ class Study:
 
     @property
     def count(self) -> int:
-        """Number of saws."""
+        """Number of saws.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> study.count
+        4
+        """
         return self._native.count
 
     def to_dict(self) -> StudyDict:
-        """The study as a dict of its own."""
+        """The study as a dict of its own.
+
+        Returns
+        -------
+        dict
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> study.to_dict()['name']
+        'Thickness'
+        """
         return cast(StudyDict, json.loads(self._text))
 
     def values(self, saws: Iterable[int] | None = None) -> FloatArray:
-        """Values of the numbers that vary, of the shape (saws, numbers)."""
+        """Values of the numbers that vary, of the shape (saws, numbers).
+
+        Parameters
+        ----------
+        saws : iterable of int, optional
+            Which saws, counted from 0; all of them by default.
+
+        Returns
+        -------
+        ndarray of float
+
+        Raises
+        ------
+        OverflowError
+            Where the number of a saw is negative.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> study.values().shape
+        (4, 1)
+        """
         chosen = range(self.count) if saws is None else saws
         return np.array([self._native.values(int(saw)) for saw in chosen])
 
@@ -107,6 +158,18 @@ class Study:
         AnalysisError
             Where a worker has another version of sawflutter, or the executor has stopped. What is
             done is in the log: run again with another executor, the study goes on.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> found
+        <StudyResults 'Guided spline arbor saw': 4 saws>
         """
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)

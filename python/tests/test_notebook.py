@@ -191,6 +191,9 @@ def test_a_report_of_another_kind_is_refused(report: sf.CampbellResults, tmp_pat
     assert sf.CampbellResults.load(tmp_path / "report.json") == report
     with pytest.raises(sf.InputError, match="sawflutter.load"):
         sf.CheckResults.load(tmp_path / "report.json")
+    (tmp_path / "notes.txt").write_text("no JSON", encoding="utf-8")
+    with pytest.raises(sf.InputError, match="notes.txt"):
+        sf.load(tmp_path / "notes.txt")
 
 
 def test_guides_without_stiffness_leave_the_free_blade(draft: sf.Scene) -> None:
