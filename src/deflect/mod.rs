@@ -185,8 +185,8 @@ fn change(
     Ok(largest)
 }
 
-/// The curves that the blade follows from one jump to the next, through their folds, and those that leave the flat
-/// blade at its critical speeds, on both sides.
+/// The curves that the blade follows from one jump to the next, through their folds, those through its mirror images, and
+/// those that leave the flat blade at its critical speeds, on both sides.
 fn curves(
     blade: &StretchedBlade,
     range: (f64, f64),
@@ -197,6 +197,9 @@ fn curves(
         for start in sweep.arcs.iter().filter_map(|arc| arc.first()) {
             add_curve(blade, &mut curves, (start, &[upwards]), range)?;
         }
+    }
+    for start in mirrored(blade, sweeps.map(|(sweep, _)| sweep))? {
+        add_curve(blade, &mut curves, (&start, &[true, false]), range)?;
     }
     let unforced = blade.clone().unforced();
     for (critical, shape) in unforced.pitchforks()? {
@@ -215,6 +218,28 @@ fn curves(
         }
     }
     Ok(curves)
+}
+
+/// Where the blade comes to rest from mirror images of the equilibria of the sweeps, at some speeds: a side force opens each
+/// pitchfork, and the curve on its other side begins at a fold beyond the critical speed, to which no sweep leads.
+fn mirrored(
+    blade: &StretchedBlade,
+    sweeps: [&Sweep; 2],
+) -> Result<Vec<Equilibrium>, StretchedError> {
+    let mut found = Vec::new();
+    for sweep in sweeps {
+        let all: Vec<&Equilibrium> = sweep.arcs.iter().flatten().collect();
+        for k in 1..=COMPARED {
+            Cancellation::current().check()?;
+            let Some(e) = all.get((k * all.len() / COMPARED).saturating_sub(1)) else {
+                continue;
+            };
+            let image = faer::Scale(-1.0) * &e.coordinates;
+            // Where nothing is found no curve is drawn.
+            found.extend(blade.settled(e.speed_rad_per_s, &image));
+        }
+    }
+    Ok(found)
 }
 
 /// Share of the range of speeds above a critical speed at which the curve that leaves there is looked for.

@@ -86,3 +86,44 @@ fn what_no_blade_answers_is_refused() {
     let said = free.unwrap_err().to_string();
     assert!(said.contains("guide"), "{said}");
 }
+
+/// Beyond its fold the curve on the other side of the paper's first pitchfork is there at `draft` as well: from many
+/// deflections the blade comes to rest on curves that are known.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn wherever_the_blade_comes_to_rest_a_curve_is_drawn() {
+    let options = Options {
+        to_rpm: Some(2200.0),
+        ..Options::default()
+    };
+    let found = Deflecting::new(&draft(), &options).unwrap();
+    let speed = rad_per_s(2000.0);
+    let plate = &found.analysis.model.plate;
+    let blade = found.force.on(plate, rad_per_s(2200.0), MODES).unwrap();
+    let probe = found.scene.probe();
+    let mut seen = Vec::new();
+    for k in 0..12 {
+        let angle = std::f64::consts::TAU * f64::from(k) / 12.0;
+        let pushed = (plate.blade.outer_radius_m, angle);
+        let pushed = blade.clone().pressed(200.0, pushed).unwrap();
+        let begun = pushed.settled(speed, &blade.flat()).unwrap();
+        let rest = blade.settled(speed, &begun.coordinates).unwrap();
+        let deflection_m = blade.deflection_m(&rest, probe.radius_m, probe.angle_rad);
+        let on_curve = |pair: &[Reading]| {
+            let [from, to] = [pair[0].speed_rad_per_s, pair[1].speed_rad_per_s];
+            let share = (speed - from) / (to - from);
+            let between =
+                pair[0].deflection_m + share * (pair[1].deflection_m - pair[0].deflection_m);
+            (0.0..=1.0).contains(&share) && (between - deflection_m).abs() < 2e-4
+        };
+        let curves = found.curves.iter();
+        assert!(
+            curves.flat_map(|c| c.readings.windows(2)).any(on_curve),
+            "{k}: {deflection_m}"
+        );
+        if !seen.iter().any(|w: &f64| (w - deflection_m).abs() < 1e-5) {
+            seen.push(deflection_m);
+        }
+    }
+    assert!(seen.len() > 1, "{seen:?}");
+}

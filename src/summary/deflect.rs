@@ -41,7 +41,7 @@ fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
 
 const MEANING: &str = "These equilibria are those of the blade with any damping that stands in space: every motion \
      then ends in a stable one. Damping that turns with the blade may hold the flat blade, and a fast run-up may \
-     be over before the blade leans.";
+     be over before the blade leans. Curves that neither a sweep, nor its mirror image, nor a critical speed leads to may exist.";
 
 /// How far the blade is deflected.
 fn verdict(report: &DeflectReport) -> String {
