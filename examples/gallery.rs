@@ -4,11 +4,14 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::check::{Check, Limits};
+use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::figure::Figures;
 use sawflutter::fit::{Fit, Measurement};
 use sawflutter::place::{Demands, Placement};
-use sawflutter::report::{CheckReport, CutReport, FitReport, PlaceReport, RunUpReport};
-use sawflutter::scene::{Freed, Scene, rad_per_s};
+use sawflutter::report::{
+    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, RunUpReport,
+};
+use sawflutter::scene::{Accuracy, Freed, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::study::StudyReport;
 use sawflutter::transient::{Cutting, RunningUp};
@@ -62,6 +65,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     if scene.file().runup.is_some() {
         let found = RunningUp::new(scene, &|_, _| ())?;
         figures.extend(pngs(&RunUpReport::new(&found))?);
+        figures.extend(stretched(scene)?);
     }
     if scene.operating_rad_per_s().is_some() && scene.file().guides.len() == 1 {
         figures.extend(pngs(&check(scene)?)?);
@@ -73,6 +77,32 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         figures.extend(pngs(&place(scene)?)?);
     }
     Ok(figures)
+}
+
+/// `sawflutter cut --stretching`, `runup --stretching` and `deflect`, at `draft` where they take long.
+fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
+    let draft = scene.edited(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        saw.cut.iter_mut().for_each(|cut| cut.stretching = true);
+        saw.runup.iter_mut().for_each(|up| up.stretching = true);
+    })?;
+    let found = RunningUp::new(&draft, &|_, _| ())?;
+    let named = |name: &'static str| match name {
+        "cut.png" => Some("cut-stretching.png"),
+        "runup.png" => Some("runup-stretching.png"),
+        "runup-map.png" | "deflect.png" => Some(name),
+        _ => None,
+    };
+    let deflected = Deflecting::new(scene, &Options::default())?;
+    let all = [
+        pngs(&cut(&draft)?)?,
+        pngs(&RunUpReport::new(&found))?,
+        pngs(&DeflectReport::new(&deflected))?,
+    ];
+    let all = all.into_iter().flatten();
+    Ok(all
+        .filter_map(|(name, png)| Some((named(name)?, png)))
+        .collect())
 }
 
 /// `sawflutter cut`.
