@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from importlib.metadata import version as _version
 
-from . import _report_types, designs, matrices, modes, results, stiffness
+from . import _report_types, checks, designs, matrices, modes, motions, results, stiffness, studies
 from ._entry import describe as _describe
 from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
 from ._scene_types import SceneDict, StudyDict
@@ -49,7 +49,9 @@ from .scene import Scene
 from .stiffness import StiffnessMap
 from .study import Study
 
-for _module in (_report_types, designs, matrices, modes, results, stiffness):
+for _module in (
+    _report_types, checks, designs, matrices, modes, motions, results, stiffness, studies
+):  # fmt: skip
     _describe(_module.__name__)
 
 __version__ = _version("sawflutter")

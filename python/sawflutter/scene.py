@@ -6,26 +6,13 @@ import json
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    Literal,
-    cast,
-    overload,
-)
+from typing import Any, cast
 
 from . import _native, _paths, _values
-from ._questions import Number, Questions
-from ._report_types import Mode
+from ._pictures import Pictures
+from ._questions import Questions
 from ._scene_types import Accuracy, BladeDict, CutDict, GuideDict, MountDict, SceneDict
-
-if TYPE_CHECKING:
-    from matplotlib.animation import FuncAnimation
-    from matplotlib.axes import Axes
-    from plotly.graph_objects import Figure
-
-    from .plot.chart import Chart
-    from .plot.motion import Animation
+from ._searches import Number
 
 
 class Block(dict[str, Any]):
@@ -44,7 +31,7 @@ class Block(dict[str, Any]):
 _UNCHANGED = "a scene cannot be changed; replace({path: value}) makes another one"
 
 
-class Scene(Questions, Mapping[str, Any]):
+class Scene(Pictures, Questions, Mapping[str, Any]):
     """A saw: blade, mount, guides and what to find out about it. It is a mapping of the keys of a
     scene file, and takes paths as well. It cannot be changed; :meth:`replace` makes another one.
 
@@ -421,107 +408,6 @@ class Scene(Questions, Mapping[str, Any]):
         if tolerance is not None:
             return self.replace({"tolerance": tolerance})
         return self
-
-    def plot_saw(self, fig: Figure | None = None) -> Figure:
-        """Draws the saw seen along its axis with plotly: blade, guides, cut, probe, and which way
-        the rotation and angles are positive.
-
-        Parameters
-        ----------
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> figure = sf.Scene.paper().plot_saw()
-        >>> [trace.name for trace in figure.data][:3]
-        ['rim', 'bore', 'guides[0]']
-        """
-        return self.chart().plot(fig)
-
-    def plot_saw_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """Draws the same as :meth:`plot_saw` with matplotlib.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Axes to draw into; by default those of a new figure.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Scene.paper().plot_saw_matplotlib().get_ylabel()
-        'y [m]'
-        """
-        return self.chart().plot_matplotlib(ax)
-
-    def chart(self) -> Chart:
-        """What :meth:`plot_saw` draws, as numbers.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.Scene.paper().chart().panels)
-        1
-        """
-        from .plot.saw import saw
-
-        return saw(self)
-
-    @overload
-    def animate(
-        self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48
-    ) -> Figure: ...
-    @overload
-    def animate(
-        self, mode: Mode, *, backend: Literal["matplotlib"], frames: int = 48
-    ) -> FuncAnimation: ...
-    def animate(
-        self, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
-    ) -> Animation:
-        """Sets a mode in motion on the blade, seen from space.
-
-        Parameters
-        ----------
-        mode : Mode
-            One of :meth:`modes`.
-        backend : {"plotly", "matplotlib"}
-            A plotly Figure with frames and a button, or a matplotlib FuncAnimation.
-        frames : int
-            Pictures a period.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure or matplotlib.animation.FuncAnimation
-
-        Raises
-        ------
-        ValueError
-            Where the backend or the number of frames is none.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> len(saw.animate(saw.modes(1800)[0], frames=12).frames)
-        12
-        """
-        from .plot.motion import animate
-
-        return animate(self, mode, backend=backend, frames=frames)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(_UNCHANGED)

@@ -1,0 +1,368 @@
+"""What a study of many saws finds."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from ._extras import extra
+from ._report_types import StudyReport
+from ._result import Result
+from ._table import read
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+    from plotly.graph_objects import Figure
+    from typing_extensions import Unpack
+
+    from ._drawn import Look
+    from .plot.chart import Chart
+
+
+class StudyResults(Result, StudyReport):
+    """Many saws, summed up; :meth:`sawflutter.Study.run` makes it."""
+
+    command = "study"
+    figure_names = ("study.svg", "study.png")
+
+    _table: Path | str | None = None
+    """``study.csv``: where it is, or what is in it."""
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> StudyResults:
+        """Reads a report that the program or :meth:`save` has written, with the table of the saws
+        beside it: the file of the same name that ends in .csv.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Returns
+        -------
+        StudyResults
+
+        Raises
+        ------
+        InputError
+            Where the file is the report of something else.
+        OSError
+            Where it cannot be read.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> study.run(folder) == sf.StudyResults.load(folder / "study.json")
+        True
+        """
+        result = super().load(path)
+        object.__setattr__(result, "_table", _beside(path).absolute())
+        return result
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report, the same bytes as the program, and beside it the table of the saws, of
+        the same name that ends in .csv; :func:`sawflutter.load` reads both.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> study.run(folder / "runs").save(folder / "thin.json")
+        >>> sorted(path.name for path in folder.glob("thin*"))
+        ['thin.csv', 'thin.json']
+        """
+        table = self._csv()
+        super().save(path)
+        if table is not None and self._table != _beside(path).absolute():
+            _beside(path).write_bytes(table.encode())
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """One row a saw, from the table beside the report; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        FileNotFoundError
+            Where the table is not beside the report.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> len(found.to_dataframe())
+        4
+        """
+        table = self._csv()
+        if table is None:
+            raise FileNotFoundError(
+                "the table of the saws is study.csv beside the report: load it there"
+            )
+        return read(table)
+
+    def _csv(self) -> str | None:
+        if isinstance(self._table, Path):
+            return self._table.read_bytes().decode() if self._table.exists() else None
+        return self._table
+
+    @staticmethod
+    def _with_table(text: str, table: str | None) -> StudyResults:
+        result = StudyResults.from_json(text)
+        object.__setattr__(result, "_table", table)
+        return result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return StudyResults._with_table, (self._text, self._csv())
+
+    def sensitivity(self, *, confidence: float = 0.95, seed: int = 0) -> pd.DataFrame:
+        """Sobol' indices of the first order: the share of the variance of a speed that a number
+        causes by itself, whatever the others are. What is missing to 1 in their sum is due to
+        several together. Needs SALib, which estimates them by RBD-FAST from the saws that there
+        are (Tarantola, Gatelli and Mara, Reliability Engineering and System Safety 91 (2006), 717).
+
+        Parameters
+        ----------
+        confidence : float
+            Of the half-width beside each index, from resampled saws.
+        seed : int
+            Of this resampling.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a number; columns ``lowest_critical``, ``flutter``, and the half-widths
+            ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
+            is the same in all saws. A saw without a speed counts with the last speed looked at, and
+            one that was not analysed does not count.
+
+        Raises
+        ------
+        ImportError
+            Where SALib or pandas is missing: it says how it is installed.
+        FileNotFoundError
+            Where the table is not beside the report.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 64, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> bool(found.sensitivity().loc["blade.thickness_m", "lowest_critical"] > 0.8)
+        True
+        """
+        with extra("sensitivity"):
+            import pandas as pd
+            from SALib.analyze import rbd_fast
+
+        table = self.to_dataframe()
+        table = table[table["status"] == "analysed"]
+        names = [parameter["path"] for parameter in self.study["parameters"]]
+        numbers = table[names].to_numpy(dtype=float)
+        # Ranks: an index depends on the order of the saws by each number, not on its distribution.
+        bounds = [[low, high] for low, high in zip(numbers.min(axis=0), numbers.max(axis=0))]
+        problem = {"num_vars": len(names), "names": names, "bounds": bounds}
+        columns: dict[str, Any] = {}
+        for key, column in (("lowest_critical", "lowest_critical_rpm"), ("flutter", "flutter_rpm")):
+            speeds = table[column].astype(float).fillna(self.swept_to_rpm).to_numpy()
+            columns[key] = columns[f"{key}_confidence"] = np.full(len(names), np.nan)
+            if len(speeds) > 1 and np.ptp(speeds) > 0.0:
+                found = rbd_fast.analyze(problem, numbers, speeds, conf_level=confidence, seed=seed)
+                columns[key] = np.array(found["S1"])
+                columns[f"{key}_confidence"] = np.array(found["S1_conf"])
+        return pd.DataFrame(columns, index=pd.Index(names, name="number"))
+
+    def map_chart(
+        self, speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm"
+    ) -> Chart:
+        """A speed over the two numbers of a grid, as a heat map; needs pandas.
+
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which; the median where several saws are drawn in a point of the grid.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.map_chart("lowest_critical_rpm").panels[0].items[0].z.shape
+        (2, 2)
+        """
+        from .plot.design import grid
+
+        paths = [
+            parameter["path"]
+            for parameter in self.study["parameters"]
+            if parameter["distribution"]["kind"] == "grid"
+        ]
+        if len(paths) != 2:
+            raise ValueError(f"a map needs a grid of two numbers, and this study has {len(paths)}")
+        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
+        return grid(self, rows, (paths[0], paths[1]), speed)
+
+    def plot_map(
+        self,
+        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
+        fig: Figure | None = None,
+        **look: Unpack[Look],
+    ) -> Figure:
+        """Draws :meth:`map_chart` with plotly.
+
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which, as in :meth:`map_chart`.
+        fig : plotly.graph_objects.Figure, optional
+            A figure to draw into; by default a new one.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.plot_map("lowest_critical_rpm").layout.xaxis.title.text
+        'blade.thickness [m]'
+        """
+        return self.map_chart(speed).plot(fig, **look)
+
+    def plot_map_matplotlib(
+        self,
+        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
+        ax: Axes | None = None,
+        **look: Unpack[Look],
+    ) -> Axes:
+        """Draws :meth:`map_chart` with matplotlib.
+
+        Parameters
+        ----------
+        speed : {"lowest_critical_rpm", "flutter_rpm"}
+            Which, as in :meth:`map_chart`.
+        ax : Axes, optional
+            Axes to draw into; by default those of a new figure.
+        **look
+            Units and harmonics, as in :meth:`plot`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            Where the study has no grid of two numbers.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> def grid(path, *values):
+        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
+        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
+        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
+        >>> found.plot_map_matplotlib("lowest_critical_rpm").get_xlabel()
+        'blade.thickness [m]'
+        """
+        return self.map_chart(speed).plot_matplotlib(ax, **look)
+
+    def chart(self) -> Chart:
+        """Shares of the saws below a speed, and those that can be run at one.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import sawflutter as sf
+        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
+        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
+        >>> found = study.run(tempfile.mkdtemp())
+        >>> found.chart().panels[0].x_name
+        'lowest critical speed [rpm]'
+        """
+        from .plot.design import study
+
+        return study(self, self._facts())
+
+    def _facts(self) -> str:
+        passing = self.all.passing
+        kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
+        lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
+        said = "".join(f", {count} {word}" for count, word in lost if count)
+        return f"{self.all.saws} saws{said}{kept}"
+
+
+def _beside(path: str | os.PathLike[str]) -> Path:
+    return Path(path).with_suffix(".csv")
