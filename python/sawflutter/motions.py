@@ -161,7 +161,8 @@ class RunUpResults(Result, RunUpReport):
         Examples
         --------
         >>> import sawflutter as sf
-        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
+        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
         >>> list(up.to_dataframe())
         ['rpm', 'deflection_m']
         """
@@ -180,7 +181,8 @@ class RunUpResults(Result, RunUpReport):
         Examples
         --------
         >>> import sawflutter as sf
-        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
+        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
         >>> up.chart().panels[0].y_name
         'deflection [mm], square root scale'
         """
@@ -198,7 +200,8 @@ class RunUpResults(Result, RunUpReport):
         Examples
         --------
         >>> import sawflutter as sf
-        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
+        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
         >>> up.response_chart().panels[0].y_name
         'frequency of the force [Hz]'
         """
@@ -225,7 +228,8 @@ class RunUpResults(Result, RunUpReport):
         Examples
         --------
         >>> import sawflutter as sf
-        >>> up = sf.Scene.paper().run_up(accuracy="draft")
+        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
+        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
         >>> up.plot_response(harmonics=[1]).layout.xaxis.title.text
         'rotation speed Ω [rpm]'
         """

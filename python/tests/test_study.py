@@ -211,3 +211,16 @@ def test_a_grid_is_a_map_of_its_speeds(draft: sf.Scene, tmp_path: Path) -> None:
         sf.Study(draft.replace({"guides": []}), {**VARIED, "saws": 2}).run(
             tmp_path / "no"
         ).map_chart()
+
+
+def test_the_dashboard_of_a_cluster_is_named(
+    study: sf.Study, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Cluster(ThreadPoolExecutor):
+        dashboard_link = "http://127.0.0.1:8787/status"
+
+    told: list[tuple[int, int]] = []
+    with Cluster(1) as executor:
+        study.run(tmp_path, executor=executor, progress=lambda done, of: told.append((done, of)))
+    assert f"dashboard {Cluster.dashboard_link}" in capsys.readouterr().err
+    assert told[-1] == (24, 24) and told == sorted(told)
