@@ -40,6 +40,16 @@ def pad(key: str, value: float) -> Change:
     return lambda saw: saw["guides"][0].__setitem__(key, value)
 
 
+def both(first: Change, second: Change) -> Change:
+    """Two changes."""
+
+    def change(saw: dict[str, Any]) -> None:
+        first(saw)
+        second(saw)
+
+    return change
+
+
 def nothing(saw: dict[str, Any]) -> None:
     """The built-in saw."""
 
@@ -58,6 +68,7 @@ ROWS: list[tuple[str, Change]] = [
     ("material 1e-6 s", damping(MATERIAL, 1e-6)),
     ("material 1e-5 s", damping(MATERIAL, 1e-5)),
     ("material 1e-4 s", damping(MATERIAL, 1e-4)),
+    ("material 1e-4 s, to 2800 rpm in 21 s", both(damping(MATERIAL, 1e-4), runup(**LONG))),
     ("ramp in 2.6 s", runup(duration_s=2.6)),
     ("ramp in 42 s", runup(duration_s=42.0)),
     ("pad at 0.25 m", pad("radius_m", 0.25)),
