@@ -30,6 +30,8 @@ nitpick_ignore_regex = [
     ("py:.*", r"(?!sawflutter\.).*"),
     ("py:.*", r"sawflutter\._.*"),
     ("py:class", r"sawflutter\.results\.R"),
+    # Charts are described by `help(sawflutter.plot)`.
+    ("py:class", r"sawflutter\.plot\..*"),
 ]
 
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
