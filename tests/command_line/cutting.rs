@@ -118,10 +118,20 @@ fn a_run_up_tells_of_every_band_it_passes() {
 #[test]
 fn a_scene_without_the_forces_is_refused() {
     type Case<'a> = (&'a [&'a str], &'a str, fn(&mut SceneFile));
-    let cases: [Case<'_>; 5] = [
+    let cases: [Case<'_>; 7] = [
         (&["cut"], "cut is missing", |file| file.cut = None),
         (&["runup"], "runup is missing", |file| file.runup = None),
         (&["cut", "--rpm", "-5"], "rpm is -5", |_| ()),
+        (
+            &["cut", "--stretching"],
+            "nothing holds the blade laterally",
+            |file| file.guides.clear(),
+        ),
+        (
+            &["runup", "--stretching"],
+            "nothing holds the blade laterally",
+            |file| file.guides.clear(),
+        ),
         (&["cut"], "cut.speeds is missing", |file| {
             file.operating_rpm = None;
             file.cut.as_mut().unwrap().speeds.clear();

@@ -144,7 +144,7 @@ fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     let largest_m = largest.into_iter().flatten().fold(0.0_f64, f64::max);
     (largest_m > SMALL_THICKNESSES * thickness_m).then(|| {
         format!(
-            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: beyond one thickness a blade stretches as it bends, and is deflected less than the linear model says",
+            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: beyond one thickness a blade stretches as it bends, which the linear model leaves out and `cut.stretching` adds",
             run.rpm,
             1e3 * largest_m,
             largest_m / thickness_m
