@@ -1,7 +1,7 @@
 //! Pieces of the range of speeds, on each of which every low eigenvalue follows from its two ends.
 //!
-//! A piece is kept where it says beforehand which eigenvalues one more eigenproblem finds, asked where two of them come
-//! nearest; where it does not, the speed that was asked parts it. So what happens within less than any grid, a growth between
+//! A piece is kept where it predicts the eigenvalues that one more eigenproblem finds, solved where two of them come
+//! nearest; where it does not, it is divided at that speed. So what happens within less than any grid, a growth between
 //! two decays or a coalescence, is found where the discriminant of a group has its minimum.
 
 use std::sync::Arc;
@@ -121,23 +121,24 @@ impl Search<'_> {
         let found = Arc::new(found);
         work.extend(1);
         let halves = [[ends[0], &found], [&found, ends[1]]];
-        let told: Option<Vec<Told>> = groups.as_ref().and_then(|groups| {
-            let all = groups.iter().map(|g| self.told(g, ends, &found));
+        let predicted: Option<Vec<Prediction>> = groups.as_ref().and_then(|groups| {
+            let all = groups.iter().map(|g| self.predicted(g, ends, &found));
             all.collect()
         });
-        let told =
-            told.filter(|told| are_distinct(told.iter().flat_map(|group| group.places.iter())));
-        let misfit = told.iter().flatten().map(|group| group.misfit);
+        let predicted = predicted.filter(|predicted| {
+            are_distinct(predicted.iter().flat_map(|group| group.places.iter()))
+        });
+        let misfit = predicted.iter().flatten().map(|group| group.misfit);
         let misfit = misfit.fold(0.0, f64::max);
         let share = (asked - a) / (b - a);
         let mut pieces = Vec::new();
         for (end, half) in halves.into_iter().enumerate() {
             // A half keeps the groups that were held against what was found, where they are close enough over all of it.
             let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
-            let kept = groups.as_ref().zip(told.as_ref()).filter(|_| is_close);
-            let kept = kept.map(|(groups, told)| {
-                let parts = groups.iter().zip(told).map(|(grouped, told)| {
-                    let mut places = [told.places.clone(), told.places.clone()];
+            let kept = groups.as_ref().zip(predicted.as_ref()).filter(|_| is_close);
+            let kept = kept.map(|(groups, predicted)| {
+                let parts = groups.iter().zip(predicted).map(|(grouped, predicted)| {
+                    let mut places = [predicted.places.clone(), predicted.places.clone()];
                     places[end].clone_from(&grouped.places[end]);
                     places
                 });
@@ -203,22 +204,27 @@ impl Search<'_> {
         })
     }
 
-    /// The eigenvalues found that a group told; `None` where it told others.
-    fn told(&self, grouped: &Grouped, ends: [&Arc<Sample>; 2], sample: &Sample) -> Option<Told> {
-        let told = grouped.group.at(sample.speed_rad_per_s);
+    /// What a group predicts of a sample; `None` where the sample is another.
+    fn predicted(
+        &self,
+        grouped: &Grouped,
+        ends: [&Arc<Sample>; 2],
+        sample: &Sample,
+    ) -> Option<Prediction> {
+        let predicted = grouped.group.at(sample.speed_rad_per_s);
         let nearest = |z: &c64| {
             let away = |&place: &usize| (sample.eigenvalues[place].0 - z).norm();
             let all = 0..sample.eigenvalues.len();
             all.min_by(|x, y| away(x).total_cmp(&away(y)))
         };
-        let places: Vec<usize> = told.iter().map(nearest).collect::<Option<_>>()?;
+        let places: Vec<usize> = predicted.iter().map(nearest).collect::<Option<_>>()?;
         let found: Vec<c64> = places
             .iter()
             .map(|&place| sample.eigenvalues[place].0)
             .collect();
-        let off = told.iter().zip(&found).map(|(x, z)| (x - z).norm());
+        let off = predicted.iter().zip(&found).map(|(x, z)| (x - z).norm());
         let off = off.fold(0.0, f64::max);
-        let size = told.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let size = predicted.iter().map(|z| z.norm()).fold(0.0, f64::max);
         let size = size.max(self.plane.sized(1e-3 * self.top_rad_per_s));
         let misfit = match grouped.sign {
             Some(sign) if places.iter().any(|&place| sample.signs[place] != sign) => return None,
@@ -229,15 +235,15 @@ impl Search<'_> {
                     let numbers = places.map(|&place| ends[end].eigenvalues[place].0);
                     numbers.collect::<Vec<_>>()
                 });
-                let of_growth = self.misfit_of_growth(&at_ends, [&told, &found]);
+                let of_growth = self.misfit_of_growth(&at_ends, [&predicted, &found]);
                 (off / (self.tolerance * size)).max(of_growth)
             }
         };
-        (misfit <= 1.0).then_some(Told { places, misfit })
+        (misfit <= 1.0).then_some(Prediction { places, misfit })
     }
 
-    /// How far off the growth is that a group told, as a share of what is allowed.
-    fn misfit_of_growth(&self, at_ends: &[Vec<c64>; 2], [told, found]: [&[c64]; 2]) -> f64 {
+    /// How far the growth that a group predicts is off, as a share of what is allowed.
+    fn misfit_of_growth(&self, at_ends: &[Vec<c64>; 2], [predicted, found]: [&[c64]; 2]) -> f64 {
         let by_growth = |numbers: &[c64]| {
             let growth = numbers.iter().map(|z| self.plane.growth_per_s(*z));
             let mut growth: Vec<f64> = growth.collect();
@@ -245,41 +251,46 @@ impl Search<'_> {
             growth
         };
         let ends = at_ends.each_ref().map(|numbers| by_growth(numbers));
-        let (growth_told, growth_found) = (by_growth(told), by_growth(found));
-        let all = [&ends[0], &ends[1], &growth_told, &growth_found];
-        // Relative to each: a slow growth is told as well as the fast one beside it.
+        let (growth_predicted, growth_found) = (by_growth(predicted), by_growth(found));
+        let all = [&ends[0], &ends[1], &growth_predicted, &growth_found];
+        // Relative to each: a slow growth is predicted as well as the fast one beside it.
         let allowed = |rank: usize| {
             let fastest = all.iter().map(|growth| growth[rank]).fold(0.0, f64::max);
             (self.growth_tolerance * fastest).max(self.noise_per_s)
         };
         let misfit = |rank: usize| {
-            let (x, z) = (growth_told[rank], growth_found[rank]);
+            let (x, z) = (growth_predicted[rank], growth_found[rank]);
             // How fast something decays is of no account.
             let allowed = allowed(rank).max(0.3 * -x.max(z));
             ((x - z).abs() - self.noise_per_s).max(0.0) / allowed
         };
-        let of_each = (0..told.len()).map(misfit).fold(0.0, f64::max);
-        if told.len() == 1 {
+        let of_each = (0..predicted.len()).map(misfit).fold(0.0, f64::max);
+        if predicted.len() == 1 {
             return of_each;
         }
-        let pairs = (0..told.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
-        let gap = pairs.map(|(i, k)| (told[i] - told[k]).norm());
+        let pairs = (0..predicted.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
+        let gap = pairs.map(|(i, k)| (predicted[i] - predicted[k]).norm());
         let gap = gap.fold(f64::INFINITY, f64::min);
-        let off = told.iter().zip(found).map(|(x, z)| (x - z).norm());
+        let off = predicted.iter().zip(found).map(|(x, z)| (x - z).norm());
         let off = off.fold(0.0, f64::max);
         let least = match self.plane {
             Plane::Eigenvalues => allowed(0),
             Plane::Squares => {
-                2.0 * allowed(0) * told.iter().map(|z| z.norm()).fold(0.0, f64::max).sqrt()
+                2.0 * allowed(0)
+                    * predicted
+                        .iter()
+                        .map(|z| z.norm())
+                        .fold(0.0, f64::max)
+                        .sqrt()
             }
         };
-        let allowed = least.max(0.05 * gap).max(0.3 * -growth_told[0]);
+        let allowed = least.max(0.05 * gap).max(0.3 * -growth_predicted[0]);
         of_each.max(off / allowed)
     }
 }
 
-/// What a group told of a sample within its piece.
-struct Told {
+/// A prediction that a sample confirmed.
+struct Prediction {
     /// The places of its eigenvalues.
     places: Vec<usize>,
     /// How far off they are, as a share of what is allowed.
