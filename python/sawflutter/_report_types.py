@@ -1149,12 +1149,12 @@ class CutRun(Entry):
     when it does not, and with stretching."""
 
     largest_deflection_in_cut_m: float | None
-    """Largest deflection at the probe before the forces end; null where the model, linear or with
-    stretching, ends before them."""
+    """Largest deflection at the probe before the forces end; null where the model, linear or
+    with stretching, ends before them."""
 
     largest_deflection_after_m: float | None
-    """Largest deflection at the probe after the forces ended; null where the model, linear or with
-    stretching, ends before the record should."""
+    """Largest deflection at the probe after the forces ended; null where the model, linear or
+    with stretching, ends before the record should."""
 
     forces_from_s: float
     """When the forces set in."""
