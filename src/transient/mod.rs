@@ -23,6 +23,7 @@ mod saw_in_cut;
 mod scenario;
 mod sinusoids;
 mod stretched_cut;
+mod stretched_probe;
 mod stretched_runup;
 mod stretching;
 mod teeth;

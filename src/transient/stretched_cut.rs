@@ -6,12 +6,13 @@ use faer::{Col, Scale};
 
 use crate::scene::Probe;
 use crate::spectrum::{Cancellation, companion_eigenpairs};
-use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::stretched::StretchedBlade;
 use crate::system::GyroscopicSystem;
 
 use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, longest_step_s};
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::{SawInCut, lateral_load};
+use super::stretched_probe::StretchedProbe;
 use super::{Force, Growth, Integrator, Newmark, State, TransientError};
 
 /// What stretching adds to one speed of a cut.
@@ -60,7 +61,6 @@ fn with_modes(
     let none = Col::zeros(load.nrows());
     let idle = reduced.system(&saw.idle_system);
     let cutting = reduced.system(&saw.cutting_system);
-    let probe = (probe.radius_m, probe.angle_rad);
     let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
     let sample_s = SAMPLE_S.max((2.0 * cut.idle_s + run.duration_s) / MAX_SAMPLES);
     let mut state = State::rest(reduced.order());
@@ -121,7 +121,7 @@ struct Phase<'a> {
 /// What the probe sees.
 struct Samples<'a> {
     blade: &'a StretchedBlade,
-    probe: (f64, f64),
+    probe: StretchedProbe<'a>,
     speed_rad_per_s: f64,
     record: Record,
     looked_s: f64,
@@ -129,10 +129,10 @@ struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    fn new(blade: &'a StretchedBlade, probe: (f64, f64), speed_rad_per_s: f64) -> Self {
+    fn new(blade: &'a StretchedBlade, probe: &'a Probe, speed_rad_per_s: f64) -> Self {
         Samples {
             blade,
-            probe,
+            probe: StretchedProbe::new(blade, probe),
             speed_rad_per_s,
             record: Record {
                 time_s: vec![0.0],
@@ -186,23 +186,19 @@ impl<'a> Samples<'a> {
 
     /// Adds a sample; false where slopes are too large.
     fn take(&mut self, state: &State, time_s: f64) -> bool {
-        let at = Equilibrium {
-            speed_rad_per_s: self.speed_rad_per_s,
-            coordinates: state.displacement.clone(),
-            negative_eigenvalues: 0,
-        };
+        let speed = self.speed_rad_per_s;
         if time_s >= self.looked_s + LOOK_S {
             self.looked_s = time_s;
-            let slope = self.blade.largest_slope(&at);
-            self.found.largest_slope = self.found.largest_slope.max(slope);
-            if slope > LARGEST_SLOPE {
+            let holds = self.probe.holds(state, speed);
+            self.found.largest_slope = self.probe.largest_slope;
+            if !holds {
                 self.found.valid_until_s = Some(time_s);
                 return false;
             }
         }
-        let deflection = self.blade.deflection_m(&at, self.probe.0, self.probe.1);
         self.record.time_s.push(time_s);
-        self.record.deflection_m.push(deflection);
+        let deflection_m = self.probe.deflection_m(state, speed);
+        self.record.deflection_m.push(deflection_m);
         true
     }
 }
@@ -275,7 +271,11 @@ mod tests {
         let load = Scale(run.lateral_n) * reduced.vector(&lateral_load(&plate, &cut, 0.0));
         let system = reduced.system(&saw.cutting_system);
         let speed = run.speed_rad_per_s;
-        let mut samples = Samples::new(&blade, (0.4, 0.0), speed);
+        let probe = Probe {
+            radius_m: 0.4,
+            angle_rad: 0.0,
+        };
+        let mut samples = Samples::new(&blade, &probe, speed);
         let phase = Phase {
             system: &system,
             load: &load,

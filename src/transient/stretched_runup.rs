@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp};
-use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::stretched::StretchedBlade;
 use crate::system::GyroscopicSystem;
 
 use super::runup::{MAX_SAMPLES, Moving, Steps};
+use super::stretched_probe::StretchedProbe;
 use super::{Force, RunUpHistory, State, TransientError};
 
 /// What stretching adds to a run-up.
@@ -76,11 +77,9 @@ pub fn stretched_run_up(
     let steps = Steps::new(runup, highest_rad_per_s);
     let begun = State::still(blade.settled(from, &blade.flat())?.coordinates);
     let mut samples = Samples {
-        blade: &blade,
-        probe: (probe.radius_m, probe.angle_rad),
+        probe: StretchedProbe::new(&blade, probe),
         speed_rad_per_s: Vec::new(),
         deflection_m: Vec::new(),
-        largest_slope: 0.0,
         valid_until_rad_per_s: None,
     };
     steps.taken(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
@@ -102,7 +101,7 @@ pub fn stretched_run_up(
             step_s: steps.step_s,
         },
         shapes: blade.shapes().ncols(),
-        largest_slope: samples.largest_slope,
+        largest_slope: samples.probe.largest_slope,
         valid_until_rad_per_s: samples.valid_until_rad_per_s,
         spectrum,
     })
@@ -110,33 +109,23 @@ pub fn stretched_run_up(
 
 /// What the probe sees.
 struct Samples<'a> {
-    blade: &'a StretchedBlade,
-    probe: (f64, f64),
+    probe: StretchedProbe<'a>,
     speed_rad_per_s: Vec<f64>,
     deflection_m: Vec<f64>,
-    largest_slope: f64,
     valid_until_rad_per_s: Option<f64>,
 }
 
 impl Samples<'_> {
     /// Adds a sample; false where slopes are too large.
     fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
-        let at = Equilibrium {
-            speed_rad_per_s,
-            coordinates: state.displacement.clone(),
-            negative_eigenvalues: 0,
-        };
-        if self.deflection_m.len().is_multiple_of(LOOKED) {
-            let slope = self.blade.largest_slope(&at);
-            self.largest_slope = self.largest_slope.max(slope);
-            if slope > LARGEST_SLOPE {
-                self.valid_until_rad_per_s = Some(speed_rad_per_s);
-                return false;
-            }
+        let is_looked_at = self.deflection_m.len().is_multiple_of(LOOKED);
+        if is_looked_at && !self.probe.holds(state, speed_rad_per_s) {
+            self.valid_until_rad_per_s = Some(speed_rad_per_s);
+            return false;
         }
         self.speed_rad_per_s.push(speed_rad_per_s);
-        let deflection = self.blade.deflection_m(&at, self.probe.0, self.probe.1);
-        self.deflection_m.push(deflection);
+        let deflection_m = self.probe.deflection_m(state, speed_rad_per_s);
+        self.deflection_m.push(deflection_m);
         true
     }
 
@@ -203,6 +192,7 @@ mod tests {
     use super::*;
     use crate::plate::Resolution;
     use crate::scene::Scene;
+    use crate::stretched::LARGEST_SLOPE;
 
     fn plate() -> Plate {
         let resolution = Resolution {
