@@ -9,6 +9,7 @@ use faer::c64;
 
 use super::certificate::Certificate;
 use super::partition::Sample;
+use super::seen::Seen;
 use super::signature::{Signature, SignedMode};
 use crate::spectrum::{
     KnownStates, Mode, ModeKind, ModePair, ReflectedModel, SpectralModel, SpectrumError,
@@ -60,12 +61,6 @@ struct Tally {
     violations: Mutex<Vec<f64>>,
 }
 
-/// The modes of a speed at which the search looked that grow or decay, and its signature.
-struct Seen {
-    signature: Signature,
-    coalesced: Vec<Mode>,
-}
-
 /// Modes above the highest frequency that is sound among which a search finds a gap to end in.
 const BESIDES: usize = 8;
 
@@ -76,7 +71,7 @@ pub struct SignatureEvaluator<'a> {
     /// The same between neighbouring anchors, with the upper of both.
     intervals: Vec<(f64, ReflectedModel<'a>)>,
     tally: Tally,
-    seen: Mutex<Vec<Seen>>,
+    seen: Seen,
     /// Whether `low` is the whole basis.
     is_whole: bool,
 }
@@ -121,7 +116,7 @@ impl<'a> SignatureEvaluator<'a> {
             low,
             intervals,
             tally: Tally::default(),
-            seen: Mutex::default(),
+            seen: Seen::default(),
             is_whole,
         })
     }
@@ -249,12 +244,7 @@ impl<'a> SignatureEvaluator<'a> {
         let signature = Signature::new(speed_rad_per_s, modes.iter());
         let sample = Sample::of_squares(speed_rad_per_s, self.squares(&modes));
         modes.retain(|mode| matches!(mode.kind, ModeKind::Flutter | ModeKind::Decaying));
-        if let Ok(mut seen) = self.seen.lock() {
-            seen.push(Seen {
-                signature,
-                coalesced: modes,
-            });
-        }
+        self.seen.add(signature, modes);
         Ok(Some(sample))
     }
 
@@ -286,13 +276,7 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Signatures of the speeds of which samples were taken, ascending.
     pub fn signatures(&self) -> Vec<Signature> {
-        let Ok(seen) = self.seen.lock() else {
-            return Vec::new();
-        };
-        let mut signatures: Vec<Signature> =
-            seen.iter().map(|seen| seen.signature.clone()).collect();
-        signatures.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-        signatures
+        self.seen.signatures()
     }
 
     /// The quadruple at a speed next to an expected eigenvalue.
@@ -304,11 +288,7 @@ impl<'a> SignatureEvaluator<'a> {
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Result<Option<SignedMode>, SpectrumError> {
-        let known = self.seen.lock().ok().and_then(|seen| {
-            let at = |seen: &&Seen| seen.signature.speed_rad_per_s == speed_rad_per_s;
-            seen.iter().find(at).map(|seen| seen.signature.clone())
-        });
-        let signature = match known {
+        let signature = match self.seen.signature(speed_rad_per_s) {
             Some(known) => known,
             None => self.at(speed_rad_per_s)?,
         };
@@ -339,17 +319,7 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(None);
         };
         let lambdas = [growing, -growing.conj()];
-        let known = self.seen.lock().ok().and_then(|seen| {
-            let at = |seen: &&Seen| seen.signature.speed_rad_per_s == speed_rad_per_s;
-            let coalesced = &seen.iter().find(at)?.coalesced;
-            let nearest = |lambda: c64| {
-                let away = |mode: &&Mode| (mode.lambda - lambda).norm();
-                let nearest = coalesced.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
-                nearest.cloned()
-            };
-            Some([nearest(lambdas[0])?, nearest(lambdas[1])?])
-        });
-        match known {
+        match self.seen.nearest(speed_rad_per_s, lambdas) {
             Some(modes) if low.has(&modes) => Ok(low.pair_of(speed_rad_per_s, &modes)),
             _ => {
                 let near = self.near(speed_rad_per_s);

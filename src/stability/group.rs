@@ -11,6 +11,7 @@
 use faer::{Mat, c64};
 
 use super::interpolation::{self, sign_changes};
+use super::root::place_of_zero;
 
 /// An eigenvalue with its slope: λ and dλ/dΩ.
 pub type Sloped = (c64, c64);
@@ -185,9 +186,11 @@ impl Group {
             [] => return Vec::new(),
             [last] => sign_changes(&last.real()),
             _ => (1..=STEPS)
-                .filter_map(|k| {
-                    let ends = [k - 1, k].map(|k| k as f64 / STEPS as f64);
-                    (pairs(ends[0]) != pairs(ends[1])).then(|| changed(ends, pairs))
+                .map(|k| [k - 1, k].map(|k| k as f64 / STEPS as f64))
+                .filter(|ends| pairs(ends[0]) != pairs(ends[1]))
+                .map(|ends| {
+                    let first = pairs(ends[0]);
+                    place_of_zero(ends, |t| if pairs(t) == first { 1.0 } else { -1.0 })
                 })
                 .collect(),
         };
@@ -221,20 +224,6 @@ impl Group {
         let size = values.iter().map(|z| z.norm()).fold(0.0, f64::max);
         values.iter().filter(|z| z.im > REAL * size).count()
     }
-}
-
-/// The share between two at which a count changes.
-fn changed([mut from, mut to]: [f64; 2], count: impl Fn(f64) -> usize) -> f64 {
-    let first = count(from);
-    for _ in 0..48 {
-        let middle = 0.5 * (from + to);
-        if count(middle) == first {
-            from = middle;
-        } else {
-            to = middle;
-        }
-    }
-    0.5 * (from + to)
 }
 
 /// Roots of xⁿ + c₂xⁿ⁻² + … + c_n, as eigenvalues of the companion matrix.

@@ -1,5 +1,7 @@
 //! Cubic interpolation between two speeds.
 
+use super::root::place_of_zero;
+
 /// Cubic Hermite polynomial on [0, 1]: values and slopes at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cubic {
@@ -51,23 +53,8 @@ pub fn sign_changes(cubic: &Cubic) -> Vec<f64> {
     bounds.push(1.0);
     let differ = |pair: &&[f64]| cubic.at(pair[0]) * cubic.at(pair[1]) < 0.0;
     let within = bounds.windows(2).filter(differ);
-    within
-        .map(|pair| bisected(cubic, [pair[0], pair[1]]))
-        .collect()
-}
-
-/// The zero between two places at which a cubic differs in sign.
-fn bisected(cubic: &Cubic, [mut low, mut high]: [f64; 2]) -> f64 {
-    let first = cubic.at(low);
-    for _ in 0..64 {
-        let middle = 0.5 * (low + high);
-        if cubic.at(middle) * first > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    let zero = |pair: &[f64]| place_of_zero([pair[0], pair[1]], |t| cubic.at(t));
+    within.map(zero).collect()
 }
 
 #[cfg(test)]

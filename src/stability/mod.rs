@@ -39,6 +39,7 @@ mod pieces;
 mod proof;
 mod quadruples;
 mod root;
+mod seen;
 mod sensitivity;
 mod signature;
 mod tradeoff;

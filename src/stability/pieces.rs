@@ -235,15 +235,20 @@ impl Search<'_> {
                     let numbers = places.map(|&place| ends[end].eigenvalues[place].0);
                     numbers.collect::<Vec<_>>()
                 });
-                let of_growth = self.misfit_of_growth(&at_ends, [&predicted, &found]);
+                let of_growth = self.misfit_of_growth(&at_ends, [&predicted, &found], off);
                 (off / (self.tolerance * size)).max(of_growth)
             }
         };
         (misfit <= 1.0).then_some(Prediction { places, misfit })
     }
 
-    /// How far the growth that a group predicts is off, as a share of what is allowed.
-    fn misfit_of_growth(&self, at_ends: &[Vec<c64>; 2], [predicted, found]: [&[c64]; 2]) -> f64 {
+    /// How far the growth that a group predicts is off, as a share of what is allowed, where its numbers are off by `off`.
+    fn misfit_of_growth(
+        &self,
+        at_ends: &[Vec<c64>; 2],
+        [predicted, found]: [&[c64]; 2],
+        off: f64,
+    ) -> f64 {
         let by_growth = |numbers: &[c64]| {
             let growth = numbers.iter().map(|z| self.plane.growth_per_s(*z));
             let mut growth: Vec<f64> = growth.collect();
@@ -271,8 +276,6 @@ impl Search<'_> {
         let pairs = (0..predicted.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
         let gap = pairs.map(|(i, k)| (predicted[i] - predicted[k]).norm());
         let gap = gap.fold(f64::INFINITY, f64::min);
-        let off = predicted.iter().zip(found).map(|(x, z)| (x - z).norm());
-        let off = off.fold(0.0, f64::max);
         let least = match self.plane {
             Plane::Eigenvalues => allowed(0),
             Plane::Squares => {

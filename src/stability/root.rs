@@ -89,6 +89,12 @@ pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
+/// The zero between two places of a function that costs nothing, or its jump from one sign to the other.
+pub fn place_of_zero([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
+    let place = |share: f64| from + share * (to - from);
+    place(share_of_zero(|share| f(place(share))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
