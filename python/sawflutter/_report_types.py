@@ -402,7 +402,8 @@ class Work(Entry):
     """Dense, of the Hamiltonian reduction between two speeds."""
 
     refined_pairs: int
-    """Pairs of modes refined by inverse iteration, with a factorization each."""
+    """Pairs of modes, of a damped blade single modes, refined by inverse iteration with a few
+    factorizations each."""
 
     heat_solves: int
     """Symmetric, of the whole basis under other temperatures: limits of heat."""

@@ -129,7 +129,7 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    // Beside the line at which the linear model ends, where that is in the cut.
+    // Beside the line at which the model ends, where that is in the cut.
     let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
     let end = end.clamp(in_cut.left, in_cut.right);
     let free = match end - in_cut.left < in_cut.right - end {

@@ -266,7 +266,7 @@ pub struct WorkEntry {
     pub reduced_solves: usize,
     /// Dense, of the Hamiltonian reduction between two speeds.
     pub local_solves: usize,
-    /// Pairs of modes refined by inverse iteration, with a factorization each.
+    /// Pairs of modes, of a damped blade single modes, refined by inverse iteration with a few factorizations each.
     pub refined_pairs: usize,
     /// Symmetric, of the whole basis under other temperatures: limits of heat.
     pub heat_solves: usize,

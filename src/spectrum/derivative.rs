@@ -82,15 +82,15 @@ pub fn next_to(
         system.stiffness_at(speed_rad_per_s),
         system.velocity_at(speed_rad_per_s),
     );
+    let transposed = velocity.transpose().to_owned();
     // No vector of a blade is orthogonal to such a one.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
     for step in 0..NEWTON_STEPS {
         let factors = dynamic_stiffness(&stiffness, &velocity, beside(lambda)).partial_piv_lu();
-        let turned = velocity.transpose().to_owned();
         for _ in 0..if step == 0 { FIRST_ITERATIONS } else { 1 } {
             let right: Col<c64> = factors.solve(with_lambda(&velocity, lambda, &x));
-            let left: Col<c64> = factors.solve_adjoint(with_lambda(&turned, lambda.conj(), &y));
+            let left: Col<c64> = factors.solve_adjoint(with_lambda(&transposed, lambda.conj(), &y));
             (x, y) = (unit(right.as_ref()), unit(left.as_ref()));
         }
         let residual = Scale(lambda * lambda) * &x
@@ -222,4 +222,69 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
 /// A hair off an eigenvalue, so that L is not singular to the last bit.
 fn beside(lambda: c64) -> c64 {
     lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::companion_eigenpairs;
+    use crate::spectrum::vectors::Eigenpair;
+
+    /// The paper's saw with a damped pad.
+    fn system() -> GyroscopicSystem {
+        let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 50.0);
+        let resolution = Resolution {
+            max_diameters: 4,
+            radial_functions: 3,
+        };
+        GyroscopicSystem::of_plate(&Plate::new(&scene.unwrap(), resolution))
+    }
+
+    fn nearest(pairs: &[Eigenpair], lambda: c64) -> c64 {
+        let away = |pair: &&Eigenpair| (pair.0 - lambda).norm();
+        let nearest = pairs.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
+        nearest.unwrap().0
+    }
+
+    /// Against differences of eigenvalues at two speeds beside it.
+    #[test]
+    fn slopes_of_all_eigenvalues_are_their_differences_over_the_speed() {
+        let (system, speed, step) = (system(), rad_per_s(1000.0), 1e-3);
+        let pairs = companion_eigenpairs(&system, speed).unwrap();
+        let modes: Vec<(c64, &Col<c64>)> = pairs.iter().map(|(z, x)| (*z, x)).collect();
+        let slopes = of_all_with_speed(&system, speed, &modes).unwrap();
+        let beside = [speed - step, speed + step];
+        let beside = beside.map(|speed| companion_eigenpairs(&system, speed).unwrap());
+        assert_eq!(slopes.len(), system.order());
+        for ((lambda, x), slope) in pairs.iter().zip(slopes) {
+            let [before, after] = [-step, step].map(|d| lambda + slope * d);
+            let difference =
+                (nearest(&beside[1], after) - nearest(&beside[0], before)) / 2.0 / step;
+            assert!(
+                (slope - difference).norm() < 1e-5,
+                "{lambda}: {slope} {difference}"
+            );
+            let one = with_speed(&system, speed, *lambda, x);
+            assert!((slope - one).norm() < 1e-7, "{lambda}: {slope} {one}");
+        }
+    }
+
+    /// From a thousandth away, against all eigenvalues.
+    #[test]
+    fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
+        let (system, speed) = (system(), rad_per_s(1000.0));
+        let pairs = companion_eigenpairs(&system, speed).unwrap();
+        for (lambda, x) in pairs.iter().take(8) {
+            let expected = lambda * c64::new(1.0 + 1e-3, 1e-3);
+            let (found, slope) = next_to(&system, speed, expected).unwrap();
+            assert!(
+                (found - lambda).norm() < 1e-8 * lambda.norm(),
+                "{lambda} {found}"
+            );
+            let one = with_speed(&system, speed, *lambda, x);
+            assert!((slope - one).norm() < 1e-6, "{lambda}: {slope} {one}");
+        }
+    }
 }

@@ -14,7 +14,7 @@ pub struct WorkCounters {
     pub reduced_solves: AtomicUsize,
     /// Eigenproblems of the few states between two speeds.
     pub local_solves: AtomicUsize,
-    /// Pairs of modes refined by inverse iteration on the projected matrices.
+    /// Pairs of modes, of a damped blade single modes, refined by inverse iteration on the projected matrices.
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
