@@ -15,6 +15,7 @@ from ._view import html
 from .errors import InputError, ModelWarning
 
 if TYPE_CHECKING:
+    from .plot.chart import Chart
     from .scene import Scene
 
 R = TypeVar("R", bound="Result")
@@ -256,6 +257,15 @@ class Result(Drawn, Entry):
         b'PNG'
         """
         return _native.picture(name, self._text)
+
+    def _described(self, name: str, otherwise: str = "") -> Chart:
+        """The chart of a figure of the program; one without panels that says something else where
+        the report has no data for it."""
+        from .plot.chart import Chart
+        from .plot.described import described
+
+        chart = described(self.command, name, self._text)
+        return Chart(self.raw["scene"]["name"], otherwise) if chart is None else chart
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):

@@ -223,9 +223,7 @@ class CampbellResults(Result, CampbellReport):
         >>> [panel.y_name for panel in r.chart().panels]
         ['Im λ / 2π [Hz]', 'Re λ [1/s], square root scale']
         """
-        from .plot.campbell import campbell
-
-        return campbell(self, self._facts())
+        return self._described("campbell")
 
     def root_loci_chart(self) -> Chart:
         """The two modes that meet at the flutter speed, in the complex plane.

@@ -54,26 +54,41 @@ fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture
     })
 }
 
+/// Reads a report of the command of this name and answers of it.
+macro_rules! read {
+    ($command:expr, |$report:ident| $answer:expr) => {{
+        macro_rules! of {
+            ($kind:ty) => {
+                serde_json::from_str::<$kind>($report).map(|$report| $answer)
+            };
+        }
+        let read = match $command {
+            "check" => of!(CheckReport),
+            "cut" => of!(CutReport),
+            "runup" => of!(RunUpReport),
+            "deflect" => of!(DeflectReport),
+            "washboard" => of!(WashboardReport),
+            "fit" => of!(FitReport),
+            "place" => of!(PlaceReport),
+            "study" => of!(StudyReport),
+            _ => of!(Report),
+        };
+        read.map_err(Failure::from)?
+    }};
+}
+
 /// What the program prints of a report of the command of this name.
 #[pyfunction]
 pub fn summary(command: &str, report: &str) -> PyResult<String> {
-    macro_rules! of {
-        ($kind:ty) => {
-            serde_json::from_str::<$kind>(report).map(|report| report.summary())
-        };
-    }
-    let summary = match command {
-        "check" => of!(CheckReport),
-        "cut" => of!(CutReport),
-        "runup" => of!(RunUpReport),
-        "deflect" => of!(DeflectReport),
-        "washboard" => of!(WashboardReport),
-        "fit" => of!(FitReport),
-        "place" => of!(PlaceReport),
-        "study" => of!(StudyReport),
-        _ => of!(Report),
-    };
-    Ok(summary.map_err(Failure::from)?)
+    Ok(read!(command, |report| report.summary()))
+}
+
+/// What a figure of this name shows, as JSON; `None` where the report has no data for it.
+#[pyfunction]
+pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>> {
+    let chart = read!(command, |report| report.chart(name));
+    let text = chart.map(|chart| serde_json::to_string(&chart));
+    Ok(text.transpose().map_err(Failure::from)?)
 }
 
 /// `campbell.csv` of a report.

@@ -1,10 +1,13 @@
 //! Axes: from values to places on the sheet, and where the ticks go.
 
+use serde::Serialize;
+
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
 
 /// How values are spread along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Spread {
     /// Evenly.
     Linear,
@@ -148,7 +151,8 @@ impl Axis {
     }
 }
 
-fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
+/// The range, widened where it has no length or is none of numbers.
+pub fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     const LARGEST: f64 = 1e12;
     let from = if from.is_finite() {
         from.clamp(-LARGEST, LARGEST)

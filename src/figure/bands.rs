@@ -1,28 +1,20 @@
 //! Bands of instability as shades behind a panel.
 
-use super::axis::Axis;
+use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
-use super::style::{Colour, DIVERGENCE_SHADE, DIVERGENCE_STREAK, FLUTTER_SHADE, FLUTTER_STREAK};
+use super::chart_data::Band;
+use super::palette::Hue;
 use crate::report::{InstabilityEntry, InstabilityKind};
 
 /// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
 pub const NARROW: f64 = 4.0;
 const STREAK_WIDTH: f64 = 1.5;
 
-fn colour(kind: InstabilityKind, narrow: bool) -> Colour {
-    match (kind, narrow) {
-        (InstabilityKind::Divergence, false) => DIVERGENCE_SHADE,
-        (InstabilityKind::Divergence, true) => DIVERGENCE_STREAK,
-        (InstabilityKind::Flutter, false) => FLUTTER_SHADE,
-        (InstabilityKind::Flutter, true) => FLUTTER_STREAK,
-    }
-}
-
-/// Left and right edge of a band on the sheet, or `None` off the axis.
-pub fn places(speed: &Axis, band: &InstabilityEntry) -> Option<[f64; 2]> {
+/// Left and right edge of a range of speeds on the sheet, or `None` off the axis.
+pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
     let [first, last] = speed.values();
-    let (from, to) = (band.from_rpm.max(first), band.to_rpm.min(last));
-    if band.from_rpm.is_nan() || band.to_rpm.is_nan() || from > to {
+    let (from, to) = (range[0].max(first), range[1].min(last));
+    if range[0].is_nan() || range[1].is_nan() || from > to {
         return None;
     }
     let [left, right] = [from, to].map(|rpm| speed.at(rpm));
@@ -39,35 +31,82 @@ pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
     !(is_wide && band.counted_rpm.is_empty())
 }
 
-/// The stretches of a band that are shaded: where it counts. One that does not is shaded as a
-/// whole, unless it grows weakly over a wide range, as damping alone makes it.
-fn stretches(speed: &Axis, band: &InstabilityEntry) -> Vec<InstabilityEntry> {
-    let stretch = |[from_rpm, to_rpm]: [f64; 2]| InstabilityEntry {
-        from_rpm,
-        to_rpm,
-        ..band.clone()
-    };
-    if !is_shaded(speed.values(), band) {
-        return Vec::new();
-    }
-    match band.counted_rpm.is_empty() {
-        true => vec![band.clone()],
-        false => band.counted_rpm.iter().copied().map(stretch).collect(),
+impl Band {
+    /// On an axis of these speeds. It is shaded where it counts; one that does not is shaded as a whole, unless it grows
+    /// weakly over a wide range, as damping alone makes it.
+    pub(super) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
+        let whole = [band.from_rpm, band.to_rpm];
+        let shaded = match band.counted_rpm.is_empty() {
+            _ if !is_shaded(speeds, band) => Vec::new(),
+            true => vec![whole],
+            false => band.counted_rpm.clone(),
+        };
+        let [colour, shade, streak] = Hue::of_kind(band.kind);
+        let label = label(band, speeds);
+        Self {
+            from: band.from_rpm,
+            to: band.to_rpm,
+            shaded,
+            shade,
+            streak,
+            colour,
+            name: match &band.name {
+                Some(waves) => format!("{label} rpm: {waves}"),
+                None => format!("{label} rpm"),
+            },
+            label,
+            peak_growth_per_s: band.peak_growth_per_s,
+        }
     }
 }
 
-/// Shades the bands over the height of each panel.
+fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
+    let kind = match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
+    };
+    let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
+    let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
+        format!("{kind} from {from}")
+    } else if !band.closed && band.from_rpm <= first && band.to_rpm < last {
+        format!("{kind} to {to}")
+    } else if from == to {
+        format!("{kind} {from}")
+    } else {
+        format!("{kind} {from}–{to}")
+    };
+    match band.saturated_amplitude_m {
+        None => label,
+        Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
+    }
+}
+
+/// Shades the bands of a report over the height of each panel.
 pub fn shade<'a>(
     sheet: &mut Sheet,
     speed: &Axis,
     bands: impl Iterator<Item = &'a InstabilityEntry>,
     panels: &[Frame],
 ) {
-    let stretches: Vec<InstabilityEntry> = bands.flat_map(|band| stretches(speed, band)).collect();
+    let bands: Vec<Band> = bands.map(|band| Band::new(band, speed.values())).collect();
+    draw(sheet, speed, bands.iter(), panels);
+}
+
+/// Shades bands over the height of each panel.
+pub fn draw<'a>(
+    sheet: &mut Sheet,
+    speed: &Axis,
+    bands: impl Iterator<Item = &'a Band> + Clone,
+    panels: &[Frame],
+) {
     // Streaks last: a wide band must not hide a narrow one within it.
     for narrow in [false, true] {
-        for band in &stretches {
-            let Some([left, right]) = places(speed, band) else {
+        let shaded = bands.clone().flat_map(|band| {
+            let hue = if narrow { band.streak } else { band.shade };
+            band.shaded.iter().map(move |range| (range, hue))
+        });
+        for (range, hue) in shaded {
+            let Some([left, right]) = places(speed, *range) else {
                 continue;
             };
             if (right - left < NARROW) != narrow {
@@ -79,7 +118,7 @@ pub fn shade<'a>(
                     right,
                     ..*panel
                 };
-                sheet.fill(stripe, colour(band.kind, narrow));
+                sheet.fill(stripe, hue.colour());
             }
         }
     }

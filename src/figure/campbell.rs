@@ -2,6 +2,7 @@
 
 mod band_labels;
 mod certificate;
+mod describe;
 mod excitation;
 mod growth;
 mod legend;
@@ -15,9 +16,12 @@ pub use view::CampbellView;
 pub(super) use waves::draw_measured_mark;
 
 use band_labels::BandLabels;
+use describe::describe;
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::chart_data::{Band, ChartData, Item, Line, PanelData, Role, Upright};
+use super::paint::Ground;
 use super::style::{AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, MARGIN, QUIET};
 use super::{bands, heading};
 use crate::report::{InstabilityKind, Report};
@@ -44,6 +48,7 @@ const NEGLIGIBLE_PER_S: f64 = 1e-3;
 /// What the parts of the figure share.
 struct Chart<'a> {
     report: &'a Report,
+    data: ChartData,
     speed: Axis,
     frequency: Axis,
     upper: Frame,
@@ -53,20 +58,24 @@ struct Chart<'a> {
 pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let chart = Chart::new(report, view);
-    heading::draw(&mut sheet, &report.scene.name, &key_facts(report));
+    heading::draw(
+        &mut sheet,
+        &chart.data.title,
+        &facts(report).join(BETWEEN_FACTS),
+    );
 
     let labels = BandLabels::new(&chart);
     let growth_axis = growth::axis(&chart, labels.height());
-    let bands = chart.report.instabilities.iter();
-    bands::shade(&mut sheet, &chart.speed, bands, &[chart.upper, chart.lower]);
+    let panels = [chart.upper, chart.lower];
+    bands::draw(&mut sheet, &chart.speed, chart.bands(), &panels);
     draw_axes(&mut sheet, &chart, growth_axis.as_ref());
     speeds::draw_critical(&mut sheet, &chart);
     speeds::draw_operating(&mut sheet, &chart);
 
-    waves::draw_branches(&mut sheet, &chart);
-    excitation::draw(&mut sheet, &chart);
-    waves::draw_measured(&mut sheet, &chart);
-    speeds::dot_critical(&mut sheet, &chart);
+    let (ground, items) = (chart.upper_ground(), &chart.panels()[0].items);
+    ground.draw_lines(&mut sheet, items);
+    excitation::label(&mut sheet, &chart);
+    ground.draw_points(&mut sheet, items);
     match growth_axis {
         Some(axis) => growth::draw(&mut sheet, &chart, &axis),
         None => growth::say_stable(&mut sheet, &chart),
@@ -77,6 +86,15 @@ pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     legend::draw(&mut sheet, &chart, &labels);
     certificate::draw(&mut sheet, report);
     sheet
+}
+
+/// The whole sweep, as numbers. What is said of each point is most of the text: it is left out unless it is asked for.
+pub fn chart(report: &Report, said: bool) -> ChartData {
+    let whole = CampbellView {
+        to_rpm: Some(f64::INFINITY),
+        ..CampbellView::default()
+    };
+    describe(report, &whole.of(report), said)
 }
 
 impl<'a> Chart<'a> {
@@ -99,10 +117,54 @@ impl<'a> Chart<'a> {
 
         Self {
             report,
+            data: describe(report, &shown, false),
             speed: Axis::new(shown.rpm, [PLOT_LEFT, right], Spread::Linear),
             frequency: Axis::new([0.0, shown.hz], [upper.bottom, upper.top], Spread::Linear),
             upper,
             lower,
+        }
+    }
+
+    /// The panels, the frequencies above.
+    fn panels(&self) -> &[PanelData] {
+        &self.data.panels
+    }
+
+    fn items(&self) -> impl Iterator<Item = &Item> + Clone {
+        self.data
+            .panels
+            .iter()
+            .take(1)
+            .flat_map(|panel| &panel.items)
+    }
+
+    fn bands(&self) -> impl Iterator<Item = &Band> + Clone {
+        self.items().filter_map(|item| match item {
+            Item::Band(band) => Some(band),
+            _ => None,
+        })
+    }
+
+    fn uprights(&self, role: Role) -> impl Iterator<Item = &Upright> {
+        self.items().filter_map(move |item| match item {
+            Item::Upright(upright) if upright.role == role => Some(upright),
+            _ => None,
+        })
+    }
+
+    /// The curves of frequency.
+    fn lines(&self) -> impl Iterator<Item = &Line> {
+        self.items().filter_map(|item| match item {
+            Item::Line(line) => Some(line),
+            _ => None,
+        })
+    }
+
+    fn upper_ground(&self) -> Ground<'_> {
+        Ground {
+            x: &self.speed,
+            y: &self.frequency,
+            frame: &self.upper,
         }
     }
 }
@@ -129,7 +191,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
     sheet.text([middle, PLOT_BOTTOM + 37.0], letters, name);
 }
 
-fn key_facts(report: &Report) -> String {
+fn facts(report: &Report) -> Vec<String> {
     let blade = &report.scene.blade;
     let (least, largest) = blade.thickness_range_m();
     let [diameter, least, largest] = [blade.outer_diameter_m, least, largest].map(millimetres);
@@ -153,7 +215,7 @@ fn key_facts(report: &Report) -> String {
         "band of instability",
         "bands of instability",
     );
-    [size, guides, critical, bands, verdict(report)].join(BETWEEN_FACTS)
+    vec![size, guides, critical, bands, verdict(report)]
 }
 
 fn verdict(report: &Report) -> String {

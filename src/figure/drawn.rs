@@ -2,6 +2,7 @@
 
 use super::campbell::CampbellView;
 use super::canvas::Sheet;
+use super::chart_data::ChartData;
 use super::{
     FigureError, campbell, check, cut, cut_map, deflect, fit, in_cut, membrane, place, render,
     response_map, root_loci, runup, spline_orbit, study, washboard,
@@ -61,6 +62,12 @@ pub trait Figures {
 
     /// The figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
+
+    /// What the figure of this name, without its ending, shows as numbers, for other programs to draw. `None` of a figure
+    /// that is not described so, and where the report has no data for it.
+    fn chart(&self, _name: &str) -> Option<ChartData> {
+        None
+    }
 }
 
 fn named<const N: usize>(names: &[[&'static str; 2]], sheets: [Option<Sheet>; N]) -> Vec<Figure> {
@@ -85,6 +92,10 @@ impl Figures for Report {
 
     fn figures(&self) -> Vec<Figure> {
         self.figures_within(CampbellView::default())
+    }
+
+    fn chart(&self, name: &str) -> Option<ChartData> {
+        (name == "campbell").then(|| campbell::chart(self, true))
     }
 }
 

@@ -10,6 +10,7 @@ mod axis;
 mod bands;
 mod campbell;
 mod canvas;
+mod chart_data;
 mod check;
 mod clip;
 mod columns;
@@ -35,6 +36,7 @@ mod in_cut;
 mod key;
 mod meeting;
 mod membrane;
+mod paint;
 mod palette;
 mod place;
 mod place_map;
@@ -53,10 +55,13 @@ mod tradeoff;
 mod washboard;
 mod written;
 
+pub use axis::Spread;
 pub use campbell::CampbellView;
+pub use chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright};
 #[cfg(feature = "explore")]
 pub(crate) use drawn::growing_map;
 pub use drawn::{Figure, Figures, tradeoff};
+pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::style::{self, Colour};
+use crate::report::{Direction, InstabilityKind};
 
 /// Red, green and blue, 0 to 255.
 pub type Rgb = [u8; 3];
@@ -25,6 +26,62 @@ pub struct Palette {
     pub flutter_shade: Rgb,
     pub divergence_streak: Rgb,
     pub flutter_streak: Rgb,
+}
+
+/// A colour of the palette, by its name there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs, reason = "the names say it")]
+pub enum Hue {
+    Ink,
+    Quiet,
+    Forward,
+    Backward,
+    Standing,
+    Divergence,
+    Flutter,
+    DivergenceShade,
+    FlutterShade,
+    DivergenceStreak,
+    FlutterStreak,
+}
+
+impl Hue {
+    /// Of waves that run in a direction.
+    pub(super) fn of_direction(direction: Direction) -> Self {
+        match direction {
+            Direction::Forward => Hue::Forward,
+            Direction::Backward | Direction::Reflected => Hue::Backward,
+            Direction::Standing => Hue::Standing,
+        }
+    }
+
+    /// Lines and letters of a kind of instability, its bands, and bands too narrow for their shade to be seen.
+    pub(super) fn of_kind(kind: InstabilityKind) -> [Self; 3] {
+        match kind {
+            InstabilityKind::Divergence => {
+                [Hue::Divergence, Hue::DivergenceShade, Hue::DivergenceStreak]
+            }
+            InstabilityKind::Flutter => [Hue::Flutter, Hue::FlutterShade, Hue::FlutterStreak],
+        }
+    }
+
+    /// As it is drawn.
+    pub(super) fn colour(self) -> Colour {
+        match self {
+            Hue::Ink => style::INK,
+            Hue::Quiet => style::QUIET,
+            Hue::Forward => style::FORWARD,
+            Hue::Backward => style::BACKWARD,
+            Hue::Standing => style::STANDING,
+            Hue::Divergence => style::DIVERGENCE,
+            Hue::Flutter => style::FLUTTER,
+            Hue::DivergenceShade => style::DIVERGENCE_SHADE,
+            Hue::FlutterShade => style::FLUTTER_SHADE,
+            Hue::DivergenceStreak => style::DIVERGENCE_STREAK,
+            Hue::FlutterStreak => style::FLUTTER_STREAK,
+        }
+    }
 }
 
 const fn rgb(colour: Colour) -> Rgb {

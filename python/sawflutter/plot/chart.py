@@ -47,7 +47,7 @@ class Line:
     width: float = CURVE
     dashed: bool = False
     hover: Sequence[str] = ()
-    """What is said of each point."""
+    """What is said of each point, on lines of its own."""
     end: str = ""
     """Label at the last point."""
 
@@ -133,6 +133,8 @@ class Panel:
     """Whether a metre is as long on both axes."""
     harmonics: bool = False
     """Whether it shows frequencies over the rotation speed, so that its multiples are lines."""
+    note: str = ""
+    """What is said where there is nothing to be seen."""
 
 
 @dataclass(frozen=True)

@@ -58,6 +58,11 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     for item in panel.items:
         _add(ax, item)
     _end_labels(ax, panel)
+    if panel.note:
+        ax.annotate(
+            panel.note, (0.01, 0.5), xycoords="axes fraction", va="center", fontsize=9,
+            color=colours()["quiet"], backgroundcolor=colours()["paper"],
+        )  # fmt: skip
     if panel.x_log:
         ax.set_xscale("log")
     if panel.y_log:
@@ -97,7 +102,8 @@ def _square(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
 
 def _add(ax: Axes, item: Item) -> None:
     if isinstance(item, Shade):
-        ax.axvspan(item.start, item.end, color=item.colour, linewidth=0, zorder=0.5)
+        # The edge keeps a band visible that is narrower than a pixel.
+        ax.axvspan(item.start, item.end, color=item.colour, linewidth=0.8, zorder=0.5)
     elif isinstance(item, Upright):
         style: Any = (0, (4, 4)) if item.dashed else "solid"
         ax.axvline(item.x, color=item.colour, linewidth=0.8, linestyle=style, zorder=1.5)

@@ -85,6 +85,12 @@ def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None
             x=float(line.x[-1]), y=place, text=line.end, font={"color": line.colour, "size": 12},
             showarrow=False, xanchor="left", xshift=6, **at,
         )  # fmt: skip
+    if panel.note:
+        figure.add_annotation(
+            x=0.01, xref="x domain", y=0.5, yref="y domain", text=panel.note, showarrow=False,
+            xanchor="left", font={"color": colours()["quiet"], "size": 12},
+            bgcolor=colours()["paper"], **at,
+        )  # fmt: skip
     _axes(figure, panel, at, last)
 
 
@@ -103,8 +109,10 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
     if at:
         opaque["exclude_empty_subplots"] = False
     if isinstance(item, Shade):
+        # The edge keeps a band visible that is narrower than a pixel.
+        edge = {"color": item.colour, "width": 1}
         figure.add_vrect(
-            item.start, item.end, fillcolor=item.colour, line_width=0, layer="below", **opaque
+            item.start, item.end, fillcolor=item.colour, line=edge, layer="below", **opaque
         )
     elif isinstance(item, Upright):
         dash = "dash" if item.dashed else "solid"
@@ -132,7 +140,8 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
 def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
     said: dict[str, Any] = {"hoverinfo": "name"}
     if item.hover:
-        said = {"text": list(item.hover), "hovertemplate": "%{text}<extra></extra>"}
+        lines = [text.replace("\n", "<br>") for text in item.hover]
+        said = {"text": lines, "hovertemplate": "%{text}<extra></extra>"}
     shared = {"x": item.x, "y": _scaled(item.y, panel), "name": item.name, **said}
     if isinstance(item, Points):
         symbol = "circle-open" if item.hollow else "circle"

@@ -1,12 +1,11 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
-use super::super::axis::two_digits;
-use super::super::bands::{NARROW, is_shaded, places};
+use super::super::bands::{NARROW, places};
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::chart_data::Band;
 use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
-use super::speeds::{line_colour, operating_place};
+use super::speeds::operating_place;
 use super::{Chart, WIDTH};
-use crate::report::{InstabilityEntry, InstabilityKind};
 
 const ROWS: usize = 5;
 const ROW_HEIGHT: f64 = 16.0;
@@ -35,11 +34,11 @@ impl BandLabels {
     /// Finds a place for the label of each band that is shaded, the fastest growing band first; a label
     /// for which there is no room is left out.
     pub fn new(chart: &Chart) -> Self {
-        let bands = &chart.report.instabilities;
-        let shaded = |band: &&InstabilityEntry| is_shaded(chart.speed.values(), band);
-        let mut order: Vec<&InstabilityEntry> = bands.iter().filter(shaded).collect();
+        let mut order: Vec<&Band> = chart.bands().filter(|b| !b.shaded.is_empty()).collect();
         order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
-        let places = bands.iter().filter_map(|band| places(&chart.speed, band));
+        let places = chart
+            .bands()
+            .filter_map(|b| places(&chart.speed, [b.from, b.to]));
         let mut thin: Vec<_> = places
             .filter(|[left, right]| right - left < NARROW)
             .collect();
@@ -53,8 +52,8 @@ impl BandLabels {
     }
 
     /// The best free place: few thin lines crossed, high up, next to its band.
-    fn best_place(&self, chart: &Chart, band: &InstabilityEntry) -> Option<Placed> {
-        let own = places(&chart.speed, band)?;
+    fn best_place(&self, chart: &Chart, band: &Band) -> Option<Placed> {
+        let own = places(&chart.speed, [band.from, band.to])?;
         let free = |place: &Placed| {
             let Frame { left, right, .. } = place.frame;
             let inside = left >= chart.lower.left + 4.0 && right <= f64::from(WIDTH) - MARGIN;
@@ -122,12 +121,7 @@ fn crosses([left, right]: &[f64; 2], frame: &Frame) -> bool {
 }
 
 /// To the right of the band like a flag, to its left, or over it.
-fn places_in_row(
-    chart: &Chart,
-    band: &InstabilityEntry,
-    [left, right]: [f64; 2],
-    row: usize,
-) -> [Placed; 3] {
+fn places_in_row(chart: &Chart, band: &Band, [left, right]: [f64; 2], row: usize) -> [Placed; 3] {
     let baseline = chart.lower.top + 13.0 + row as f64 * ROW_HEIGHT;
     let sides = [
         (right + FLAG_GAP, Anchor::Start),
@@ -135,9 +129,8 @@ fn places_in_row(
         ((left + right) / 2.0, Anchor::Middle),
     ];
     sides.map(|(x, anchor)| {
-        let label = band_label(chart, band);
-        let letters = Lettering::regular(LABEL_SIZE, line_colour(band.kind), anchor);
-        let frame = text_frame([x, baseline], &letters, &label);
+        let letters = Lettering::regular(LABEL_SIZE, band.colour.colour(), anchor);
+        let frame = text_frame([x, baseline], &letters, &band.label);
         let fits_inside = frame.right - frame.left < right - left;
         let burden = match anchor {
             Anchor::Start if fits_inside => 2,
@@ -156,29 +149,7 @@ fn places_in_row(
             },
             row,
             burden,
-            label,
+            label: band.label.clone(),
         }
     })
-}
-
-fn band_label(chart: &Chart, band: &InstabilityEntry) -> String {
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
-    let [first, last] = chart.speed.values();
-    let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
-    let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
-        format!("{kind} from {from}")
-    } else if !band.closed && band.from_rpm <= first && band.to_rpm < last {
-        format!("{kind} to {to}")
-    } else if from == to {
-        format!("{kind} {from}")
-    } else {
-        format!("{kind} {from}–{to}")
-    };
-    match band.saturated_amplitude_m {
-        None => label,
-        Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
-    }
 }

@@ -2,19 +2,28 @@
 
 use super::super::axis::{Axis, Spread};
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
-use super::super::clip::clip;
+use super::super::chart_data::{AxisData, Item, Line, PanelData, Points};
 use super::super::is_damped;
 use super::super::meeting::Meeting;
-use super::super::style::{CURVE, Colour, FLUTTER, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, tint};
-use super::speeds::line_colour;
-use super::waves::{direction_at, direction_colour};
+use super::super::paint::Ground;
+use super::super::palette::Hue;
+use super::super::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET};
+use super::describe::{line_through, lines_by_look};
+use super::waves::direction_at;
 use super::{Chart, NEGLIGIBLE_PER_S};
-use crate::report::{BranchEntry, InstabilityEntry, Report};
+use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
+use crate::text::shown_to;
+
+/// Width of the curves of what grows.
+const WIDE: f64 = 1.25 * CURVE;
+const PEAK_SIZE: f64 = 5.5;
+/// Beyond the largest growth rate, whose dot is seen whole.
+const HEADROOM: f64 = 1.15;
 
 /// Said where nothing grows: at a critical speed the blade is not stable all the same.
-fn no_growth(chart: &Chart) -> &'static str {
-    let mut critical = chart.report.critical_speeds.iter();
-    match critical.any(|entry| chart.speed.shows(entry.rpm)) {
+fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
+    let mut critical = report.critical_speeds.iter();
+    match critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
         true => {
             "no motion grows by itself; at a critical speed (dashed) a constant force bends the blade ever further"
         }
@@ -73,13 +82,12 @@ pub fn hides_decay(report: &Report) -> bool {
     grows(report) && !is_damped(report)
 }
 
-/// The growth axis, below the labels of the bands, if it has anything to show.
-pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
-    let report = chart.report;
+/// How far the growth axis goes, and how its values are spread, if there is anything to show.
+fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     if !is_worth_showing(report) {
         return None;
     }
-    let growth = greatest_growth(report, chart.speed.values());
+    let growth = greatest_growth(report, shown);
     let decay = greatest_decay(report);
     let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
     let growth = growth.max(least);
@@ -87,9 +95,14 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
         true => decay.max(least),
         false => 0.0,
     };
+    Some(([-decay, growth], spread(report, growth.max(decay))))
+}
+
+/// The growth axis, below the labels of the bands, if it has anything to show.
+pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
+    let (range, spread) = range(chart.report, chart.speed.values())?;
     let places = [chart.lower.bottom, chart.lower.top + labels_height];
-    let spread = spread(report, growth.max(decay));
-    Some(Axis::new([-decay, growth], places, spread))
+    Some(Axis::new(range, places, spread))
 }
 
 /// Divergence often grows thirty times as fast as flutter beside it, which would
@@ -114,16 +127,15 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
     let zero = axis.at(0.0);
     let zero_line = [[chart.lower.left, zero], [chart.lower.right, zero]];
     sheet.line(zero_line, Stroke::solid(INK, HAIRLINE));
-    match is_damped(chart.report) {
-        true => draw_damped(sheet, chart, axis),
-        false => draw_undamped(sheet, chart, axis),
-    }
-    for band in &chart.report.instabilities {
-        draw_peak(sheet, chart, axis, band);
-    }
-    if !grows(chart.report) {
-        write_stable(sheet, chart, [chart.lower.left + 10.0, zero - 7.0]);
-    }
+    let ground = Ground {
+        x: &chart.speed,
+        y: axis,
+        frame: &chart.lower,
+    };
+    let items = &chart.panels()[1].items;
+    ground.draw_lines(sheet, items);
+    ground.draw_points(sheet, items);
+    write_stable(sheet, chart, [chart.lower.left + 10.0, zero - 7.0]);
 }
 
 pub fn say_stable(sheet: &mut Sheet, chart: &Chart) {
@@ -137,89 +149,115 @@ pub fn say_stable(sheet: &mut Sheet, chart: &Chart) {
 
 fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let text = no_growth(chart);
+    let text = &chart.panels()[1].note;
+    if text.is_empty() {
+        return;
+    }
     // The line of the operating speed may pass behind it.
     sheet.fill(text_frame(at, &letters, text), PAPER);
     sheet.text(at, letters, text);
 }
 
-/// Draws either the growing or the decaying stretches of a branch; where it
-/// neither grows nor decays it would only thicken the zero line.
-fn draw_branch(sheet: &mut Sheet, chart: &Chart, axis: &Axis, branch: &BranchEntry, growing: bool) {
-    let points: Vec<_> = branch.rpm.iter().zip(&branch.growth_per_s).collect();
-    let mut run: Vec<[f64; 2]> = Vec::new();
-    let mut run_colour = FLUTTER;
-    let width = if growing { 1.25 * CURVE } else { CURVE };
-    let mut finish = |run: &mut Vec<[f64; 2]>, colour: Colour| {
-        for part in clip(run, &chart.lower) {
-            sheet.line(part, Stroke::solid(colour, width));
+/// The panel, without the bands and critical speeds behind it. Of an undamped saw growth within the bands alone: there is
+/// none outside, and the decaying eigenvalues mirror the growing ones. Of a damped one all branches, and the curve that is
+/// expected of bands that no sample came near.
+pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {
+    let mut items = Vec::new();
+    let mut bands: Vec<&InstabilityEntry> = report.instabilities.iter().collect();
+    if is_damped(report) {
+        for growing in [false, true] {
+            let branches = report.campbell.branches.iter().rev();
+            items.extend(branches.flat_map(|branch| lines(report, branch, growing, said)));
         }
-        run.clear();
-    };
-    for (i, pair) in points.windows(2).enumerate() {
-        let ends = [0, 1].map(|k| [chart.speed.at(*pair[k].0), axis.at(*pair[k].1)]);
-        let highest = if pair[0].1 > pair[1].1 { i } else { i + 1 };
-        let grows = points[highest].1 > &NEGLIGIBLE_PER_S;
-        let decays = pair[0].1.min(*pair[1].1) < -NEGLIGIBLE_PER_S;
-        let colour = match growing {
-            true => growth_colour(chart.report, branch, highest),
-            false => tint(direction_colour(direction_at(branch, highest)), 0.55),
-        };
-        let wanted = if growing { grows } else { decays && !grows };
-        if !wanted || colour != run_colour {
-            finish(&mut run, run_colour);
-        }
-        if wanted {
-            if run.is_empty() {
-                run.push(ends[0]);
-            }
-            run.push(ends[1]);
-            run_colour = colour;
-        }
+        bands.retain(|band| !is_sampled(report, band));
     }
-    finish(&mut run, run_colour);
+    items.extend(bands.into_iter().map(|band| band_line(report, band, said)));
+    let peaks = report.instabilities.iter();
+    items.extend(peaks.map(|band| Item::Points(peak(band, said))));
+    let ([low, high], spread) = range(report, shown).unwrap_or(([0.0, 1.0], Spread::Linear));
+    let y = AxisData::new("Re λ", "1/s").within([HEADROOM * low, HEADROOM * high]);
+    PanelData {
+        note: match grows(report) {
+            true => String::new(),
+            false => no_growth(report, shown).to_owned(),
+        },
+        ..PanelData::new(speed, y.spread(spread), items)
+    }
 }
 
-fn growth_colour(report: &Report, branch: &BranchEntry, sample: usize) -> Colour {
+/// Either the growing or the decaying stretches of a branch; where it neither grows nor decays it would only thicken the
+/// zero line.
+fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Vec<Item> {
+    let growth = &branch.growth_per_s;
+    let look = |i: usize| {
+        let highest = if growth[i] > growth[i + 1] { i } else { i + 1 };
+        let grows = growth[highest] > NEGLIGIBLE_PER_S;
+        let decays = growth[i].min(growth[i + 1]) < -NEGLIGIBLE_PER_S;
+        match growing {
+            true => grows.then(|| growth_hue(report, branch, highest)),
+            false => (decays && !grows).then(|| Hue::of_direction(direction_at(branch, highest))),
+        }
+    };
+    let (width, tint) = if growing { (WIDE, 1.0) } else { (CURVE, 0.55) };
+    let found = lines_by_look(branch.rpm.len().min(growth.len()), look);
+    let lines = found.into_iter().map(|(hue, samples)| {
+        Item::Line(Line {
+            width,
+            tint,
+            ..line_through(branch, growth, &samples, hue, said)
+        })
+    });
+    lines.collect()
+}
+
+fn growth_hue(report: &Report, branch: &BranchEntry, sample: usize) -> Hue {
     let rpm = branch.rpm.get(sample).copied().unwrap_or(f64::NAN);
     let mut bands = report.instabilities.iter();
     let own = bands.find(|band| {
         let around = band.from_rpm <= rpm && rpm <= band.to_rpm;
         around && band.branches.contains(&branch.branch)
     });
-    own.map_or(FLUTTER, |band| line_colour(band.kind))
+    own.map_or(Hue::Flutter, |band| Hue::of_kind(band.kind)[0])
 }
 
-/// Growth within the bands alone: without damping there is none outside, and the
-/// decaying eigenvalues mirror the growing ones.
-fn draw_undamped(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
-    for band in &chart.report.instabilities {
-        draw_band(sheet, chart, axis, band);
+fn band_line(report: &Report, band: &InstabilityEntry, said: bool) -> Item {
+    let curve = curve(report, band);
+    let name = kind(band);
+    let words =
+        |[rpm, growth]: &[f64; 2]| format!("{name}\n{rpm:.1} rpm\n{} 1/s", shown_to(3, *growth));
+    Item::Line(Line {
+        width: WIDE,
+        said: curve.iter().filter(|_| said).map(words).collect(),
+        ..Line::new(curve, Hue::of_kind(band.kind)[0], name)
+    })
+}
+
+fn peak(band: &InstabilityEntry, said: bool) -> Points {
+    let name = kind(band);
+    let waves = band
+        .name
+        .as_ref()
+        .map_or(String::new(), |waves| format!(" of {waves}"));
+    let growth = shown_to(3, band.peak_growth_per_s);
+    let words = format!(
+        "{name}{waves}\nlargest growth {growth} 1/s\n{:.1} rpm\n{:.2} Hz",
+        band.peak_rpm, band.frequency_hz
+    );
+    Points {
+        said: if said { vec![words] } else { Vec::new() },
+        ..Points::new(
+            [[band.peak_rpm, band.peak_growth_per_s]],
+            Hue::of_kind(band.kind)[0],
+            PEAK_SIZE,
+            name,
+        )
     }
 }
 
-/// All branches; bands that no sample came near get the curve that is expected.
-fn draw_damped(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
-    let branches = &chart.report.campbell.branches;
-    for growing in [false, true] {
-        for branch in branches.iter().rev() {
-            draw_branch(sheet, chart, axis, branch, growing);
-        }
-    }
-    let bands = chart.report.instabilities.iter();
-    for band in bands.filter(|band| !is_sampled(chart.report, band)) {
-        draw_band(sheet, chart, axis, band);
-    }
-}
-
-fn draw_band(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
-    let curve = curve(chart.report, band);
-    let curve: Vec<_> = curve
-        .iter()
-        .map(|&[rpm, growth]| [chart.speed.at(rpm), axis.at(growth)])
-        .collect();
-    for part in clip(&curve, &chart.lower) {
-        sheet.line(part, Stroke::solid(line_colour(band.kind), 1.25 * CURVE));
+fn kind(band: &InstabilityEntry) -> &'static str {
+    match band.kind {
+        InstabilityKind::Divergence => "divergence",
+        InstabilityKind::Flutter => "flutter",
     }
 }
 
@@ -251,14 +289,6 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     };
     let meeting = Meeting::new(ends, [at_zero(0), at_zero(1)], squares);
     meeting.map_or(Vec::new(), |meeting| meeting.growth())
-}
-
-fn draw_peak(sheet: &mut Sheet, chart: &Chart, axis: &Axis, band: &InstabilityEntry) {
-    let peak = band.peak_growth_per_s;
-    if chart.speed.shows(band.peak_rpm) && axis.shows(peak) {
-        let at = [chart.speed.at(band.peak_rpm), axis.at(peak)];
-        sheet.disc(at, 2.75, line_colour(band.kind));
-    }
 }
 
 fn is_sampled(report: &Report, band: &InstabilityEntry) -> bool {

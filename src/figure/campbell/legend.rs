@@ -1,57 +1,45 @@
 //! The lines at the foot that explain what is not labelled in place.
 
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::super::chart_data::Line;
 use super::super::key::Key;
+use super::super::paint::stroke;
+use super::super::palette::Hue;
 use super::super::style::{
-    BETWEEN_FACTS, CURVE, DASH, LABEL_SIZE, MARGIN, QUIET, STANDING, STRONG_CURVE, Weight, shorten,
+    BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, shorten,
 };
 use super::band_labels::BandLabels;
 use super::view::left_out;
-use super::waves::{Stretch, direction_colour, draw_measured_mark, looks_shown, measured_source};
+use super::waves::{draw_measured_mark, measured_source};
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
-use crate::report::Direction;
 
 /// Length of a line in the legend.
 const SAMPLE: f64 = 22.0;
 
 /// Writes both lines.
 pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
-    let looks = looks_shown(chart);
+    let ground = chart.upper_ground();
+    let branches = chart.lines().filter(|line| line.branch.is_some());
+    let shown: Vec<&Line> = branches
+        .filter(|line| !ground.parts(line).is_empty())
+        .collect();
     let mut key = Key::new(sheet, PLOT_LEFT, f64::from(HEIGHT) - LEGEND_ABOVE_FOOT);
-    let directions = [
-        (Direction::Forward, "forward wave"),
-        (Direction::Backward, "backward wave"),
-        (Direction::Standing, "standing or mixed"),
+    let hues = [
+        (Hue::Forward, "forward wave"),
+        (Hue::Backward, "backward wave"),
+        (Hue::Standing, "standing or mixed"),
     ];
-    for (direction, word) in directions {
-        if looks.iter().any(|look| look.1 == direction) {
-            line(
-                &mut key,
-                Stroke::solid(direction_colour(direction), CURVE),
-                word,
-            );
+    for (hue, word) in hues {
+        if shown.iter().any(|line| line.colour == hue) {
+            draw_sample(&mut key, Stroke::solid(hue.colour(), CURVE), word);
         }
     }
-    let dashed = Stroke {
-        dash: Some(DASH),
-        ..Stroke::solid(STANDING, CURVE)
-    };
-    let stretches = [
-        (
-            Stretch::Reflected,
-            dashed,
-            "reflected: a backward wave past its critical speed",
-        ),
-        (
-            Stretch::Unstable,
-            Stroke::solid(STANDING, STRONG_CURVE),
-            "unstable",
-        ),
-    ];
-    for (stretch, stroke, word) in stretches {
-        if looks.iter().any(|look| look.0 == stretch) {
-            line(&mut key, stroke, word);
-        }
+    if let Some(reflected) = shown.iter().find(|line| line.dashed) {
+        let word = "reflected: a backward wave past its critical speed";
+        draw_sample(&mut key, grey(reflected), word);
+    }
+    if let Some(unstable) = shown.iter().find(|line| line.width > CURVE) {
+        draw_sample(&mut key, grey(unstable), "unstable");
     }
     if let Some(source) = measured_source(chart) {
         let source = shorten(source, LABEL_SIZE, Weight::Regular, 250.0);
@@ -61,7 +49,15 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     draw_notes(sheet, chart, labels);
 }
 
-fn line(key: &mut Key, stroke: Stroke, word: &str) {
+/// A line of any direction.
+fn grey(line: &Line) -> Stroke {
+    Stroke {
+        colour: STANDING,
+        ..stroke(line)
+    }
+}
+
+fn draw_sample(key: &mut Key, stroke: Stroke, word: &str) {
     key.mark(SAMPLE, |sheet, [x, y]| {
         sheet.line([[x, y], [x + SAMPLE, y]], stroke)
     });

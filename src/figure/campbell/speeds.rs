@@ -2,13 +2,13 @@
 
 use super::super::bands::places;
 use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
+use super::super::chart_data::{Role, Upright};
 use super::super::declutter::{Cluster, join_close};
 use super::super::style::{
-    Colour, DIVERGENCE, FINE_DASH, FLUTTER, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET,
-    Weight, text_width,
+    FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, text_width,
 };
 use super::{Chart, WIDTH, waves};
-use crate::report::{CriticalSpeedEntry, InstabilityKind};
+use crate::report::CriticalSpeedEntry;
 
 /// Baselines of the critical speeds and of the waves that stand still there, and the upper end of the lines to them.
 const CRITICAL_BASELINE: f64 = 83.0;
@@ -17,16 +17,9 @@ const CRITICAL_TOP: f64 = 101.0;
 /// Room for the waves of a single speed.
 const LEAST_WIDTH: f64 = 44.0;
 
-pub fn line_colour(kind: InstabilityKind) -> Colour {
-    match kind {
-        InstabilityKind::Divergence => DIVERGENCE,
-        InstabilityKind::Flutter => FLUTTER,
-    }
-}
-
 /// Critical speeds within the sweep, ascending.
 fn critical_shown(chart: &Chart) -> Vec<f64> {
-    let all = chart.report.critical_speeds.iter().map(|entry| entry.rpm);
+    let all = chart.uprights(Role::Critical).map(|upright| upright.x);
     let mut shown: Vec<f64> = all.filter(|rpm| chart.speed.shows(*rpm)).collect();
     shown.sort_by(f64::total_cmp);
     shown
@@ -43,13 +36,6 @@ pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
         sheet.line([[x, chart.upper.bottom], [x, CRITICAL_TOP]], dashed);
     }
     label_critical(sheet, chart, &speeds);
-}
-
-/// Dots on the axis, to be drawn on top of the branches.
-pub fn dot_critical(sheet: &mut Sheet, chart: &Chart) {
-    for rpm in critical_shown(chart) {
-        sheet.disc([chart.speed.at(rpm), chart.upper.bottom], 3.5, INK);
-    }
 }
 
 fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
@@ -114,10 +100,16 @@ fn wave(entry: &CriticalSpeedEntry) -> String {
     }
 }
 
+/// The operating speed and its place on the sheet, where it is shown.
+fn operating<'a>(chart: &'a Chart) -> Option<(&'a Upright, f64)> {
+    let upright = chart.uprights(Role::Operating).next()?;
+    let is_shown = chart.speed.shows(upright.x);
+    is_shown.then(|| (upright, chart.speed.at(upright.x)))
+}
+
 /// Place of the operating speed on the sheet.
 pub fn operating_place(chart: &Chart) -> Option<f64> {
-    let rpm = chart.report.scene.operating_rpm?;
-    chart.speed.shows(rpm).then(|| chart.speed.at(rpm))
+    operating(chart).map(|(_, x)| x)
 }
 
 pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
@@ -132,10 +124,9 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
 /// Writes the operating speed at the upper end of its line, or beside the line, as
 /// high up as nothing is in the way.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
-    let (Some(x), Some(rpm)) = (operating_place(chart), chart.report.scene.operating_rpm) else {
+    let Some((Upright { label, .. }, x)) = operating(chart) else {
         return;
     };
-    let label = format!("operating {rpm:.0}");
     let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
     let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
     let rows = (0..).map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row));
@@ -144,7 +135,7 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let candidates = std::iter::once(above).chain(candidates);
     let candidates = candidates.map(|(at, anchor)| {
         let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-        (at, letters, text_frame(at, &letters, &label))
+        (at, letters, text_frame(at, &letters, label))
     });
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
@@ -159,7 +150,7 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     if waves::is_crossed(chart, &frame) || is_on_upright(chart, &frame) {
         sheet.fill(frame, PAPER);
     }
-    sheet.text(at, letters, &label);
+    sheet.text(at, letters, label);
 }
 
 /// Whether a text is in the frame already.
@@ -174,8 +165,8 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
     // The lines of critical speeds begin above the panel, the bands with it.
     let within = frame.bottom > chart.upper.top;
-    let bands = chart.report.instabilities.iter().filter(|_| within);
-    let bands = bands.filter_map(|band| places(&chart.speed, band));
+    let bands = chart.bands().filter(|_| within);
+    let bands = bands.filter_map(|band| places(&chart.speed, [band.from, band.to]));
     let critical = critical_shown(chart).into_iter();
     let critical = critical.map(|rpm| [chart.speed.at(rpm); 2]);
     bands

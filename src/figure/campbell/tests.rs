@@ -206,6 +206,40 @@ fn growth_is_drawn_within_the_bands_and_never_below_zero() {
     }
 }
 
+/// Every sample of a branch is a point of one of its lines, at the frequency of the report.
+#[test]
+fn the_numbers_of_the_diagram_are_those_of_the_report() {
+    let mut report = busy_report();
+    for (k, branch) in report.campbell.branches.iter_mut().enumerate() {
+        branch.branch = k + 1;
+    }
+    let data = chart(&report, true);
+    let lines = data.panels[0].items.iter().filter_map(|item| match item {
+        Item::Line(line) => Some(line),
+        _ => None,
+    });
+    let lines: Vec<&Line> = lines.collect();
+    for branch in &report.campbell.branches {
+        let own = lines
+            .iter()
+            .filter(|line| line.branch == Some(branch.branch));
+        let mut drawn: Vec<[f64; 2]> = own
+            .flat_map(|line| line.x.iter().zip(&line.y).map(|(x, y)| [*x, *y]))
+            .filter(|[x, _]| x.is_finite())
+            .collect();
+        drawn.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        drawn.dedup();
+        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
+        let samples: Vec<[f64; 2]> = samples.map(|(rpm, hz)| [*rpm, *hz]).collect();
+        assert_eq!(drawn, samples);
+    }
+    assert!(lines.iter().all(|line| line.said.len() == line.x.len()));
+    let kept = chart(&report, false);
+    assert!(
+        serde_json::to_string(&kept).unwrap().len() < serde_json::to_string(&data).unwrap().len()
+    );
+}
+
 #[test]
 fn the_certificate_is_told_and_violations_are_red() {
     let mut report = busy_report();

@@ -1,5 +1,6 @@
 //! Which part of a chart its figure shows.
 
+use super::super::axis::proper_range;
 use super::super::bands::is_shaded;
 use super::waves;
 use crate::report::{InstabilityEntry, Report};
@@ -34,8 +35,11 @@ impl CampbellView {
         let to = self
             .to_rpm
             .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
+        // The axes are drawn over what has a length.
+        let [from, to] = proper_range([from, to]);
         let hz = self.to_hz;
         let hz = hz.unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
+        let [_, hz] = proper_range([0.0, hz]);
         Shown {
             rpm: [from, to],
             hz,

@@ -3,9 +3,9 @@
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::clip::clip;
 use super::super::declutter::{Wish, push_apart};
+use super::super::palette::Hue;
 use super::super::style::{
-    BACKWARD, CURVE, Colour, DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, STANDING,
-    STRONG_CURVE, Weight, shorten, text_width, tint,
+    Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, Weight, shorten, text_width, tint,
 };
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, Direction, Report};
@@ -21,14 +21,6 @@ const FARTHEST_LABEL: f64 = 72.0;
 /// The same for the labels above the panel, which have no leader.
 const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
-pub fn direction_colour(direction: Direction) -> Colour {
-    match direction {
-        Direction::Forward => FORWARD,
-        Direction::Backward | Direction::Reflected => BACKWARD,
-        Direction::Standing => STANDING,
-    }
-}
-
 /// How a branch runs at one of its speeds.
 pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
     let direction = branch.direction.get(sample);
@@ -38,7 +30,7 @@ pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
 /// The colour of a branch at the last of its speeds that are shown.
 fn last_colour(branch: &BranchEntry, chart: &Chart) -> Colour {
     let shown = branch.rpm.iter().rposition(|rpm| chart.speed.shows(*rpm));
-    direction_colour(direction_at(branch, shown.unwrap_or(0)))
+    Hue::of_direction(direction_at(branch, shown.unwrap_or(0))).colour()
 }
 
 fn short_label(branch: &BranchEntry) -> String {
@@ -111,26 +103,7 @@ pub enum Stretch {
     Unstable,
 }
 
-/// What a stretch is and how its wave runs.
-pub type Look = (Stretch, Direction);
-
-/// Stretches of equal look, each ending where the next begins.
-fn stretches(branch: &BranchEntry, chart: &Chart) -> Vec<(Look, Vec<[f64; 2]>)> {
-    let points = places(branch, chart);
-    let mut all: Vec<(Look, Vec<[f64; 2]>)> = Vec::new();
-    for (i, segment) in points.windows(2).enumerate() {
-        // Guides let waves stand at rest, whatever they do from there on.
-        let look = look_of_segment(chart.report, branch, i);
-        let look = (look, direction_at(branch, i + 1));
-        match all.last_mut() {
-            Some((last, line)) if *last == look => line.push(segment[1]),
-            _ => all.push((look, segment.to_vec())),
-        }
-    }
-    all
-}
-
-fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
+pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
     let at_an_end = |holds: &dyn Fn(usize) -> bool| holds(i) || holds(i + 1);
     let grows = |i: usize| {
         branch
@@ -149,37 +122,6 @@ fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
         Stretch::Reflected
     } else {
         Stretch::Plain
-    }
-}
-
-pub fn draw_branches(sheet: &mut Sheet, chart: &Chart) {
-    // From the highest down, so that the lowest branches lie on top.
-    for branch in chart.report.campbell.branches.iter().rev() {
-        if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
-            dot(sheet, chart, *rpm, *hz, last_colour(branch, chart));
-        }
-        for ((look, direction), line) in stretches(branch, chart) {
-            let colour = direction_colour(direction);
-            let stroke = match look {
-                Stretch::Plain => Stroke::solid(colour, CURVE),
-                Stretch::Reflected => Stroke {
-                    dash: Some(DASH),
-                    ..Stroke::solid(colour, CURVE)
-                },
-                Stretch::Unstable => Stroke::solid(colour, STRONG_CURVE),
-            };
-            for part in clip(&line, &chart.upper) {
-                sheet.line(part, stroke);
-            }
-        }
-    }
-}
-
-/// A branch that is known at a single speed.
-fn dot(sheet: &mut Sheet, chart: &Chart, rpm: f64, hz: f64, colour: Colour) {
-    if chart.speed.shows(rpm) && chart.frequency.shows(hz) {
-        let at = [chart.speed.at(rpm), chart.frequency.at(hz)];
-        sheet.disc(at, 2.0 * CURVE, colour);
     }
 }
 
@@ -276,12 +218,6 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
     }
 }
 
-pub fn draw_measured(sheet: &mut Sheet, chart: &Chart) {
-    for at in measured_places(chart) {
-        draw_measured_mark(sheet, at);
-    }
-}
-
 pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
     sheet.ring(at, 3.0, Stroke::solid(INK, 1.2), PAPER);
 }
@@ -293,19 +229,6 @@ fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
         .filter(|&(rpm, hz)| chart.speed.shows(rpm) && chart.frequency.shows(hz))
         .map(|(rpm, hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
         .collect()
-}
-
-/// Looks that occur in the figure.
-pub fn looks_shown(chart: &Chart) -> Vec<Look> {
-    let branches = chart.report.campbell.branches.iter();
-    let all = branches.flat_map(|branch| stretches(branch, chart));
-    let mut shown: Vec<Look> = Vec::new();
-    for (look, line) in all {
-        if !shown.contains(&look) && !clip(&line, &chart.upper).is_empty() {
-            shown.push(look);
-        }
-    }
-    shown
 }
 
 /// Where the measured points are from, if the figure shows any.

@@ -1,0 +1,263 @@
+//! What the diagram shows, as numbers.
+
+use super::super::chart_data::{
+    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright,
+};
+use super::super::palette::Hue;
+use super::super::style::{CURVE, HAIRLINE, STRONG_CURVE};
+use super::view::Shown;
+use super::waves::{Stretch, direction_at, look_of_segment};
+use super::{facts, growth};
+use crate::report::{BranchEntry, Direction, Report};
+use crate::text::shown_to;
+
+const CRITICAL_SIZE: f64 = 7.0;
+const CROSSING_SIZE: f64 = 5.0;
+const MEASURED_SIZE: f64 = 6.0;
+/// A branch that is known at a single speed.
+const DOT_SIZE: f64 = 4.0 * CURVE;
+
+/// Frequencies over speed, growth rates below. What is said of each point is left out unless it is asked for: it is
+/// most of the text.
+pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
+    let speed = AxisData::speed().within(shown.rpm);
+    let bands = report.instabilities.iter();
+    let bands = bands.map(|band| Item::Band(Band::new(band, shown.rpm)));
+    let marks: Vec<Item> = bands.chain(uprights(report)).collect();
+    let mut upper = marks.clone();
+    upper.extend(branches(report, said));
+    upper.extend(excitation(report, shown));
+    upper.extend(measured(report, said));
+    upper.push(critical(report, said));
+    let mut lower = growth::describe(report, shown.rpm, speed.clone(), said);
+    lower.items.splice(0..0, marks);
+    let upper = PanelData {
+        share: 2.0,
+        harmonics: true,
+        ..PanelData::new(
+            speed,
+            AxisData::new("Im λ / 2π", "Hz").within([0.0, shown.hz]),
+            upper,
+        )
+    };
+    ChartData {
+        title: report.scene.name.clone(),
+        facts: facts(report)
+            .into_iter()
+            .chain(names_of_lines(report))
+            .collect(),
+        panels: vec![upper, lower],
+    }
+}
+
+/// Of the excitation lines, for figures in which there is no room for them.
+fn names_of_lines(report: &Report) -> Option<String> {
+    let lines = report.excitation.as_ref()?.lines.iter();
+    let names: Vec<&str> = lines.map(|line| line.name.as_str()).collect();
+    Some(format!("lines {}", names.join(", ")))
+}
+
+fn uprights(report: &Report) -> impl Iterator<Item = Item> {
+    let critical = report.critical_speeds.iter().map(|entry| Upright {
+        x: entry.rpm,
+        role: Role::Critical,
+        colour: Hue::Quiet,
+        dashed: true,
+        label: format!("{:.0}", entry.rpm),
+        name: format!("critical speed {:.0} rpm: {}", entry.rpm, entry.name),
+    });
+    let operating = report.scene.operating_rpm.map(|rpm| Upright {
+        x: rpm,
+        role: Role::Operating,
+        colour: Hue::Ink,
+        dashed: false,
+        label: format!("operating {rpm:.0}"),
+        name: format!("operating speed {rpm:.0} rpm"),
+    });
+    critical.chain(operating).map(Item::Upright)
+}
+
+/// Lines through the samples of a branch that look alike, each interrupted where another look begins: between two
+/// samples as `look` says, not drawn where it says nothing.
+pub fn lines_by_look<L: PartialEq>(
+    samples: usize,
+    look: impl Fn(usize) -> Option<L>,
+) -> Vec<(L, Vec<Option<usize>>)> {
+    let mut lines: Vec<(L, Vec<Option<usize>>)> = Vec::new();
+    for i in 0..samples.saturating_sub(1) {
+        let Some(look) = look(i) else { continue };
+        match lines.iter_mut().find(|(other, _)| *other == look) {
+            Some((_, line)) if line.last() == Some(&Some(i)) => line.push(Some(i + 1)),
+            Some((_, line)) => line.extend([None, Some(i), Some(i + 1)]),
+            None => lines.push((look, vec![Some(i), Some(i + 1)])),
+        }
+    }
+    lines
+}
+
+/// A line of a branch through some of its samples, at the heights `values`.
+pub fn line_through(
+    branch: &BranchEntry,
+    values: &[f64],
+    samples: &[Option<usize>],
+    colour: Hue,
+    said: bool,
+) -> Line {
+    let nowhere = [f64::NAN; 2];
+    let points = samples
+        .iter()
+        .map(|sample| sample.map_or(nowhere, |i| [branch.rpm[i], values[i]]));
+    let words = samples
+        .iter()
+        .map(|sample| sample.map_or_else(String::new, |i| say(branch, i)));
+    Line {
+        said: if said { words.collect() } else { Vec::new() },
+        branch: Some(branch.branch),
+        ..Line::new(points, colour, &branch.name)
+    }
+}
+
+/// What is known of a branch at one of its speeds.
+fn say(branch: &BranchEntry, i: usize) -> String {
+    let hz = branch.frequency_hz.get(i).copied().unwrap_or(f64::NAN);
+    let growth = branch.growth_per_s.get(i).copied().unwrap_or(f64::NAN);
+    let sign = match branch.krein_sign.get(i) {
+        Some(1..) => "+1",
+        Some(..=-1) => "\u{2212}1, reflected",
+        _ => "none",
+    };
+    let lines = [
+        format!("{}, {}", branch.name, way(direction_at(branch, i))),
+        format!("{:.1} rpm", branch.rpm[i]),
+        format!("{hz:.3} Hz"),
+        format!("growth {} 1/s", shown_to(3, growth)),
+        format!("Krein sign {sign}"),
+    ];
+    lines.join("\n")
+}
+
+fn way(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Forward => "forward",
+        Direction::Backward | Direction::Reflected => "backward",
+        Direction::Standing => "standing",
+    }
+}
+
+/// Solid where a wave has positive energy, dashed where it is reflected, thick where it is unstable.
+fn branches(report: &Report, said: bool) -> Vec<Item> {
+    let mut items = Vec::new();
+    // From the highest down, so that the lowest branches lie on top.
+    for branch in report.campbell.branches.iter().rev() {
+        if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
+            let colour = Hue::of_direction(direction_at(branch, 0));
+            items.push(Item::Points(Points {
+                said: if said {
+                    vec![say(branch, 0)]
+                } else {
+                    Vec::new()
+                },
+                ..Points::new([[*rpm, *hz]], colour, DOT_SIZE, &branch.name)
+            }));
+        }
+        let samples = branch.rpm.len().min(branch.frequency_hz.len());
+        // Guides let waves stand at rest, whatever they do from there on.
+        let look = |i| {
+            (
+                look_of_segment(report, branch, i),
+                direction_at(branch, i + 1),
+            )
+        };
+        let ends = branch.rpm.last() == Some(&report.campbell.to_rpm);
+        let last = samples.checked_sub(2).filter(|_| ends).map(look);
+        for (of, samples) in lines_by_look(samples, |i| Some(look(i))) {
+            let (stretch, direction) = of;
+            let colour = Hue::of_direction(direction);
+            items.push(Item::Line(Line {
+                width: match stretch {
+                    Stretch::Unstable => STRONG_CURVE,
+                    _ => CURVE,
+                },
+                dashed: stretch == Stretch::Reflected,
+                end: match last == Some(of) {
+                    true => branch.label.clone(),
+                    false => String::new(),
+                },
+                ..line_through(branch, &branch.frequency_hz, &samples, colour, said)
+            }));
+        }
+    }
+    items
+}
+
+/// Lines at multiples of the rotation speed, and where they cross the branches.
+fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
+    let Some(excitation) = &report.excitation else {
+        return Vec::new();
+    };
+    let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
+    let lines = excitation.lines.iter().filter_map(|line| {
+        let per_rpm = f64::from(line.order) / 60.0;
+        // A line ends where it leaves the panel; there it has no room for its name.
+        let end = last.min(shown.hz / per_rpm);
+        let ends = [first, end];
+        (first < end).then(|| {
+            Item::Line(Line {
+                width: HAIRLINE,
+                dashed: true,
+                said: ends
+                    .map(|rpm| format!("{}\n{rpm:.1} rpm", line.name))
+                    .into(),
+                end: match end == last {
+                    true => line.name.clone(),
+                    false => String::new(),
+                },
+                ..Line::new(ends.map(|rpm| [rpm, per_rpm * rpm]), Hue::Quiet, &line.name)
+            })
+        })
+    });
+    let crossings = &excitation.crossings;
+    let said = crossings.iter().map(|c| {
+        format!(
+            "{}× crosses {}\n{:.1} rpm\n{:.3} Hz",
+            c.order, c.mode, c.rpm, c.frequency_hz
+        )
+    });
+    let at = crossings.iter().map(|c| [c.rpm, c.frequency_hz]);
+    let rings = Points {
+        hollow: true,
+        said: said.collect(),
+        ..Points::new(at, Hue::Quiet, CROSSING_SIZE, "crossing")
+    };
+    lines.chain([Item::Points(rings)]).collect()
+}
+
+fn measured(report: &Report, said: bool) -> Option<Item> {
+    let measured = report.scene.measured.as_ref()?;
+    let rows = measured.rows.iter();
+    let points = rows.flat_map(|row| row.seen_hz().map(|hz| [row.rpm, hz]));
+    let points: Vec<[f64; 2]> = points.collect();
+    let words = |[rpm, hz]: &[f64; 2]| {
+        format!("{}\n{rpm:.0} rpm\n{} Hz", measured.source, shown_to(6, *hz))
+    };
+    Some(Item::Points(Points {
+        hollow: true,
+        said: points.iter().filter(|_| said).map(words).collect(),
+        ..Points::new(points, Hue::Ink, MEASURED_SIZE, &measured.source)
+    }))
+}
+
+fn critical(report: &Report, said: bool) -> Item {
+    let entries = report.critical_speeds.iter();
+    let words = |rpm: f64| format!("critical speed {rpm:.1} rpm");
+    let speeds = entries.map(|entry| entry.rpm);
+    Item::Points(Points {
+        said: speeds.clone().filter(|_| said).map(words).collect(),
+        ..Points::new(
+            speeds.map(|rpm| [rpm, 0.0]),
+            Hue::Ink,
+            CRITICAL_SIZE,
+            "critical speed",
+        )
+    })
+}

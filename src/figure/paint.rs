@@ -1,0 +1,76 @@
+//! Curves and dots of a panel on a sheet.
+
+use super::axis::Axis;
+use super::canvas::{Frame, Sheet, Stroke};
+use super::chart_data::{Item, Line, Points};
+use super::clip::clip;
+use super::style::{DASH, FINE_DASH, HAIRLINE, PAPER, tint};
+
+/// Width of the edge of a ring, as a share of its diameter.
+const EDGE: f64 = 0.2;
+
+/// Where a panel lies on the sheet.
+pub struct Ground<'a> {
+    pub x: &'a Axis,
+    pub y: &'a Axis,
+    pub frame: &'a Frame,
+}
+
+impl Ground<'_> {
+    /// The parts of a line that lie within the panel.
+    pub fn parts(&self, line: &Line) -> Vec<Vec<[f64; 2]>> {
+        let points = line.x.iter().zip(&line.y);
+        let places: Vec<_> = points
+            .map(|(x, y)| [self.x.at(*x), self.y.at(*y)])
+            .collect();
+        clip(&places, self.frame)
+    }
+
+    /// Draws the curves.
+    pub fn draw_lines(&self, sheet: &mut Sheet, items: &[Item]) {
+        for item in items {
+            if let Item::Line(line) = item {
+                let stroke = stroke(line);
+                for part in self.parts(line) {
+                    sheet.line(part, stroke);
+                }
+            }
+        }
+    }
+
+    /// Draws the dots and rings that lie within the panel.
+    pub fn draw_points(&self, sheet: &mut Sheet, items: &[Item]) {
+        for item in items {
+            if let Item::Points(points) = item {
+                self.draw_all(sheet, points);
+            }
+        }
+    }
+
+    fn draw_all(&self, sheet: &mut Sheet, points: &Points) {
+        let (radius, colour) = (points.size / 2.0, points.colour.colour());
+        for (x, y) in points.x.iter().zip(&points.y) {
+            if !(self.x.shows(*x) && self.y.shows(*y)) {
+                continue;
+            }
+            let at = [self.x.at(*x), self.y.at(*y)];
+            match points.hollow {
+                true => sheet.ring(at, radius, Stroke::solid(colour, EDGE * points.size), PAPER),
+                false => sheet.disc(at, radius, colour),
+            }
+        }
+    }
+}
+
+/// How a curve is drawn; guide lines have finer dashes.
+pub fn stroke(line: &Line) -> Stroke {
+    let dash = if line.width > HAIRLINE {
+        DASH
+    } else {
+        FINE_DASH
+    };
+    Stroke {
+        dash: line.dashed.then_some(dash),
+        ..Stroke::solid(tint(line.colour.colour(), line.tint), line.width)
+    }
+}
