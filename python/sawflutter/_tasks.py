@@ -12,34 +12,30 @@ import queue
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
-from concurrent.futures import BrokenExecutor, CancelledError, Executor
+from concurrent.futures import BrokenExecutor, CancelledError
 from functools import lru_cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from . import _native
 from .errors import AnalysisError
 
-if TYPE_CHECKING:
-    from distributed import Client
-
-# A task takes about so long, in seconds: its way there and back costs milliseconds, and not much
-# is lost with a worker.
-SECONDS = 30.0
 # Tasks under way and waiting for each worker: enough that none is idle while rows are written.
 A_WORKER = 4
+# A task takes about so long at most, in seconds: its way there and back costs milliseconds, and not much
+# is lost with a worker.
+LONGEST = 30.0
 # The first tasks find out how long a saw takes.
 FIRST = 2
-# Of the saws that are left, every worker gets several tasks, so that all end at the same time; but
-# tasks do not get shorter than this, in seconds.
+# Guided self-scheduling (Polychronopoulos and Kuck, 1987): every worker gets several tasks of the saws that
+# are left, so that all end at the same time; but tasks do not get shorter than this, in seconds.
 LAST = 2
 SHORTEST = 0.5
 # How often it is looked for lost schedulers and new workers, in seconds.
 LOOK = 1.0
 
-Ranges: TypeAlias = tuple[tuple[int, int], ...]
-"""Saws of a task: from the first of each pair up to the last, which is not in it."""
+Range: TypeAlias = tuple[int, int]
+"""Saws of a task: from the first up to the second, which is not in it."""
 
 
 class Worker(NamedTuple):
@@ -78,13 +74,13 @@ def _study(text: Text) -> _native.Study:
     return _native.Study(text.scene, text.study)
 
 
-def rows(text: Text, ranges: Ranges) -> Rows:
+def rows(text: Text, saws: Range) -> Rows:
     """A task."""
     try:
         # Saws are timed without the study, which a worker reads once.
         study = _study(text)
         begun = time.monotonic()
-        found = study.rows(ranges)
+        found = study.rows([saws])
     except Exception as error:  # noqa: BLE001 whatever it is, it goes back
         return Rows(b"", 0.0, who(), f"{type(error).__name__}: {error}")
     return Rows(found, time.monotonic() - begun, who())
@@ -96,101 +92,72 @@ def itself(text: Text) -> Text:
     return Text(*text)
 
 
-class Future(Protocol):
-    """What executors give for a task."""
+class Place:
+    """Where tasks are done: any executor, of this machine or others."""
 
-    def result(self) -> Any: ...
-    def cancel(self) -> Any: ...
-    def add_done_callback(self, fn: Any) -> Any: ...
+    def __init__(self, executor: Any, text: Any, **options: Any) -> None:
+        # Executors and clients of Dask have no type in common, nor have their futures.
+        self.executor, self.text, self.options = executor, text, options
 
-
-class Place(Protocol):
-    """Where tasks are done."""
+    def submit(self, saws: Range) -> Any:
+        """Begins a task."""
+        return self.executor.submit(rows, self.text, saws, **self.options)
 
     def workers(self) -> int:
         """How many tasks are done at the same time."""
+        return int(getattr(self.executor, "_max_workers", None) or os.cpu_count() or 1)
 
-    def known(self) -> Iterable[Worker]:
-        """Those that compute, as far as one can ask them before a task."""
+    def check(self) -> None:
+        """Refuses workers of another version, as far as one can ask them before a task."""
+        _check(self.executor.submit(who).result())
 
-    def submit(self, ranges: Ranges) -> Future:
-        """Begins a task."""
-
-    def lost(self, error: BaseException) -> str | None:
+    def lost(self, error: Exception) -> str | None:
         """What a lone saw is charged with that had this error: that it has ended its workers. None
         where the saw is not to blame."""
+        return None
 
     def look(self) -> None:
         """Raises AnalysisError where no more tasks can be done here."""
 
 
-class Pool:
-    """Any executor of this machine or others."""
+class Cluster(Place):
+    """A cluster of Dask: its client, for the executor that this gives does not pass on which error has
+    ended a task."""
 
-    def __init__(self, executor: Executor, text: Text) -> None:
-        self.executor, self.text = executor, text
-
-    def workers(self) -> int:
-        return int(getattr(self.executor, "_max_workers", None) or os.cpu_count() or 1)
-
-    def known(self) -> Iterable[Worker]:
-        # Others are met by their rows.
-        return [self.executor.submit(who).result()]
-
-    def submit(self, ranges: Ranges) -> Future:
-        return self.executor.submit(rows, self.text, ranges)
-
-    def lost(self, error: BaseException) -> str | None:
-        return None
-
-    def look(self) -> None:
-        pass
-
-
-class Cluster:
-    """A cluster of Dask."""
-
-    def __init__(self, client: Client, text: Text) -> None:
+    def __init__(self, client: Any, text: Text) -> None:
         if client.asynchronous:
             raise TypeError("the client is asynchronous; give one that is not: Client(address)")
-        # Of its methods some have types and some have none.
-        self.client: Any = client
-        self.text = text
-        self.sent: Future | None = None
+        super().__init__(client, text, pure=False)
 
     def workers(self) -> int:
-        return max(1, int(sum(self.client.nthreads().values())))
+        return max(1, int(sum(self.executor.nthreads().values())))
 
-    def known(self) -> Iterable[Worker]:
+    def check(self) -> None:
         # A function of this package cannot be sent to where it cannot be imported, but the name of
         # the package can.
-        self._asked(import_module, __package__)
-        return [Worker(*worker) for worker in self._asked(who)]
+        self._ask(import_module, __package__)
+        for worker in self._ask(who):
+            _check(Worker(*worker))
+        self.text = self.executor.submit(itself, self.text, pure=False)
 
-    def _asked(self, function: Callable[..., Any], *arguments: str) -> list[Any]:
+    def _ask(self, *question: Any) -> list[Any]:
         """What every worker says to a question."""
-        found: dict[str, Any] = {}
+        said: dict[str, Any] = {}
         # Those that were there a moment ago may be gone.
-        while not found:
-            self.client.wait_for_workers(1)
-            found = self.client.run(function, *arguments, on_error="return")
-        for address, said in found.items():
-            if isinstance(said, ImportError):
+        while not said:
+            self.executor.wait_for_workers(1)
+            said = self.executor.run(*question, on_error="return")
+        for address, error in said.items():
+            if isinstance(error, ImportError):
                 raise AnalysisError(
-                    f"the worker {address} cannot import sawflutter ({said}); install version "
+                    f"the worker {address} cannot import sawflutter ({error}); install version "
                     f"{who().version} there, with pip, and start it again"
                 )
-            if isinstance(said, BaseException):
-                raise AnalysisError(f"the worker {address} does not answer: {said}")
-        return list(found.values())
+            if isinstance(error, BaseException):
+                raise AnalysisError(f"the worker {address} does not answer: {error}")
+        return list(said.values())
 
-    def submit(self, ranges: Ranges) -> Future:
-        if self.sent is None:
-            self.sent = self.client.submit(itself, self.text, pure=False)
-        future: Future = self.client.submit(rows, self.sent, ranges, pure=False)
-        return future
-
-    def lost(self, error: BaseException) -> str | None:
+    def lost(self, error: Exception) -> str | None:
         from distributed import KilledWorker
 
         # Without the names of workers: a row says the same wherever it was computed.
@@ -198,26 +165,23 @@ class Cluster:
         return ended if isinstance(error, KilledWorker) else None
 
     def look(self) -> None:
-        if self.client.status not in ("running", "connecting"):
-            raise AnalysisError(f"the scheduler is lost: the client is {self.client.status}")
+        if self.executor.status not in ("running", "connecting"):
+            raise AnalysisError(f"the scheduler is lost: the client is {self.executor.status}")
 
 
 def place(executor: Any, text: Text) -> Place:
     """Where an executor, or a client of Dask, computes."""
-    distributed = sys.modules.get("distributed")
-    if distributed is not None:
-        from distributed.cfexecutor import ClientExecutor
-
-        if isinstance(executor, ClientExecutor):
-            executor = executor._client
-        if isinstance(executor, distributed.Client):
-            return Cluster(executor, text)
+    if (distributed := sys.modules.get("distributed")) is not None:
+        # The executor of a client.
+        client = getattr(executor, "_client", executor)
+        if isinstance(client, distributed.Client):
+            return Cluster(client, text)
     if not callable(getattr(executor, "submit", None)):
         raise TypeError(
             "executor must be a concurrent.futures.Executor or a dask.distributed.Client, "
             f"not {type(executor).__name__}"
         )
-    return Pool(executor, text)
+    return Place(executor, text)
 
 
 class Run:
@@ -226,21 +190,18 @@ class Run:
     def __init__(self, study: _native.Study, log: _native.StudyLog, place: Place) -> None:
         self.study, self.log, self.place = study, log, place
         self.next = 0
-        self.again: deque[Ranges] = deque()
-        self.suspects: deque[Ranges] = deque()
-        self.under_way: dict[Future, Ranges] = {}
-        self.done: queue.SimpleQueue[Future] = queue.SimpleQueue()
-        # Saws under way.
-        self.saws_under_way = 0
-        # Of the saws that are done here.
-        self.seconds, self.saws, self.tasks = 0.0, 0, 0
+        # What is done here.
+        self.tasks, self.saws, self.seconds = 0, 0, 0.0
+        self.again: deque[Range] = deque()
+        self.suspects: deque[Range] = deque()
+        self.under_way: dict[Any, Range] = {}
+        self.done: queue.SimpleQueue[Any] = queue.SimpleQueue()
 
     def __call__(self, told: Any = None) -> None:
         """Computes them; the log has what is done, whatever stops this."""
         if self.log.done == self.study.count:
             return
-        for worker in self.place.known():
-            _check(worker)
+        self.place.check()
         try:
             self._run(told)
         except (BrokenExecutor, CancelledError) as error:
@@ -255,10 +216,7 @@ class Run:
 
     def _run(self, told: Any) -> None:
         workers, looked = self.place.workers(), time.monotonic()
-        while True:
-            self._submit(workers)
-            if not self.under_way:
-                return
+        while self._submit(workers):
             if time.monotonic() - looked > LOOK:
                 self.place.look()
                 workers, looked = self.place.workers(), time.monotonic()
@@ -270,51 +228,47 @@ class Run:
             if told is not None:
                 told(self.log.done, self.study.count, "")
 
-    def _submit(self, workers: int) -> None:
+    def _submit(self, workers: int) -> bool:
+        """Begins tasks as long as workers have room; whether any is under way."""
         while len(self.under_way) < A_WORKER * workers:
-            ranges = self.again.popleft() if self.again else self._next(workers)
-            if not ranges:
+            saws = self.again.popleft() if self.again else self._next(workers)
+            if saws is None:
                 break
-            self._begin(ranges)
+            self._begin(saws)
         # Nobody else is near a saw that may end its worker.
         if not self.under_way and self.suspects:
             self._begin(self.suspects[0])
+        return bool(self.under_way)
 
-    def _begin(self, ranges: Ranges) -> None:
-        future = self.place.submit(ranges)
-        self.under_way[future] = ranges
-        self.saws_under_way += _count(ranges)
-        self.tasks += 1
+    def _begin(self, saws: Range) -> None:
+        future = self.place.submit(saws)
+        self.under_way[future] = saws
         future.add_done_callback(self.done.put)
 
-    def _next(self, workers: int) -> Ranges:
+    def _next(self, workers: int) -> Range | None:
         """The next saws that are missing, for a task."""
         size = FIRST
         if self.seconds > 0.0:
-            each = self.seconds / self.saws
-            left = self.study.count - self.log.done - self.saws_under_way
-            fair = max(left / (LAST * workers), SHORTEST / each)
-            size = max(1, math.ceil(min(SECONDS / each, fair)))
-        ranges: list[tuple[int, int]] = []
-        while size > 0 and (found := self.log.missing(self.next, size)) is not None:
-            ranges.append(found)
-            self.next = found[1]
-            size -= found[1] - found[0]
-        return tuple(ranges)
+            a_second = self.saws / self.seconds
+            share = (self.study.count - self.next) / (LAST * workers)
+            size = math.ceil(min(LONGEST * a_second, max(share, SHORTEST * a_second)))
+        saws = self.log.missing(self.next, size)
+        if saws is not None:
+            self.next = saws[1]
+        return saws
 
-    def _take(self, future: Future) -> None:
-        ranges = self.under_way.pop(future)
-        self.saws_under_way -= _count(ranges)
-        alone = bool(self.suspects) and ranges == self.suspects[0]
+    def _take(self, future: Any) -> None:
+        saws = self.under_way.pop(future)
+        is_alone = bool(self.suspects) and saws == self.suspects[0]
         try:
             found = Rows(*future.result())
         except Exception as error:
             reason = self.place.lost(error)
             if reason is None:
                 raise
-            self._divide(ranges, alone, reason)
+            self._divide(saws, is_alone, reason)
             return
-        if alone:
+        if is_alone:
             self.suspects.popleft()
         worker = Worker(*found.worker)
         _check(worker)
@@ -322,37 +276,22 @@ class Run:
             raise AnalysisError(f"a task has failed on its worker: {found.error}")
         self.log.append_processor(worker.processor)
         self.log.append(found.rows)
+        self.tasks += 1
+        self.saws += saws[1] - saws[0]
         self.seconds += found.seconds
-        self.saws += _count(ranges)
 
-    def _divide(self, ranges: Ranges, alone: bool, reason: str) -> None:
+    def _divide(self, saws: Range, is_alone: bool, reason: str) -> None:
         """Of saws that were with workers that ended, each half is a task. A single one may have
         waited behind the culprit: it is tried again when everything else is done, and is to blame
         where its workers end then, too."""
-        saws = [saw for first, last in ranges for saw in range(first, last)]
-        if alone:
-            self.suspects.popleft()
-            self.log.append(self.study.failed(saws[0], reason))
-        elif len(saws) == 1:
-            self.suspects.append(ranges)
+        first, last = saws
+        if is_alone:
+            self.log.append(self.study.failed(self.suspects.popleft()[0], reason))
+        elif last - first == 1:
+            self.suspects.append(saws)
         else:
-            middle = len(saws) // 2
-            self.again.extend(_ranges(half) for half in (saws[:middle], saws[middle:]))
-
-
-def _count(ranges: Ranges) -> int:
-    return sum(last - first for first, last in ranges)
-
-
-def _ranges(saws: list[int]) -> Ranges:
-    """Numbers, ascending, as ranges."""
-    ranges: list[tuple[int, int]] = []
-    for saw in saws:
-        if ranges and ranges[-1][1] == saw:
-            ranges[-1] = (ranges[-1][0], saw + 1)
-        else:
-            ranges.append((saw, saw + 1))
-    return tuple(ranges)
+            middle = (first + last) // 2
+            self.again.extend([(first, middle), (middle, last)])
 
 
 def _check(worker: Worker) -> None:

@@ -64,10 +64,10 @@ def cost_of_a_task() -> float:
         Client(cluster) as client,
     ):
         place = _tasks.place(client, text)
-        place.submit(((0, 1),)).result()
+        place.submit((0, 1)).result()
         begun, inside, tasks = time.perf_counter(), 0.0, 200
         for saw in range(tasks):
-            inside += _tasks.Rows(*place.submit(((saw, saw + 1),)).result()).seconds
+            inside += _tasks.Rows(*place.submit((saw, saw + 1)).result()).seconds
         return (time.perf_counter() - begun - inside) / tasks
 
 
