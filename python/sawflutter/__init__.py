@@ -16,10 +16,11 @@ from __future__ import annotations
 
 from importlib.metadata import version as _version
 
-from . import _report_types, checks, designs, matrices, modes, motions, results, stiffness, studies
-from ._entry import describe as _describe
 from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
+from ._result import Result
 from ._scene_types import SceneDict, StudyDict
+from .checks import CheckResults
+from .designs import FitResults, PlaceResults, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -31,28 +32,12 @@ from .errors import (
 )
 from .matrices import Matrices
 from .modes import Modes
-from .results import (
-    CampbellResults,
-    CheckResults,
-    CutResults,
-    DeflectResults,
-    FitResults,
-    PlaceResults,
-    Result,
-    RunUpResults,
-    StudyResults,
-    TradeoffResults,
-    WashboardResults,
-    load,
-)
+from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
+from .results import CampbellResults, load
 from .scene import Scene
 from .stiffness import StiffnessMap
+from .studies import StudyResults
 from .study import Study
-
-for _module in (
-    _report_types, checks, designs, matrices, modes, motions, results, stiffness, studies
-):  # fmt: skip
-    _describe(_module.__name__)
 
 __version__ = _version("sawflutter")
 

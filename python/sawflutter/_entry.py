@@ -8,7 +8,8 @@ import inspect
 import sys
 import textwrap
 import types
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache, partial
 from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -29,6 +30,15 @@ class Entry:
     Numbers that the JSON leaves out as null are ``None``, or NaN within an array. Arrays cannot be
     written to. Two entries are equal where all of their numbers are.
     """
+
+    def __init_subclass__(cls) -> None:
+        """Adds the descriptions below the fields to the docstring, so that ``help()`` shows them: without
+        this only who reads the source sees them."""
+        bases = [base for base in cls.__mro__ if issubclass(base, Entry)]
+        fields = [line for of in bases for line in _described(of.__module__).get(of.__name__, ())]
+        if fields and vars(cls).get("__doc__"):
+            lines = [inspect.cleandoc(cls.__doc__ or ""), "", "Attributes", "----------", *fields]
+            cls.__doc__ = "\n".join(lines)
 
     @classmethod
     def from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
@@ -56,7 +66,8 @@ class Entry:
         >>> sf.CriticalSpeed.from_dict(r.raw["critical_speeds"][0]) == r.critical_speeds[0]
         True
         """
-        return cls(**{name: read(data[key]) for name, key, read in _readers(cls) if key in data})
+        readers = _readers(cls)  # type: ignore[arg-type]
+        return cls(**{name: read(data[key]) for name, key, read in readers if key in data})
 
     @classmethod
     def required_keys(cls) -> frozenset[str]:
@@ -99,42 +110,23 @@ class Entry:
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
-def describe(module: str) -> None:
-    """Adds the descriptions below the fields of the classes of a module to their docstrings, so that
-    ``help()`` shows them: without this only who reads the source sees them."""
+@cache
+def _described(module: str) -> dict[str, list[str]]:
+    """Of the classes of a module the fields, with name, type and what the words below say."""
     try:
         tree = ast.parse(inspect.getsource(sys.modules[module]))
-    except (OSError, TypeError):
+    except (KeyError, OSError, TypeError):
         # Without the source, as in a frozen program, there is none to be shown.
-        return
-    for node in tree.body:
-        cls = getattr(sys.modules[module], node.name, None) if isinstance(node, ast.ClassDef) else None
-        if isinstance(node, ast.ClassDef) and isinstance(cls, type) and issubclass(cls, Entry):
-            _DESCRIBED[cls] = dict(_below(node))
-            if dataclasses.is_dataclass(cls) and cls.__doc__:
-                cls.__doc__ = f"{inspect.cleandoc(cls.__doc__)}\n\n{_attributes(cls)}"
+        return {}
+    return {of.name: list(_below(of)) for of in tree.body if isinstance(of, ast.ClassDef)}
 
 
-_DESCRIBED: dict[type[Entry], dict[str, tuple[str, str]]] = {}
-
-
-def _below(node: ast.ClassDef) -> Iterator[tuple[str, tuple[str, str]]]:
-    """Of each field its name, type and what the words below it say."""
+def _below(node: ast.ClassDef) -> Iterator[str]:
     for field, words in zip(node.body, node.body[1:]):
-        if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name):
-            value = words.value if isinstance(words, ast.Expr) else None
-            said = value.value if isinstance(value, ast.Constant) else ""
-            yield field.target.id, (ast.unparse(field.annotation), inspect.cleandoc(str(said)))
-
-
-def _attributes(cls: type[Entry]) -> str:
-    lines = ["Attributes", "----------"]
-    for field in dataclasses.fields(cls):  # type: ignore[arg-type]
-        known = (_DESCRIBED.get(base, {}).get(field.name) for base in cls.__mro__)
-        kind, said = next((found for found in known if found), (str(field.type), ""))
-        if field.repr:
-            lines += [f"{field.name} : {kind}", textwrap.indent(said, "    ")]
-    return "\n".join(lines)
+        match field, words:
+            case ast.AnnAssign(ast.Name(name), kind), ast.Expr(ast.Constant(str(said))):
+                yield f"{name} : {ast.unparse(kind)}"
+                yield textwrap.indent(inspect.cleandoc(said), "    ")
 
 
 def _same(first: Any, second: Any) -> bool:
@@ -155,29 +147,21 @@ def _short(value: Any) -> str:
     return repr(value)
 
 
-_KNOWN: dict[type[Entry], list[tuple[str, str, Reader]]] = {}
-
-
+@cache
 def _readers(cls: type[Entry]) -> list[tuple[str, str, Reader]]:
     """Of each attribute its name, its key in the JSON, and how it is read."""
-    if cls not in _KNOWN:
-        hints = get_type_hints(cls)
-        fields = dataclasses.fields(cls)  # type: ignore[arg-type]
-        _KNOWN[cls] = [
-            (field.name, field.metadata.get("key", field.name), _reader(hints[field.name]))
-            for field in fields
-        ]
-    return _KNOWN[cls]
+    hints = get_type_hints(cls)
+    return [
+        (field.name, field.metadata.get("key", field.name), _reader(hints[field.name]))
+        for field in dataclasses.fields(cls)  # type: ignore[arg-type]
+    ]
 
 
 def _reader(hint: Any) -> Reader:
     origin, arguments = get_origin(hint), get_args(hint)
-    if hint == FloatArray:
-        return _floats
-    if hint == IntArray:
-        return _integers
-    if hint == BoolArray:
-        return _truths
+    if origin is np.ndarray:
+        (number,) = get_args(arguments[1])
+        return partial(array, dtype=number)
     if origin in (Union, types.UnionType):
         (inner,) = [_reader(of) for of in arguments if of is not type(None)]
         return lambda value: None if value is None else inner(value)
@@ -186,32 +170,15 @@ def _reader(hint: Any) -> Reader:
         return lambda values: tuple(item(value) for value in values)
     if isinstance(hint, type) and issubclass(hint, Entry):
         return hint.from_dict
-    if hint is float:
-        return float
-    return _as_it_is
+    return float if hint is float else lambda value: value
 
 
-def _as_it_is(value: Any) -> Any:
-    return value
-
-
-def _floats(values: list[Any]) -> FloatArray:
-    """Numbers in rows of one length: shorter ones and null are filled with NaN."""
-    if values and isinstance(values[0], list):
+def array(values: Any, dtype: type[Any] = np.float64) -> npt.NDArray[Any]:
+    """Numbers that cannot be written to, in rows of one length: of floats, shorter rows and None are
+    filled with NaN."""
+    if len(values) > 0 and isinstance(values[0], Sequence):
         width = max(len(row) for row in values)
-        values = [row + [None] * (width - len(row)) for row in values]
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
-def _integers(values: list[Any]) -> IntArray:
-    array = np.array(values, dtype=np.int64)
-    array.setflags(write=False)
-    return array
-
-
-def _truths(values: list[Any]) -> BoolArray:
-    array = np.array(values, dtype=np.bool_)
-    array.setflags(write=False)
-    return array
+        values = [[*row, *[None] * (width - len(row))] for row in values]
+    numbers = np.array(values, dtype=dtype)
+    numbers.setflags(write=False)
+    return numbers

@@ -44,9 +44,7 @@ class RestModeMethods(Entry):
         >>> abs(float(mode.shape(0.355, 0.0))) <= 1.0
         True
         """
-        radius, theta = np.broadcast_arrays(
-            np.asarray(radius_m, float), np.asarray(theta_rad, float)
-        )
+        radius, theta = points(radius_m, theta_rad)
         total = np.zeros(radius.shape)
         for part in self.profiles:
             n = part.nodal_diameters
@@ -91,9 +89,7 @@ class ModeMethods(Entry):
         >>> mode.shape(0.3, np.linspace(0, np.pi, 4)).shape
         (4,)
         """
-        radius, theta = np.broadcast_arrays(
-            np.asarray(radius_m, float), np.asarray(theta_rad, float)
-        )
+        radius, theta = points(radius_m, theta_rad)
         total = np.zeros(radius.shape, complex)
         for wave in self.harmonics:
             n = wave.nodal_diameters
@@ -194,6 +190,12 @@ def know_bands(branches: Sequence[Branch], bands: Iterable[Instability]) -> None
             branch = branches[number - 1]
             edges = ((band.from_rpm, 1), (band.to_rpm, -1))
             object.__setattr__(branch, "_edges", (*branch._edges, *edges))
+
+
+def points(radius_m: npt.ArrayLike, angle: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Points of the blade, broadcast against each other."""
+    radius, angle = np.broadcast_arrays(np.asarray(radius_m, float), np.asarray(angle, float))
+    return radius, angle
 
 
 def _between(at: Any, places: FloatArray, values: FloatArray) -> FloatArray:

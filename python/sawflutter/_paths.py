@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from typing import Any
 
 from .errors import PathError
@@ -12,48 +13,41 @@ _STEP = re.compile(r"(?:^|\.)([^.\[\]]+)|\[(\d+)\]")
 
 def get(data: Any, path: str) -> Any:
     """The value at a path."""
-    place, at = data, ""
-    for step in _steps(path):
-        place, at = _entry(place, step, at, path), _joined(at, step)
-    return place
+    for at, step in _steps(path):
+        data = _entry(data, step, at, path)
+    return data
 
 
 def put(data: Any, path: str, value: Any) -> None:
     """Puts a value at a path, or takes it out where it is None; a block that is not there is begun."""
-    *before, last = _steps(path)
-    place, at = data, ""
-    for step in before:
-        if isinstance(place, dict) and isinstance(step, str):
-            place.setdefault(step, {})
-        place, at = _entry(place, step, at, path), _joined(at, step)
-    if not isinstance(place, dict) or not isinstance(last, str):
-        _entry(place, last, at, path)
-        place[last] = value
+    *before, (at, last) = _steps(path)
+    for of, step in before:
+        if isinstance(data, dict) and isinstance(step, str):
+            data.setdefault(step, {})
+        data = _entry(data, step, of, path)
+    if not isinstance(data, dict) or not isinstance(last, str):
+        _entry(data, last, at, path)
+        data[last] = value
     elif value is None:
-        place.pop(last, None)
+        data.pop(last, None)
     else:
-        place[last] = value
+        data[last] = value
 
 
-def _steps(path: str) -> list[str | int]:
-    """``guides[0].radius_m`` is guides, 0, radius_m."""
+def _steps(path: str) -> list[tuple[str, str | int]]:
+    """The steps of a path, and what is before each: of ``guides[0]``, guides and 0."""
     found = list(_STEP.finditer(path)) if isinstance(path, str) else []
     if not found or "".join(match[0] for match in found) != path:
         remedy = "write it like guides[0].radius_m"
         raise PathError(f"{path!r} is no path of a scene; {remedy}", str(path), None, None, remedy)
-    return [match[1] if match[1] is not None else int(match[2]) for match in found]
-
-
-def _joined(at: str, step: str | int) -> str:
-    return f"{at}[{step}]" if isinstance(step, int) else f"{at}.{step}" if at else step
+    return [(path[: match.start()], match[1] or int(match[2])) for match in found]
 
 
 def _entry(place: Any, step: str | int, at: str, path: str) -> Any:
     """An entry of a block or a list; where there is none, the error says which there are."""
-    if isinstance(place, dict) and step in place:
-        return place[step]
-    if isinstance(place, list) and isinstance(step, int) and step < len(place):
-        return place[step]
+    if isinstance(place, (dict, list)):
+        with suppress(LookupError, TypeError):
+            return place[step]  # type: ignore[index]
     where = at or "the scene"
     if isinstance(place, list):
         allowed = f"{where} has {len(place)} entries, counted from 0"
@@ -62,6 +56,5 @@ def _entry(place: Any, step: str | int, at: str, path: str) -> Any:
         allowed = f"{where} has {', '.join(place) or 'no keys'}"
         remedy = "name one of these; replace writes others"
     else:
-        allowed = f"{where} is a single value"
-        remedy = f"name it as {where}"
+        allowed, remedy = f"{where} is a single value", f"name it as {where}"
     raise PathError(f"the scene has no {path!r}: {allowed}; {remedy}", path, None, allowed, remedy)

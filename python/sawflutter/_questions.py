@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from functools import partial
 from typing import Any, SupportsFloat, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._progress import Progress, reporting
+from ._progress import Progress
 from ._report_types import Mode
+from ._scene_data import Number
 from ._scene_types import Accuracy
-from ._searches import Number, Searches
+from ._searches import Searches
 from .checks import CheckResults
 from .modes import Modes
 from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
@@ -75,16 +77,12 @@ class Questions(Searches):
         >>> r.branches[0].frequency_hz.shape == r.branches[0].rpm.shape
         True
         """
-        scene = self.with_accuracy(accuracy, tolerance)
+        scene = self
         if speed_range is not None:
             speeds = np.asarray(speed_range, float)
-            ends = {"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()}
-            scene = scene.replace(ends)
-        with reporting(progress, "speeds") as told:
-            text = _native.analyze(
-                scene._text, sensitivity=sensitivity, amplitude=amplitude, progress=told
-            )
-        return CampbellResults.computed(text)
+            scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
+        ask = partial(_native.analyze, sensitivity=sensitivity, amplitude=amplitude)
+        return scene._asked(CampbellResults, ask, "speeds", accuracy, tolerance, progress)
 
     @overload
     def modes(self, rpm: SupportsFloat) -> tuple[Mode, ...]: ...
@@ -178,9 +176,8 @@ class Questions(Searches):
         >>> saw.check(operating_rpm=1400, accuracy="draft").failures
         ('85 % rule',)
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        text = _native.check(
-            scene._text,
+        ask = partial(
+            _native.check,
             operating_rpm=operating_rpm,
             margin=margin,
             min_flutter_rpm=min_flutter_rpm,
@@ -189,7 +186,7 @@ class Questions(Searches):
             max_amplitude_mm=max_amplitude_mm,
             accept_unusual=accept_unusual,
         )
-        return CheckResults.computed(text)
+        return self._asked(CheckResults, ask, "speeds", accuracy, tolerance, None)
 
     def run_cut(
         self,
@@ -225,10 +222,8 @@ class Questions(Searches):
         'unstable'
         """
         speeds = np.atleast_1d(np.asarray(rpm, float)).tolist()
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "points of the map") as told:
-            text = _native.cut(scene._text, speeds, progress=told)
-        return CutResults.computed(text)
+        ask = partial(_native.cut, rpm=speeds)
+        return self._asked(CutResults, ask, "points of the map", accuracy, tolerance, progress)
 
     def run_up(
         self,
@@ -260,10 +255,7 @@ class Questions(Searches):
         >>> up.bands[0].band.kind, up.rpm.shape == up.deflection_m.shape
         ('divergence', True)
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "steps") as told:
-            text = _native.runup(scene._text, progress=told)
-        return RunUpResults.computed(text)
+        return self._asked(RunUpResults, _native.runup, "steps", accuracy, tolerance, progress)
 
     def run_deflect(
         self,
@@ -307,12 +299,8 @@ class Questions(Searches):
         >>> found.beyond_thickness_rpm is None
         True
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "equilibria") as told:
-            text = _native.deflect(
-                scene._text, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm, progress=told
-            )
-        return DeflectResults.computed(text)
+        ask = partial(_native.deflect, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm)
+        return self._asked(DeflectResults, ask, "equilibria", accuracy, tolerance, progress)
 
     def run_washboard(
         self,
@@ -353,7 +341,5 @@ class Questions(Searches):
         >>> found.rpm  # doctest: +SKIP
         1000.0
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "speeds") as told:
-            text = _native.washboard(scene._text, rpm, progress=told)
-        return WashboardResults.computed(text)
+        ask = partial(_native.washboard, rpm=rpm)
+        return self._asked(WashboardResults, ask, "speeds", accuracy, tolerance, progress)

@@ -4,35 +4,119 @@ from __future__ import annotations
 
 import json
 import os
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import _native
 from ._drawn import Drawn
 from ._entry import Entry
+from ._table import entries
 from ._view import html
-from .errors import InputError, ModelWarning
+from .errors import InputError
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from .plot.chart import Chart
     from .scene import Scene
 
 R = TypeVar("R", bound="Result")
 
 
-class Result(Drawn, Entry):
-    """Base of all results. A result is made of the JSON that the program writes and keeps it word
-    for word: :meth:`save` writes the same bytes as the program does.
+def pictures(*names: str) -> tuple[str, ...]:
+    """The files of figures."""
+    return tuple(f"{name}.{kind}" for name in names for kind in ("svg", "png"))
+
+
+class Report(Drawn):
+    """Base of all that a command reports. It keeps the JSON that the program writes word for word:
+    :meth:`save` writes the same bytes as the program does.
     """
+
+    table: ClassVar[str] = ""
+    """Name of the attribute of which :meth:`to_dataframe` has a row each."""
+
+    _text: str
+
+    def to_json(self) -> str:
+        """The report as the program writes it.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> r.to_json().startswith("{")
+        True
+        """
+        return self._text
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.json"
+        >>> r.save(path)
+        >>> path.read_text(encoding="utf-8") == r.to_json()
+        True
+        """
+        Path(path).write_bytes(self._text.encode())
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """A table; needs pandas. It has one row a limit of a check, a number of a fit or a place, a
+        setting of a tradeoff, a speed of a cut without its histories and maps, a mode of a
+        washboard; :attr:`table` names the attribute that has the rows as objects.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
+        >>> bool(check.to_dataframe()["passed"].all())
+        False
+        """
+        return entries(getattr(self, self.table))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, type(self)) and self._text == other._text
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+
+class Result(Report, Entry):
+    """Base of all results of a saw."""
 
     figure_names: ClassVar[tuple[str, ...]] = ()
     """Names of the program's own figures of this result, see :meth:`figure`."""
 
     command: ClassVar[str] = ""
     """The command of the program that reports it."""
-
-    _text: str
 
     @classmethod
     def from_json(cls: type[R], text: str) -> R:
@@ -75,38 +159,6 @@ class Result(Drawn, Entry):
         return result
 
     @classmethod
-    def computed(cls: type[R], text: str) -> R:
-        """The result of a report that was just made, with its warnings.
-
-        Parameters
-        ----------
-        text : str
-            The report.
-
-        Returns
-        -------
-        Result
-            Of the class that is asked.
-
-        Raises
-        ------
-        InputError
-            Where the text is the report of something else.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> sf.CampbellResults.computed(r.to_json()) == r
-        True
-        """
-        result = cls.from_json(text)
-        for warning in result._warnings():
-            # At the line that has called the method.
-            warnings.warn(warning, ModelWarning, stacklevel=3)
-        return result
-
-    @classmethod
     def load(cls: type[R], path: str | os.PathLike[str]) -> R:
         """Reads a report of this kind that the program or :meth:`save` has written.
 
@@ -146,22 +198,6 @@ class Result(Drawn, Entry):
         """Numbers that no saw has, and remarks on the validity of the result."""
         return (*getattr(self, "unusual_numbers", ()), *getattr(self, "warnings", ()))
 
-    def to_json(self) -> str:
-        """The report as the program writes it.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.to_json().startswith("{")
-        True
-        """
-        return self._text
-
     @property
     def raw(self) -> dict[str, Any]:
         """The report as a dict, with every key that it has.
@@ -175,31 +211,6 @@ class Result(Drawn, Entry):
         """
         data: dict[str, Any] = json.loads(self._text)
         return data
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Raises
-        ------
-        OSError
-            Where it cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.json"
-        >>> r.save(path)
-        >>> path.read_text(encoding="utf-8") == r.to_json()
-        True
-        """
-        Path(path).write_bytes(self._text.encode())
 
     @property
     def saw(self) -> Scene:
@@ -267,14 +278,6 @@ class Result(Drawn, Entry):
         chart = described(self.command, name, self._text)
         return Chart(self.raw["scene"]["name"], otherwise) if chart is None else chart
 
-    def __eq__(self, other: object) -> bool:
-        if type(self) is not type(other):
-            return NotImplemented
-        return self._text == other._text
-
-    def __hash__(self) -> int:
-        return hash(self._text)
-
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).from_json, (self._text,)
 
@@ -282,9 +285,33 @@ class Result(Drawn, Entry):
         warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
         return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
 
+    def chart(self) -> Chart:
+        """What the figures show, as lines, points and bands. Of a chart of a saw these are frequencies
+        over speed, with growth rates below; of a check the speeds that were asked for and found; of a cut
+        the deflection at the probe over time, one panel a speed; of a run-up and a slow sweep the same
+        over speed; of a washboard the least cutting stiffness at which a motion grows, and its frequency,
+        over speed; of a fit measured and computed frequencies; of a place the goal over one or two
+        numbers; of a study the shares of the saws below a speed, and those that can be run at one.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
+        >>> check.chart().panels[0].y_names[-1]
+        '85 % rule'
+        """
+        return self._chart(self._facts())
+
+    def _chart(self, facts: str) -> Chart:
+        return self._described(self.figure_names[0].partition(".")[0], facts)
+
     def _facts(self) -> str:
         """The answer in a line."""
-        return ""
+        raise NotImplementedError
 
     def _repr_html_(self) -> str:
         """What a notebook shows: the answer, and the program's figure."""

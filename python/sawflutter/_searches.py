@@ -3,44 +3,54 @@ own searches."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Literal, SupportsFloat, SupportsIndex, TypeAlias
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from typing import Literal, SupportsFloat, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._entry import array
 from ._measured import Measured, table
 from ._progress import Progress, reporting
-from ._scene_types import Accuracy, GuideDict
+from ._result import R
+from ._scene_data import Number, SceneData
+from ._scene_types import Accuracy
+from ._values import whole
 from .designs import FitResults, PlaceResults, TradeoffResults
+from .errors import ModelWarning
 from .matrices import Matrices
 from .results import CampbellResults
-from .stiffness import StiffnessMap, rows
-
-if TYPE_CHECKING:
-    from .scene import Scene
+from .stiffness import StiffnessMap
 
 # Paths of the scene and their bounds, or paths with the usual bounds.
 Free: TypeAlias = "Mapping[str, tuple[SupportsFloat, SupportsFloat] | None] | Iterable[str] | None"
-Number: TypeAlias = "SupportsFloat | None"
 
 
-class Searches:
+class Searches(SceneData):
     """The methods of a scene that compute many saws, or leave the computing to the user."""
 
     __slots__ = ()
 
-    if TYPE_CHECKING:
-        _text: str
-
-        @property
-        def name(self) -> str: ...
-        @property
-        def guides(self) -> tuple[GuideDict, ...]: ...
-        def with_accuracy(
-            self, accuracy: Accuracy | None = None, tolerance: Number = None
-        ) -> Scene: ...
+    def _asked(
+        self,
+        kind: type[R],
+        ask: Callable[..., str],
+        what: str,
+        accuracy: Accuracy | None,
+        tolerance: Number,
+        progress: Progress,
+    ) -> R:
+        """What the library reports of this scene in another accuracy, with its warnings."""
+        scene = self.with_accuracy(accuracy, tolerance)
+        with reporting(progress, what) as told:
+            result = kind.from_json(ask(scene._text, progress=told))
+        for warning in result._warnings():
+            # At the line that has called the method.
+            warnings.warn(warning, ModelWarning, stacklevel=3)
+        return result
 
     def fit(
         self,
@@ -96,19 +106,16 @@ class Searches:
         >>> found.parameters[0].path
         'guides[0].stiffness_n_per_m'
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "starts") as told:
-            text = _native.fit(
-                scene._text,
-                table(measured),
-                _bounds(free),
-                to_rpm=to_rpm,
-                confidence=confidence,
-                starts=starts,
-                seed=seed,
-                progress=told,
-            )
-        return FitResults.computed(text)
+        ask = partial(
+            _native.fit,
+            measured=table(measured),
+            free=_bounds(free),
+            to_rpm=to_rpm,
+            confidence=confidence,
+            starts=whole("starts", starts),
+            seed=whole("seed", seed),
+        )
+        return self._asked(FitResults, ask, "starts", accuracy, tolerance, progress)
 
     def place(
         self,
@@ -169,23 +176,20 @@ class Searches:
         >>> [parameter.path for parameter in found.parameters]
         ['guides[0].radius_m']
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, "saws") as told:
-            text = _native.place(
-                scene._text,
-                _bounds(free),
-                goal=goal,
-                min_critical_rpm=min_critical_rpm,
-                samples=samples,
-                refine=refine,
-                map=map,
-                radius_tolerance_m=radius_tolerance_m,
-                angle_tolerance_deg=angle_tolerance_deg,
-                guide_tolerance_share=guide_tolerance_share,
-                other_tolerance_share=other_tolerance_share,
-                progress=told,
-            )
-        return PlaceResults.computed(text)
+        ask = partial(
+            _native.place,
+            free=_bounds(free),
+            goal=goal,
+            min_critical_rpm=min_critical_rpm,
+            samples=whole("samples", samples),
+            refine=whole("refine", refine),
+            map=whole("map", map),
+            radius_tolerance_m=radius_tolerance_m,
+            angle_tolerance_deg=angle_tolerance_deg,
+            guide_tolerance_share=guide_tolerance_share,
+            other_tolerance_share=other_tolerance_share,
+        )
+        return self._asked(PlaceResults, ask, "saws", accuracy, tolerance, progress)
 
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
         """Measures computing time against true error, for bases of several sizes.
@@ -248,6 +252,9 @@ class Searches:
         >>> sf.Scene.paper().matrices(basis=(6, 4)).stiffness.shape
         (52, 52)
         """
+        if basis is not None:
+            diameters, functions = basis
+            basis = (whole("basis", diameters), whole("basis", functions))
         return Matrices.of(self.with_accuracy(accuracy, tolerance)._text, basis)
 
     def run_stiffness_map(
@@ -286,19 +293,18 @@ class Searches:
         >>> found.critical_rpm[:, 0].round().tolist()
         [1477.0, 1563.0]
         """
-        scene = self.with_accuracy(accuracy, tolerance)
-        chosen = range(len(self.guides)) if guide is None else [int(guide)]
-        stiffness = np.array(stiffness_n_per_m, float).ravel()
+        chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
+        stiffness = array(np.ravel(stiffness_n_per_m).tolist())
+        saw = self.with_accuracy(accuracy, tolerance)
         reports = []
         with reporting(progress, "saws") as told:
             for done, value in enumerate(stiffness.tolist(), start=1):
-                saw = scene.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
+                saw = saw.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
                 reports.append(CampbellResults.from_json(_native.analyze(saw._text)))
                 if told is not None:
                     told(done, len(stiffness), "")
-        flutter = [np.nan if r.flutter_rpm is None else r.flutter_rpm for r in reports]
-        critical = rows([r.critical_rpm for r in reports])
-        return StiffnessMap(self.name, stiffness, critical, np.array(flutter))
+        critical = array([report.critical_rpm.tolist() for report in reports])
+        return StiffnessMap(self.name, stiffness, critical, array([r.flutter_rpm for r in reports]))
 
 
 def _bounds(free: Free) -> list[tuple[str, tuple[float, float] | None]]:

@@ -4,25 +4,29 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from operator import index
+from typing import Any, SupportsIndex
 
 import numpy as np
 
+from .errors import ArgumentError
+
 # What the end of a key stands for.
-_UNITS = {
-    "deg": "deg",
-    "hz": "Hz",
-    "k": "K",
-    "kg": "kg",
-    "m": "m",
-    "n": "N",
-    "pa": "Pa",
-    "rpm": "rpm",
-    "s": "s",
-    "tooth": "",
-    "w": "W",
-}
+_NAMES = ("deg", "Hz", "K", "kg", "m", "N", "Pa", "rpm", "s", "W")
+_UNITS = {"tooth": "", **{name.lower(): name for name in _NAMES}}
 _POWERS = {"m2": "m**2", "m3": "m**3", "s2": "s**2"}
+
+
+def whole(name: str, value: SupportsIndex) -> int:
+    """An argument that counts: a whole number, as large as the library takes them."""
+    if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
+        raise TypeError(f"{name} is {value!r}, but must be a whole number, like 3")
+    number = index(value)
+    if not 0 <= number < 2**64:
+        allowed, remedy = "0 or more and below 2**64", "give such a number, or leave it out"
+        message = f"{name} is {number}, but must be {allowed}; {remedy}"
+        raise ArgumentError(message, name, str(number), allowed, remedy)
+    return number
 
 
 def to_json(data: Any) -> str:

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._report_types import CheckReport, Criterion
-from ._result import Result
-from ._table import frame
+from ._report_types import CheckReport
+from ._result import Result, pictures
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from .plot.chart import Chart
 
 
@@ -19,8 +16,8 @@ class CheckResults(Result, CheckReport):
     where a limit is not kept, and pytest shows which.
     """
 
-    command = "check"
-    figure_names = ("check.svg", "check.png")
+    command, table = "check", "criteria"
+    figure_names = pictures("check")
 
     def __bool__(self) -> bool:
         return self.passed
@@ -40,51 +37,13 @@ class CheckResults(Result, CheckReport):
         unusual = () if self.accept_unusual else self.unusual_numbers
         return unusual + tuple(c.name for c in self.criteria if not c.passed)
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a limit; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
-        >>> bool(check.to_dataframe()["passed"].all())
-        False
-        """
-        return frame(self.criteria)
-
-    def chart(self) -> Chart:
-        """Speeds that were asked for and found.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
-        >>> check.chart().panels[0].y_names[-1]
-        '85 % rule'
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.design import check
 
-        return check(self, self._facts())
+        return check(self, facts)
 
     def _facts(self) -> str:
-        broken = (_missed(criterion) for criterion in self.criteria if not criterion.passed)
-        found = "passed" if self.passed else f"failed: {'; '.join(broken)}"
+        # In the words of the program.
+        broken = "; ".join(f"{c.name}: {c.finding}" for c in self.criteria if not c.passed)
+        found = "passed" if self.passed else f"failed: {broken}"
         return f"{found}, at {self.operating_rpm:.0f} rpm"
-
-
-def _missed(criterion: Criterion) -> str:
-    """A limit that is not kept, in the words of the program."""
-    return f"{criterion.name}: {criterion.finding}"

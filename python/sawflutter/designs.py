@@ -3,70 +3,26 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._drawn import Drawn
 from ._report_types import FitReport, PlaceReport, Setting
-from ._result import Result
-from ._table import frame
+from ._result import Report, Result, pictures
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from .plot.chart import Chart
 
 
 class FitResults(Result, FitReport):
     """A saw fitted to measured frequencies: :attr:`saw` is the calibrated one."""
 
-    command = "fit"
-    figure_names = ("fit.svg", "fit.png")
+    command, table = "fit", "parameters"
+    figure_names = pictures("fit")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a fitted number; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> free = ["guides[0].stiffness_n_per_m"]
-        >>> found = saw.fit([7.9, 13.2, 25.9], free=free, starts=1)
-        >>> found.to_dataframe()["path"].tolist()
-        ['guides[0].stiffness_n_per_m']
-        """
-        return frame(self.parameters)
-
-    def chart(self) -> Chart:
-        """Measured and computed frequencies over speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> free = ["guides[0].stiffness_n_per_m"]
-        >>> found = saw.fit([7.9, 13.2, 25.9], free=free, starts=1)
-        >>> [panel.y_name for panel in found.chart().panels]
-        ['frequency [Hz]', 'computed − measured [Hz]']
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.design import fit
 
-        return fit(self, self._facts())
+        return fit(self, facts)
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -74,54 +30,16 @@ class FitResults(Result, FitReport):
 
 
 class PlaceResults(Result, PlaceReport):
-    """The best place found for the guides: :attr:`saw` is that saw."""
+    """The best place found for the guides: :attr:`saw` is that saw. Its chart has no panel where no
+    map was asked for."""
 
-    command = "place"
-    figure_names = ("place.svg", "place.png")
+    command, table = "place", "parameters"
+    figure_names = pictures("place")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a number that was moved; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> free = {"guides[0].radius_m": (0.20, 0.28)}
-        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
-        >>> found.to_dataframe()["path"].tolist()
-        ['guides[0].radius_m']
-        """
-        return frame(self.parameters)
-
-    def chart(self) -> Chart:
-        """The goal over one or two numbers.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-            Without a panel where no map was asked for.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> free = {"guides[0].radius_m": (0.20, 0.28)}
-        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
-        >>> found.chart().panels
-        ()
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.design import place
 
-        return place(self, self._facts())
+        return place(self, facts)
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -132,8 +50,10 @@ class PlaceResults(Result, PlaceReport):
         return f"{found}; {goal}, {robust}: {worst}{kept}"
 
 
-class TradeoffResults(Drawn):
+class TradeoffResults(Report):
     """Computing time against true error, for bases of several sizes."""
+
+    table = "settings"
 
     def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
         self.settings: tuple[Setting, ...] = tuple(settings)
@@ -190,50 +110,6 @@ class TradeoffResults(Drawn):
         charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``tradeoff.json``.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Raises
-        ------
-        OSError
-            Where it cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "tradeoff.json"
-        >>> sf.TradeoffResults.from_json("[]").save(path)
-        >>> sf.load(path).settings
-        ()
-        """
-        Path(path).write_bytes(self._text.encode())
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a setting; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.TradeoffResults.from_json("[]").to_dataframe())
-        0
-        """
-        return frame(self.settings)
-
     def chart(self) -> Chart:
         """Error over time.
 
@@ -250,12 +126,6 @@ class TradeoffResults(Drawn):
         from .plot.design import tradeoff
 
         return tradeoff(self.settings, self.name)
-
-    def __eq__(self, other: object) -> bool:
-        return self._text == other._text if isinstance(other, TradeoffResults) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._text)
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
         return TradeoffResults.from_json, (self._text, self.name)

@@ -10,16 +10,6 @@ blade.thickness_m; -1; above 0; saws have 0.0001 to 0.04 m
 
 from __future__ import annotations
 
-__all__ = [
-    "AnalysisError",
-    "ArgumentError",
-    "InputError",
-    "ModelWarning",
-    "PathError",
-    "SceneError",
-    "StudyError",
-]
-
 
 class InputError(ValueError):
     """Input that was refused.
@@ -36,11 +26,6 @@ class InputError(ValueError):
         What to do about it.
     """
 
-    key: str | None
-    value: str | None
-    allowed: str | None
-    remedy: str | None
-
     def __init__(
         self,
         message: str,
@@ -50,10 +35,7 @@ class InputError(ValueError):
         remedy: str | None = None,
     ) -> None:
         super().__init__(message)
-        self.key = key
-        self.value = value
-        self.allowed = allowed
-        self.remedy = remedy
+        self.key, self.value, self.allowed, self.remedy = key, value, allowed, remedy
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str | None, ...]]:
         return type(self), (str(self), self.key, self.value, self.allowed, self.remedy)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from typing import SupportsFloat, SupportsIndex
+from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
 from ._entry import Entry, FloatArray
+from ._methods import points
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,8 +76,9 @@ class Matrices(Entry):
         4
         """
         found, diameters, functions = _native.matrices(scene, basis=basis)
-        arrays = {name: _square(found[name]) if name in found else None for name in _NAMES}
-        return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)  # type: ignore[arg-type]
+        names = ("stiffness", "spin", "gyroscopic", "damping", "circulatory")
+        arrays: dict[str, Any] = {name: _square(found.get(name)) for name in names}
+        return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)
 
     @property
     def mass(self) -> FloatArray:
@@ -123,12 +126,10 @@ class Matrices(Entry):
         >>> print(f"{1e6 * rim @ np.linalg.solve(m.stiffness, rim):.0f} µm")
         290 µm
         """
-        radius, angle = np.broadcast_arrays(
-            np.asarray(radius_m, float), np.radians(np.asarray(angle_deg, float))
-        )
+        radius, angle = points(radius_m, np.radians(angle_deg))
         basis = (self.max_diameters, self.radial_functions)
         found = _native.functions_at(
-            self.scene, basis, radius.ravel().tolist(), angle.ravel().tolist()
+            self.scene, basis, *(at.ravel().tolist() for at in (radius, angle))
         )
         return np.frombuffer(found, "<f8").reshape(*radius.shape, len(self.stiffness))
 
@@ -165,10 +166,8 @@ class Matrices(Entry):
         return np.block([[np.zeros((size, size)), np.eye(size)], [-position, -velocity]])
 
 
-_NAMES = ("stiffness", "spin", "gyroscopic", "damping", "circulatory")
-
-
-def _square(values: bytes) -> FloatArray:
+def _square(values: bytes | None) -> FloatArray | None:
+    if values is None:
+        return None
     array = np.frombuffer(values, "<f8")
-    size = round(len(array) ** 0.5)
-    return array.reshape(size, size)
+    return array.reshape(math.isqrt(len(array)), -1)

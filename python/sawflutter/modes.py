@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from ._entry import Entry, FloatArray, IntArray
+from ._entry import Entry, FloatArray, IntArray, array
 from ._report_types import Mode
-from ._table import frame
-from .stiffness import rows
+from ._table import entries
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,16 +57,13 @@ class Modes(Entry):
         >>> sf.Modes.of([], []).rpm.shape
         (0,)
         """
-        found = tuple(tuple(Mode.from_dict(mode) for mode in of) for of in modes)
+        found = tuple(tuple(map(Mode.from_dict, at)) for at in modes)
 
-        def table(value: Callable[[Mode], float]) -> FloatArray:
-            return rows([np.array([value(mode) for mode in of]) for of in found])
+        def table(of: str) -> FloatArray:
+            return array([[getattr(mode, of) for mode in at] for at in found])
 
-        speeds = np.array(rpm, float)
-        signs = np.nan_to_num(table(lambda mode: mode.krein_sign)).astype(np.int64)
-        for array in (speeds, signs):
-            array.setflags(write=False)
-        hz, growth = table(lambda mode: mode.frequency_hz), table(lambda mode: mode.growth_per_s)
+        signs = array(np.nan_to_num(table("krein_sign")), np.int64)
+        speeds, hz, growth = array(np.ravel(rpm)), table("frequency_hz"), table("growth_per_s")
         return cls(speeds, hz, growth, signs, found)
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -91,7 +86,7 @@ class Modes(Entry):
         >>> sorted(set(found.to_dataframe()["rpm"].round(6)))
         [0.0, 500.0]
         """
-        table = frame(mode for of in self.modes for mode in of)
-        diameters = [mode.harmonics[0].nodal_diameters for of in self.modes for mode in of]
-        table["nodal_diameters"] = diameters
+        modes = [mode for at in self.modes for mode in at]
+        table = entries(modes)
+        table["nodal_diameters"] = [mode.harmonics[0].nodal_diameters for mode in modes]
         return table

@@ -4,71 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._extras import extra
 from ._report_types import CutReport, DeflectReport, RunUpReport, WashboardReport
-from ._result import Result
+from ._result import Result, pictures
 from ._table import frame
 
 if TYPE_CHECKING:
     import pandas as pd
-    from plotly.graph_objects import Figure
-    from typing_extensions import Unpack
 
-    from ._drawn import Look
     from .plot.chart import Chart
 
 
 class CutResults(Result, CutReport):
     """A saw in the wood, at one or several speeds."""
 
-    command = "cut"
-    figure_names = (
-        "cut.svg",
-        "cut.png",
-        "cut-map.svg",
-        "cut-map.png",
-        "spline-orbit.svg",
-        "spline-orbit.png",
-    )
+    command, table = "cut", "runs"
+    figure_names = pictures("cut", "cut-map", "spline-orbit")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a speed, without the histories and maps; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
-        >>> cut.to_dataframe()["rpm"].tolist()
-        [1800.0]
-        """
-        return frame(self.runs)
-
-    def chart(self) -> Chart:
-        """Deflection at the probe over time, one panel a speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
-        >>> len(cut.chart().panels) == len(cut.runs)
-        True
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.histories import cut
 
-        return cut(self, self._facts())
+        return cut(self, facts)
 
     def map_chart(self, run: int = 0) -> Chart:
         """Growth over guide angle and load, of one of the runs.
@@ -98,33 +53,6 @@ class CutResults(Result, CutReport):
 
         return cut_map(self, run)
 
-    def plot_map(
-        self, run: int = 0, fig: Figure | None = None, **look: Unpack[Look]
-    ) -> Figure:
-        """Draws :meth:`map_chart` with plotly.
-
-        Parameters
-        ----------
-        run : int
-            Which of :attr:`runs`, counted from 0.
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-        **look
-            Units and harmonics, as in :meth:`plot`.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
-        >>> cut.plot_map().layout.yaxis.title.text
-        'multiple of the forces'
-        """
-        return self.map_chart(run).plot(fig, **look)
-
     def _facts(self) -> str:
         verdicts = ", ".join(
             f"{run.verdict.replace('_', ' ')} at {run.rpm:.0f} rpm" for run in self.runs
@@ -137,14 +65,7 @@ class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
     command = "runup"
-    figure_names = (
-        "runup.svg",
-        "runup.png",
-        "response-map.svg",
-        "response-map.png",
-        "runup-map.svg",
-        "runup-map.png",
-    )
+    figure_names = pictures("runup", "response-map", "runup-map")
 
     def to_dataframe(self) -> pd.DataFrame:
         """Speed and deflection, one row a sample; needs pandas.
@@ -166,29 +87,12 @@ class RunUpResults(Result, RunUpReport):
         >>> list(up.to_dataframe())
         ['rpm', 'deflection_m']
         """
-        with extra("pandas"):
-            import pandas as pd
+        return frame({"rpm": self.rpm, "deflection_m": self.deflection_m})
 
-        return pd.DataFrame({"rpm": self.rpm, "deflection_m": self.deflection_m})
-
-    def chart(self) -> Chart:
-        """Deflection at the probe over speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
-        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
-        >>> up.chart().panels[0].y_name
-        'deflection [mm], square root scale'
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.histories import run_up
 
-        return run_up(self, self._facts())
+        return run_up(self, facts)
 
     def response_chart(self) -> Chart:
         """Deflection per newton over speed and frequency, with the branches on top.
@@ -209,32 +113,6 @@ class RunUpResults(Result, RunUpReport):
 
         return response(self)
 
-    def plot_response(
-        self, fig: Figure | None = None, **look: Unpack[Look]
-    ) -> Figure:
-        """Draws :meth:`response_chart` with plotly.
-
-        Parameters
-        ----------
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-        **look
-            Units and harmonics, as in :meth:`plot`.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
-        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
-        >>> up.plot_response(harmonics=[1]).layout.xaxis.title.text
-        'rotation speed Ω [rpm]'
-        """
-        return self.response_chart().plot(fig, **look)
-
     def _facts(self) -> str:
         last = self.rpm[-1]
         crossed = sum(entry.band.from_rpm < last for entry in self.bands)
@@ -252,7 +130,7 @@ class DeflectResults(Result, DeflectReport):
     """Where the blade stands while its speed slowly rises and falls."""
 
     command = "deflect"
-    figure_names = ("deflect.svg", "deflect.png")
+    figure_names = pictures("deflect")
 
     def to_dataframe(self) -> pd.DataFrame:
         """Stable equilibria, one row each, without the frequencies; needs pandas.
@@ -273,40 +151,19 @@ class DeflectResults(Result, DeflectReport):
         >>> sorted(set(found.to_dataframe()["direction"]))
         ['down', 'up']
         """
-        with extra("pandas"):
-            import pandas as pd
+        names = ("rpm", "deflection_m", "largest_deflection_m", "largest_slope")
+        rows = [
+            {"direction": direction, "arc": number, **dict(zip(names, point))}
+            for direction, sweep in (("up", self.up), ("down", self.down))
+            for number, arc in enumerate(sweep.arcs)
+            for point in zip(*(getattr(arc, name) for name in names))
+        ]
+        return frame(rows)
 
-        rows = []
-        for direction, sweep in {"up": self.up, "down": self.down}.items():
-            for number, arc in enumerate(sweep.arcs):
-                table = {
-                    "direction": direction,
-                    "arc": number,
-                    "rpm": arc.rpm,
-                    "deflection_m": arc.deflection_m,
-                    "largest_deflection_m": arc.largest_deflection_m,
-                    "largest_slope": arc.largest_slope,
-                }
-                rows.append(pd.DataFrame(table))
-        return pd.concat(rows, ignore_index=True)
-
-    def chart(self) -> Chart:
-        """Deflection at the probe over speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> found = sf.Scene.paper().run_deflect(to_rpm=1000, accuracy="draft")
-        >>> found.chart().panels[0].y_name
-        'deflection [mm]'
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.histories import deflection
 
-        return deflection(self, self._facts())
+        return deflection(self, facts)
 
     def _facts(self) -> str:
         jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
@@ -316,53 +173,13 @@ class DeflectResults(Result, DeflectReport):
 class WashboardResults(Result, WashboardReport):
     """Whether the teeth set the blade swinging, each on the surface left by the one before."""
 
-    command = "washboard"
-    figure_names = ("washboard.svg", "washboard.png")
+    command, table = "washboard", "modes"
+    figure_names = pictures("washboard")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """One row a mode; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            Where pandas is missing: it says how it is installed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> spring = {"stiffness_n_per_m": 1e5, "overlap": 1.0}
-        >>> changes = {"cut.washboarding": spring, "damping.air_n_s_per_m3": 50.0}
-        >>> saw = sf.Scene.paper().replace(changes)
-        >>> found = saw.run_washboard(1000, accuracy="draft")  # doctest: +SKIP
-        >>> len(found.to_dataframe()) == len(found.modes)  # doctest: +SKIP
-        True
-        """
-        return frame(self.modes)
-
-    def chart(self) -> Chart:
-        """Least cutting stiffness at which a motion grows, and its frequency, over the speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> spring = {"stiffness_n_per_m": 1e5, "overlap": 1.0}
-        >>> changes = {"cut.washboarding": spring, "damping.air_n_s_per_m3": 50.0}
-        >>> saw = sf.Scene.paper().replace(changes)
-        >>> found = saw.run_washboard(1000, accuracy="draft")  # doctest: +SKIP
-        >>> found.chart().panels[0].y_name  # doctest: +SKIP
-        'cutting stiffness [N/m]'
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.washboard import lobes
 
-        return lobes(self, self._facts())
+        return lobes(self, facts)
 
     def _facts(self) -> str:
         least = self.critical_stiffness_n_per_m

@@ -1,4 +1,4 @@
-"""What each command finds, as the program reports it: data first, figures on top of it."""
+"""What the command analyze finds, and reports of every kind: data first, figures on top of it."""
 
 from __future__ import annotations
 
@@ -7,31 +7,18 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
-import numpy as np
-
 from . import _native
-from ._entry import FloatArray
+from ._entry import FloatArray, array
 from ._methods import know_bands
-from ._report_types import (
-    Branch,
-    CampbellReport,
-    Instability,
-    Mode,
-)
-from ._result import Result
-from ._table import frame, read
-from .checks import CheckResults
-from .designs import FitResults, PlaceResults, TradeoffResults
+from ._report_types import Branch, CampbellReport, Instability, Mode
+from ._result import Result, pictures
+from ._table import entries, read
+from .designs import TradeoffResults
 from .errors import InputError
-from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
-from .studies import StudyResults
 
 if TYPE_CHECKING:
     import pandas as pd
-    from plotly.graph_objects import Figure
-    from typing_extensions import Unpack
 
-    from ._drawn import Look
     from .plot.chart import Chart
 
 Table: TypeAlias = Literal["branches", "modes_at_rest", "critical_speeds", "bands"]
@@ -41,16 +28,7 @@ class CampbellResults(Result, CampbellReport):
     """Campbell diagram, critical speeds and bands of instability of a saw."""
 
     command = "analyze"
-    figure_names = (
-        "campbell.svg",
-        "campbell.png",
-        "root-loci.svg",
-        "root-loci.png",
-        "membrane.svg",
-        "membrane.png",
-        "in-cut.svg",
-        "in-cut.png",
-    )
+    figure_names = pictures("campbell", "root-loci", "membrane", "in-cut")
 
     @property
     def critical_rpm(self) -> FloatArray:
@@ -63,9 +41,7 @@ class CampbellResults(Result, CampbellReport):
         >>> r.critical_rpm[:2].round(-1).tolist()
         [1530.0, 1550.0]
         """
-        speeds = np.array([critical.rpm for critical in self.critical_speeds])
-        speeds.setflags(write=False)
-        return speeds
+        return array([critical.rpm for critical in self.critical_speeds])
 
     @property
     def flutter_rpm(self) -> float | None:
@@ -187,43 +163,19 @@ class CampbellResults(Result, CampbellReport):
         >>> r.to_dataframe("bands").loc[0, ["kind", "nodal_diameters"]].tolist()
         ['divergence', '2']
         """
+        if of not in get_args(Table):
+            raise ValueError(f"there is no table of {of!r}, but {', '.join(get_args(Table))}")
         if of == "branches":
             return read(_native.campbell_csv(self._text))
+        table = entries(getattr(self, of))
         if of == "bands":
-            table = frame(self.bands)
-            for name, column in self._of_bands().items():
-                table[name] = column
-            return table
-        if of not in ("modes_at_rest", "critical_speeds"):
-            raise ValueError(f"there is no table of {of!r}, but {', '.join(get_args(Table))}")
-        return frame(getattr(self, of))
-
-    def _of_bands(self) -> dict[str, list[str]]:
-        """The waves of each band, how they run, and their nodal diameters."""
-        columns: dict[str, list[str]] = {"modes": [], "directions": [], "nodal_diameters": []}
-        for band in self.bands:
-            waves = [mode.partition(", ") for mode in band.modes]
-            diameters = (name.partition(" diameter")[0] for name, _, _ in waves)
-            columns["modes"].append(" + ".join(band.modes))
-            columns["directions"].append(" + ".join(way or "standing" for _, _, way in waves))
-            columns["nodal_diameters"].append(" + ".join(diameters))
-        return columns
-
-    def chart(self) -> Chart:
-        """Frequencies over speed, growth rates below.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> [panel.y_name for panel in r.chart().panels]
-        ['Im λ / 2π [Hz]', 'Re λ [1/s], square root scale']
-        """
-        return self._described("campbell")
+            waves = [[mode.partition(", ") for mode in band.modes] for band in self.bands]
+            table["modes"] = [" + ".join(band.modes) for band in self.bands]
+            table["directions"] = [" + ".join(way or "standing" for *_, way in of) for of in waves]
+            table["nodal_diameters"] = [
+                " + ".join(name.partition(" diameter")[0] for name, *_ in of) for of in waves
+            ]
+        return table
 
     def root_loci_chart(self) -> Chart:
         """The two modes that meet at the flutter speed, in the complex plane.
@@ -244,62 +196,19 @@ class CampbellResults(Result, CampbellReport):
 
         return root_loci(self)
 
-    def plot_root_loci(
-        self, fig: Figure | None = None, **look: Unpack[Look]
-    ) -> Figure:
-        """Draws :meth:`root_loci_chart` with plotly.
-
-        Parameters
-        ----------
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-        **look
-            Units and harmonics, as in :meth:`plot`.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.plot_root_loci(frequency_units="rad/s").layout.yaxis.title.text
-        'Im λ [rad/s]'
-        """
-        return self.root_loci_chart().plot(fig, **look)
-
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
 
     def _facts(self) -> str:
+        critical = "no critical speed"
+        flutter = f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
+        if self.critical_speeds:
+            critical = f"lowest critical speed {self.critical_rpm[0]:.0f} rpm"
+        if self.flutter_rpm is not None:
+            flutter = f"flutter from {self.flutter_rpm:.0f} rpm"
         first, last = self.campbell.from_rpm, self.campbell.to_rpm
-        lowest = self.critical_rpm[:1]
-        critical = (
-            f"lowest critical speed {lowest[0]:.0f} rpm" if len(lowest) else "no critical speed"
-        )
-        flutter = (
-            f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
-            if self.flutter_rpm is None
-            else f"flutter from {self.flutter_rpm:.0f} rpm"
-        )
-        return (
-            f"{critical}, {flutter}, {len(self.bands)} bands of instability "
-            f"from {first:.0f} to {last:.0f} rpm"
-        )
-
-
-_KINDS: tuple[type[Result], ...] = (
-    CampbellResults,
-    CheckResults,
-    CutResults,
-    DeflectResults,
-    FitResults,
-    PlaceResults,
-    RunUpResults,
-    StudyResults,
-    WashboardResults,
-)
+        bands = f"{len(self.bands)} bands of instability from {first:.0f} to {last:.0f} rpm"
+        return f"{critical}, {flutter}, {bands}"
 
 
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
@@ -340,23 +249,7 @@ def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     if isinstance(data, list):
         return TradeoffResults.from_json(text)
     # Of the kinds whose keys are all there, the one with the most: some have the keys of others.
-    kinds = [kind for kind in _KINDS if kind.required_keys() <= data.keys()]
+    kinds = [kind for kind in Result.__subclasses__() if kind.required_keys() <= data.keys()]
     if not kinds:
         raise InputError(f"{path} is no report of sawflutter; a scene is read by Scene.load")
     return max(kinds, key=lambda kind: len(kind.required_keys())).load(path)
-
-
-__all__ = [
-    "CampbellResults",
-    "CheckResults",
-    "CutResults",
-    "DeflectResults",
-    "FitResults",
-    "PlaceResults",
-    "Result",
-    "RunUpResults",
-    "StudyResults",
-    "TradeoffResults",
-    "WashboardResults",
-    "load",
-]

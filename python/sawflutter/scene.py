@@ -4,34 +4,19 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, cast
 
-from . import _native, _paths, _values
+from . import _native
 from ._pictures import Pictures
 from ._questions import Questions
-from ._scene_types import Accuracy, BladeDict, CutDict, GuideDict, MountDict, SceneDict
-from ._searches import Number
+from ._scene_types import SceneDict
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 
-class Block(dict[str, Any]):
-    """A part of a scene: a dict that cannot be written to. ``dict(block)`` is one that can."""
-
-    def _refuse(self, *_: object, **__: object) -> Any:
-        raise TypeError(_UNCHANGED)
-
-    __setitem__ = __delitem__ = __ior__ = _refuse
-    clear = pop = popitem = setdefault = update = _refuse
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return dict, (dict(self),)
-
-
-_UNCHANGED = "a scene cannot be changed; replace({path: value}) makes another one"
-
-
-class Scene(Pictures, Questions, Mapping[str, Any]):
+class Scene(Pictures, Questions):
     """A saw: blade, mount, guides and what to find out about it. It is a mapping of the keys of a
     scene file, and takes paths as well. It cannot be changed; :meth:`replace` makes another one.
 
@@ -57,33 +42,10 @@ class Scene(Pictures, Questions, Mapping[str, Any]):
     <Scene 'Guided spline arbor saw': 710 mm outside, 2.6 mm thick, 1 guide>
     """
 
-    __slots__ = ("_data", "_text")
-    _text: str
-    _data: Block
-
-    def __init__(self, data: SceneDict | Mapping[str, Any]) -> None:
-        if isinstance(data, (str, bytes, os.PathLike)):
-            raise TypeError(
-                f"a scene is made of a dict, not of {data!r}: Scene.load reads a file, and "
-                "Scene.from_json a text"
-            )
-        if not isinstance(data, Mapping):
-            raise TypeError(f"a scene is made of a dict, not of the type {type(data).__name__}")
-        self._setup(_native.scene(_values.to_json(data)))
-
-    def _setup(self, text: str) -> None:
-        object.__setattr__(self, "_text", text)
-        object.__setattr__(self, "_data", json.loads(text, object_hook=Block))
+    __slots__ = ()
 
     @classmethod
-    def _of(cls, text: str) -> Scene:
-        """The scene of a text that the library has written."""
-        scene = cls.__new__(cls)
-        scene._setup(text)
-        return scene
-
-    @classmethod
-    def from_json(cls, text: str) -> Scene:
+    def from_json(cls, text: str) -> Self:
         """The scene of a JSON text.
 
         Parameters
@@ -110,7 +72,7 @@ class Scene(Pictures, Questions, Mapping[str, Any]):
         return cls._of(_native.scene(text))
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Scene:
+    def load(cls, path: str | os.PathLike[str]) -> Self:
         """Reads a scene file.
 
         Parameters
@@ -142,7 +104,7 @@ class Scene(Pictures, Questions, Mapping[str, Any]):
         return cls._of(_native.read_scene(path))
 
     @classmethod
-    def paper(cls) -> Scene:
+    def paper(cls) -> Self:
         """The guided spline saw that comes with the program, with the numbers of a paper.
 
         Returns
@@ -217,217 +179,3 @@ class Scene(Pictures, Questions, Mapping[str, Any]):
         True
         """
         return self._text
-
-    @property
-    def name(self) -> str:
-        """Title of reports and figures.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> saw.name
-        'Guided spline arbor saw'
-        """
-        return str(self._data["name"])
-
-    @property
-    def blade(self) -> BladeDict:
-        """The blade, like ``saw.blade["thickness_m"]``.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> saw.blade["thickness_m"]
-        0.0028
-        """
-        return cast(BladeDict, self._data["blade"])
-
-    @property
-    def mount(self) -> MountDict | None:
-        """How the blade is held at the bore.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> saw.mount['kind']
-        'spline'
-        """
-        return self._data.get("mount")
-
-    @property
-    def guides(self) -> tuple[GuideDict, ...]:
-        """The guides, like ``saw.guides[0]["radius_m"]``.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> len(saw.guides)
-        1
-        """
-        return tuple(self._data.get("guides", ()))
-
-    @property
-    def cut(self) -> CutDict | None:
-        """The wood and its forces.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> saw.cut is None
-        False
-        """
-        return self._data.get("cut")
-
-    def __getitem__(self, path: str) -> Any:
-        """The value at a path, like ``saw["guides[0].radius_m"]``."""
-        return _paths.get(self._data, path)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._data)
-
-    def __len__(self) -> int:
-        return len(self._data)
-
-    def replace(self, changes: Mapping[str, Any]) -> Scene:
-        """The scene with other values, by their paths.
-
-        Parameters
-        ----------
-        changes : dict
-            New values by path, like ``"guides[0].radius_m"``: numbers, those of NumPy, or quantities
-            of pint. None takes a key out; a block that is not there, like ``damping`` in
-            ``"damping.air_n_s_per_m3"``, is begun.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        PathError
-            Where the scene has no such path: it says what there is.
-        SceneError
-            Where a value is refused.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"guides": []})
-        >>> round(float(free.run_campbell().critical_rpm[0]))
-        1477
-        """
-        data = self.to_dict()
-        for path, value in changes.items():
-            _paths.put(data, path, _values.plain(value, path.rpartition(".")[2]))
-        return Scene(data)
-
-    def add_guide(
-        self,
-        *,
-        radius_m: Number = None,
-        angle_deg: Number = None,
-        radial_length_m: Number = None,
-        tangential_length_m: Number = None,
-        stiffness_n_per_m: Number = None,
-        damping_n_s_per_m: Number = None,
-        gap_m: Number = None,
-    ) -> Scene:
-        """The scene with one more guide, the last of :attr:`guides`.
-
-        Parameters
-        ----------
-        radius_m, angle_deg, radial_length_m, tangential_length_m : float, optional
-            Its place and size, as in a scene file.
-        stiffness_n_per_m, damping_n_s_per_m, gap_m : float, optional
-            Its other numbers. A number that is left out is that of the last guide.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        SceneError
-            Where a number is missing or refused.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.Scene.paper().add_guide(angle_deg=120.0).guides)
-        2
-        """
-        given = {
-            "radius_m": radius_m,
-            "angle_deg": angle_deg,
-            "radial_length_m": radial_length_m,
-            "tangential_length_m": tangential_length_m,
-            "stiffness_n_per_m": stiffness_n_per_m,
-            "damping_n_s_per_m": damping_n_s_per_m,
-            "gap_m": gap_m,
-        }
-        guide = {key: value for key, value in given.items() if value is not None}
-        last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
-        return self.replace({"guides": [*self.guides, {**last, **guide}]})
-
-    def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number = None) -> Scene:
-        """The scene with another accuracy, by name or as a relative error.
-
-        Parameters
-        ----------
-        accuracy : {"draft", "design", "reference"}, optional
-            Accuracy by name.
-        tolerance : float, optional
-            Relative error allowed of critical speeds and onsets, instead of a name.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        TypeError
-            Where both are given.
-        SceneError
-            Where one is refused.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Scene.paper().with_accuracy("draft")["accuracy"]
-        'draft'
-        """
-        if accuracy is not None and tolerance is not None:
-            raise TypeError("give accuracy or tolerance, not both")
-        if accuracy is not None:
-            return self.replace({"accuracy": accuracy, "tolerance": None})
-        if tolerance is not None:
-            return self.replace({"tolerance": tolerance})
-        return self
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(_UNCHANGED)
-
-    def __setitem__(self, path: str, value: object) -> None:
-        raise TypeError(_UNCHANGED)
-
-    def __eq__(self, other: object) -> bool:
-        return self._text == other._text if isinstance(other, Scene) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._text)
-
-    def __reduce__(self) -> tuple[Any, tuple[str]]:
-        return Scene._of, (self._text,)
-
-    def __repr__(self) -> str:
-        blade, guides = self.blade, len(self.guides)
-        count = f"{guides or 'no'} guide{'' if guides == 1 else 's'}"
-        return (
-            f"<Scene {self.name!r}: {1e3 * blade['outer_diameter_m']:.6g} mm outside, "
-            f"{1e3 * blade['thickness_m']:.6g} mm thick, {count}>"
-        )

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
 
@@ -48,12 +46,3 @@ class StiffnessMap(Drawn, Entry):
         from .plot.design import stiffness
 
         return stiffness(self)
-
-
-def rows(values: list[FloatArray]) -> FloatArray:
-    """Arrays of several lengths as rows, the short ones filled with NaN."""
-    table = np.full((len(values), max(map(len, values), default=0)), np.nan)
-    for row, of in zip(table, values):
-        row[: len(of)] = of
-    table.setflags(write=False)
-    return table

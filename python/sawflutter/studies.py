@@ -10,16 +10,12 @@ import numpy as np
 
 from ._extras import extra
 from ._report_types import StudyReport
-from ._result import Result
+from ._result import Result, pictures
 from ._table import read
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
-    from plotly.graph_objects import Figure
-    from typing_extensions import Unpack
 
-    from ._drawn import Look
     from .plot.chart import Chart
 
 
@@ -27,7 +23,7 @@ class StudyResults(Result, StudyReport):
     """Many saws, summed up; :meth:`sawflutter.Study.run` makes it."""
 
     command = "study"
-    figure_names = ("study.svg", "study.png")
+    figure_names = pictures("study")
 
     _table: Path | str | None = None
     """``study.csv``: where it is, or what is in it."""
@@ -251,110 +247,10 @@ class StudyResults(Result, StudyReport):
         rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
         return grid(self, rows, (paths[0], paths[1]), speed)
 
-    def plot_map(
-        self,
-        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
-        fig: Figure | None = None,
-        **look: Unpack[Look],
-    ) -> Figure:
-        """Draws :meth:`map_chart` with plotly.
-
-        Parameters
-        ----------
-        speed : {"lowest_critical_rpm", "flutter_rpm"}
-            Which, as in :meth:`map_chart`.
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-        **look
-            Units and harmonics, as in :meth:`plot`.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Raises
-        ------
-        ValueError
-            Where the study has no grid of two numbers.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> def grid(path, *values):
-        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
-        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
-        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
-        >>> found.plot_map("lowest_critical_rpm").layout.xaxis.title.text
-        'blade.thickness [m]'
-        """
-        return self.map_chart(speed).plot(fig, **look)
-
-    def plot_map_matplotlib(
-        self,
-        speed: Literal["lowest_critical_rpm", "flutter_rpm"] = "flutter_rpm",
-        ax: Axes | None = None,
-        **look: Unpack[Look],
-    ) -> Axes:
-        """Draws :meth:`map_chart` with matplotlib.
-
-        Parameters
-        ----------
-        speed : {"lowest_critical_rpm", "flutter_rpm"}
-            Which, as in :meth:`map_chart`.
-        ax : Axes, optional
-            Axes to draw into; by default those of a new figure.
-        **look
-            Units and harmonics, as in :meth:`plot`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ValueError
-            Where the study has no grid of two numbers.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> def grid(path, *values):
-        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
-        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
-        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
-        >>> found.plot_map_matplotlib("lowest_critical_rpm").get_xlabel()
-        'blade.thickness [m]'
-        """
-        return self.map_chart(speed).plot_matplotlib(ax, **look)
-
-    def chart(self) -> Chart:
-        """Shares of the saws below a speed, and those that can be run at one.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> found.chart().panels[0].x_name
-        'lowest critical speed [rpm]'
-        """
+    def _chart(self, facts: str) -> Chart:
         from .plot.design import study
 
-        return study(self, self._facts())
+        return study(self, facts)
 
     def _facts(self) -> str:
         passing = self.all.passing

@@ -16,8 +16,9 @@ from . import _native, _tasks, _values
 from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
-from .results import StudyResults
+from ._values import whole
 from .scene import Scene
+from .studies import StudyResults
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -54,12 +55,8 @@ class Study:
             text = _native.read_text(study, False)
         else:
             text = _values.to_json(study)
-        self._setup(scene, text)
-
-    def _setup(self, scene: Scene, text: str) -> None:
-        self.scene = scene
-        self._text = text
-        self._native = _native.Study(scene.to_json(), text)
+        self.scene, self._native = scene, _native.Study(scene.to_json(), text)
+        self._text = json.dumps(json.loads(text))
 
     @property
     def count(self) -> int:
@@ -110,8 +107,8 @@ class Study:
 
         Raises
         ------
-        OverflowError
-            Where the number of a saw is negative.
+        ArgumentError
+            Where there is no saw of a number.
 
         Examples
         --------
@@ -124,7 +121,7 @@ class Study:
         (4, 1)
         """
         chosen = range(self.count) if saws is None else saws
-        return np.array([self._native.values(int(saw)) for saw in chosen])
+        return np.array([self._native.values(whole("saws", saw)) for saw in chosen])
 
     def run(
         self,
@@ -209,8 +206,8 @@ class Study:
             for part in parts:
                 part.unlink(missing_ok=True)
 
-    def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return _study, (self.scene.to_json(), self._text)
+    def __reduce__(self) -> tuple[type[Study], tuple[Scene, StudyDict]]:
+        return Study, (self.scene, self.to_dict())
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Study):
@@ -222,9 +219,3 @@ class Study:
 
     def __repr__(self) -> str:
         return f"<Study {self.to_dict()['name']!r} of {self.scene.name!r}: {self.count} saws>"
-
-
-def _study(scene: str, text: str) -> Study:
-    study = Study.__new__(Study)
-    study._setup(Scene.from_json(scene), text)
-    return study

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import pickle
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -250,3 +252,28 @@ def test_every_result_is_saved_loaded_and_pickled(
 def test_a_saw_that_cannot_be_analysed_says_why(draft: sf.Scene) -> None:
     with pytest.raises(sf.AnalysisError, match="sweep.to_rpm"):
         draft.replace({"sweep.to_rpm": 900000}).run_campbell()
+
+
+@pytest.mark.parametrize(
+    ("ask", "key"),
+    [
+        (lambda saw, number: saw.place(map=number), "map"),
+        (lambda saw, number: saw.place(samples=number), "samples"),
+        (lambda saw, number: saw.place(refine=number), "refine"),
+        (lambda saw, number: saw.fit([7.9], starts=number), "starts"),
+        (lambda saw, number: saw.fit([7.9], seed=number), "seed"),
+        (lambda saw, number: saw.matrices(basis=(number, 4)), "basis"),
+        (lambda saw, number: saw.matrices(basis=(6, number)), "basis"),
+        (lambda saw, number: saw.run_stiffness_map([1e5], guide=number), "guide"),
+    ],
+)
+def test_whole_numbers_that_are_none_are_named(
+    draft: sf.Scene, ask: Callable[[sf.Scene, Any], object], key: str
+) -> None:
+    for number in (-1, 2**64, np.int64(-1)):
+        with pytest.raises(sf.ArgumentError, match=f"{key} is {number}") as caught:
+            ask(draft, number)
+        assert caught.value.key == key and caught.value.remedy
+    for other in (2.0, True, np.bool_(True), "2"):
+        with pytest.raises(TypeError, match=f"{key} is .*whole number"):
+            ask(draft, other)

@@ -143,7 +143,8 @@ def test_every_result_is_drawn_by_both(
         axes.figure.canvas.draw()
     heat = next(item for item in up.response_chart().panels[0].items if isinstance(item, Heat))
     assert heat.z.shape == (len(heat.y), len(heat.x))
-    assert cut.plot_map(1).data and up.plot_response().data and report.plot_root_loci().data
+    drawn = (cut.map_chart(1), up.response_chart(), report.root_loci_chart())
+    assert all(chart.plot().data for chart in drawn)
 
 
 def test_excitation_lines_are_those_of_the_report(draft: sf.Scene) -> None:
@@ -271,7 +272,10 @@ def test_units_change_numbers_and_names_together(report: sf.CampbellResults) -> 
 
 def test_harmonics_are_multiples_of_the_speed(draft: sf.Scene, report: sf.CampbellResults) -> None:
     scene = draft.replace({"excitation": {"orders": 2}}).run_campbell()
-    for figure in (report.plot(harmonics=[1, 2.5]), draft.run_up().plot_response(harmonics=[1])):
+    for figure in (
+        report.plot(harmonics=[1, 2.5]),
+        draft.run_up().response_chart().plot(harmonics=[1]),
+    ):
         (line,) = (trace for trace in figure.data if trace.name == "1× speed")
         assert line.y == pytest.approx(line.x / 60.0) and line.line.dash == "dash"
     own = next(line for line in scene.plot(harmonics=[3]).data if line.name == "3× speed")

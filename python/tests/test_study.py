@@ -174,6 +174,8 @@ def test_a_study_is_pickled(study: sf.Study) -> None:
     assert "24 saws" in repr(copy)
     with pytest.raises(sf.ArgumentError):
         study.values([24])
+    with pytest.raises(sf.ArgumentError, match="saws is -1"):
+        study.values([-1])
 
 
 def test_a_study_keeps_its_table(study: sf.Study, tmp_path: Path) -> None:
@@ -206,7 +208,7 @@ def test_a_grid_is_a_map_of_its_speeds(draft: sf.Scene, tmp_path: Path) -> None:
     assert (heat.x.tolist(), heat.y.tolist()) == tuple(values.values())
     # Critical speeds of a free blade go with its thickness.
     assert heat.z[:, 1] / heat.z[:, 0] == pytest.approx(2.9 / 2.7, rel=1e-3)
-    assert result.plot_map("lowest_critical_rpm").data
+    assert result.map_chart("lowest_critical_rpm").plot().data
     with pytest.raises(ValueError, match="two numbers"):
         sf.Study(draft.replace({"guides": []}), {**VARIED, "saws": 2}).run(
             tmp_path / "no"
