@@ -40,6 +40,11 @@ pub fn analyze(
     compute(py, progress, move |meter| {
         let options = AnalysisOptions {
             progress: &|done, of| meter.show(done, of),
+            expected: &|expected| {
+                if expected.is_long() {
+                    meter.remark(expected.to_string());
+                }
+            },
             ..AnalysisOptions::default()
         };
         let analysis = Analysis::with_options(&scene, options)?;

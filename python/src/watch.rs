@@ -20,6 +20,8 @@ pub struct Meter {
     done: AtomicUsize,
     of: AtomicUsize,
     what: Mutex<&'static str>,
+    /// What is to be said before the end, once.
+    remark: Mutex<Option<String>>,
 }
 
 impl Meter {
@@ -33,6 +35,11 @@ impl Meter {
     pub fn show_of(&self, what: &'static str, done: usize, of: usize) {
         *lock(&self.what) = what;
         self.show(done, of);
+    }
+
+    /// Something to say before the end.
+    pub fn remark(&self, text: String) {
+        *lock(&self.remark) = Some(text);
     }
 
     fn state(&self) -> (usize, usize, &'static str) {
@@ -81,7 +88,10 @@ pub fn compute<T: Send + 'static>(
                 return Ok(found?);
             }
             Err(RecvTimeoutError::Timeout) => {
-                let raised = py.check_signals().and_then(|()| tell(meter.state()));
+                let remark = lock(&meter.remark).take();
+                let logged = remark.map_or(Ok(()), |text| log(py, &text));
+                let raised = py.check_signals().and(logged);
+                let raised = raised.and_then(|()| tell(meter.state()));
                 if let Err(raised) = raised {
                     stop.cancel();
                     return Err(raised);
@@ -92,6 +102,14 @@ pub fn compute<T: Send + 'static>(
             }
         }
     }
+}
+
+/// A warning of the package's logger, which Python shows on the error stream unless it is told otherwise.
+fn log(py: Python<'_>, text: &str) -> PyResult<()> {
+    let logger = py
+        .import("logging")?
+        .call_method1("getLogger", ("sawflutter",))?;
+    logger.call_method1("warning", (text,)).map(|_| ())
 }
 
 /// The work's result, a panic being a fault.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import signal
 import subprocess
 import sys
@@ -73,6 +74,25 @@ def test_an_exception_of_the_callable_ends_the_computation(draft: sf.Scene) -> N
             accuracy="reference", progress=enough
         )
     assert time.monotonic() - began < 5.0
+
+
+def test_a_long_sweep_is_estimated_before_its_search(draft: sf.Scene) -> None:
+    class Enough(Exception):
+        pass
+
+    class Handler(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            raise Enough(record.getMessage())
+
+    handler, logger = Handler(), logging.getLogger("sawflutter")
+    logger.addHandler(handler)
+    try:
+        # 42 critical speeds, where 22 take some seconds.
+        with pytest.raises(Enough, match="42 critical speeds.*minutes.*estimate.*sweep.to_rpm"):
+            draft.run_campbell(speed_range=(0, 10_000))
+        draft.run_campbell()
+    finally:
+        logger.removeHandler(handler)
 
 
 def test_a_panic_is_an_exception(capfd: pytest.CaptureFixture[str]) -> None:

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use crate::figure::CampbellView;
 use crate::report::{Report, SensitivityEntry, WhirlEntry};
 use crate::scene::{Scene, SpeedRange};
-use crate::stability::Analysis;
+use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
 use clap::Args;
 
 use super::common::{Finely, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
 use super::pictures::{self, figure_names};
-use super::progress::watched;
+use super::progress::watched_with_remarks;
 use super::several;
 
 pub const EXAMPLES: &str = "\
@@ -164,11 +164,24 @@ fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Res
 }
 
 fn report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
-    watched(|_| watched_report(arguments, scene))?
+    watched_with_remarks(|_, remark| watched_report(arguments, scene, remark))?
 }
 
-fn watched_report(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Report> {
-    let analysis = Analysis::new(scene)?;
+fn watched_report(
+    arguments: &Arguments,
+    scene: &Scene,
+    remark: &(dyn Fn(&str) + Sync),
+) -> anyhow::Result<Report> {
+    let say_if_long = |expected: ExpectedWork| {
+        if expected.is_long() {
+            remark(&expected.to_string());
+        }
+    };
+    let options = AnalysisOptions {
+        expected: &say_if_long,
+        ..AnalysisOptions::default()
+    };
+    let analysis = Analysis::with_options(scene, options)?;
     let mut report = analysis.report();
     if let Some(rpm) = arguments.at_rpm {
         let speed = SpeedRange::from(analysis.range_rad_per_s).speed_at("--at-rpm", rpm)?;

@@ -12,8 +12,15 @@ const TICK: Duration = Duration::from_millis(200);
 /// Does work with a bar on the terminal's error stream, and without one where that is not a terminal. The loops
 /// of a command itself are shown by [`Progress::show`].
 pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Result<T> {
+    watched_with_remarks(|progress, _| work(progress))
+}
+
+/// The same of work that has remarks before its end: lines on the error stream, above the bar.
+pub fn watched_with_remarks<T: Send>(
+    work: impl FnOnce(&Progress, &(dyn Fn(&str) + Sync)) -> T + Send,
+) -> anyhow::Result<T> {
     if !std::io::stderr().is_terminal() {
-        return Ok(work(&Progress::default()));
+        return Ok(work(&Progress::default(), &|line| eprintln!("{line}")));
     }
     let style = ProgressStyle::with_template("{bar:20} {msg}, {elapsed}");
     let bar =
@@ -22,7 +29,8 @@ pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Res
     bar.enable_steady_tick(TICK);
     let shown = bar.clone();
     let progress = Progress::new(move |stage| show(&shown, stage));
-    let found = progress.watched(|| work(&progress));
+    let remark = |line: &str| bar.println(line);
+    let found = progress.watched(|| work(&progress, &remark));
     bar.finish_and_clear();
     Ok(found?)
 }

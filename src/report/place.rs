@@ -362,7 +362,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     }
     if scene.cut().is_some() {
         warnings.push(
-            "the forces of the cut are left out; hold the result against `sawflutter cut`".into(),
+            "the forces of the cut are left out; hold the result against the saw in the cut".into(),
         );
     }
     warnings

@@ -212,7 +212,7 @@ fn unusual_numbers(found: &Washboard) -> Vec<String> {
 fn without_delay(found: &Washboard) -> Option<String> {
     (found.growing_without > 0).then(|| {
         format!(
-            "at {:.0} rpm the saw in the cut is unstable without the delayed force; `sawflutter cut` tells why",
+            "at {:.0} rpm the saw in the cut is unstable without the delayed force; an analysis of the cut tells why",
             found.run.rpm
         )
     })

@@ -9,6 +9,7 @@ use super::detail::Detail;
 use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
+use super::expected::ExpectedWork;
 use super::heat::HeatLimits;
 use super::listed::Listed;
 use super::loci::RootLoci;
@@ -35,6 +36,8 @@ pub struct AnalysisOptions<'a> {
     pub detail: Detail,
     /// Progress callback: speeds of the chart that are done, and all of them.
     pub progress: Progress<'a>,
+    /// Called with what a chart is expected to take, before its search for bands.
+    pub expected: &'a (dyn Fn(ExpectedWork) + Sync),
 }
 
 impl Default for AnalysisOptions<'_> {
@@ -42,6 +45,7 @@ impl Default for AnalysisOptions<'_> {
         AnalysisOptions {
             detail: Detail::Full,
             progress: &|_, _| (),
+            expected: &|_| (),
         }
     }
 }
@@ -49,7 +53,9 @@ impl Default for AnalysisOptions<'_> {
 fn charted(
     model: &SpectralModel,
     range: (f64, f64),
-    AnalysisOptions { detail, progress }: AnalysisOptions<'_>,
+    AnalysisOptions {
+        detail, progress, ..
+    }: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
     match (model.plate.is_axisymmetric(), detail) {
         (true, _) => chart(model, range, FREE_CHART_SPEEDS, progress),
@@ -176,6 +182,7 @@ impl Analysis {
             estimated_resting_error,
             larger,
         } = chosen;
+        (options.expected)(ExpectedWork::new(&saw, &critical, range.1));
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let mut chart = charted(&model, range, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?

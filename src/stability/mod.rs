@@ -19,6 +19,7 @@ mod error;
 mod estimate;
 mod evaluator;
 mod excitation;
+mod expected;
 mod flutter;
 mod found;
 mod full_basis;
@@ -63,6 +64,7 @@ pub use estimate::Estimates;
 pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
+pub use expected::ExpectedWork;
 pub(crate) use full_basis::Miscount;
 pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};

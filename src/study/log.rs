@@ -34,7 +34,7 @@ pub enum LogError {
     },
     /// Another run is writing to it.
     #[error(
-        "another run is writing to {}; wait for it, or name another folder with --out",
+        "another run is writing to {}; wait for it, or name another folder",
         path.display()
     )]
     Busy {
@@ -43,7 +43,7 @@ pub enum LogError {
     },
     /// It was begun with other inputs.
     #[error(
-        "{} belongs to another study: {difference}; name another folder with --out, or remove this log and its saws",
+        "{} belongs to another study: {difference}; name another folder, or remove this log and its saws",
         path.display()
     )]
     Other {
@@ -53,7 +53,7 @@ pub enum LogError {
         difference: String,
     },
     /// It is no log of this program.
-    #[error("{} is no log of a study; name another folder with --out", path.display())]
+    #[error("{} is no log of a study; name another folder", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,

@@ -198,7 +198,7 @@ fn varying(
 ) -> Result<Vec<(Parameter, Distribution)>, StudyError> {
     if file.parameters.is_empty() {
         let allowed = "a list of the numbers that vary";
-        let remedy = "name one, like blade.thickness_m; one saw is what `analyze` is for";
+        let remedy = "name one, like blade.thickness_m; a single saw is analysed without a study";
         return Err(refuse("parameters", "empty", allowed, remedy));
     }
     let mut varying: Vec<(Parameter, Distribution)> = Vec::new();
@@ -253,7 +253,7 @@ fn counts(
         _ => {
             let allowed = format!("at most {DIMENSIONS} numbers with a distribution");
             let value = format!("a list with {dimensions} of them");
-            let remedy = "leave those out that matter least (`analyze --sensitivity`)";
+            let remedy = "leave those out to which critical speeds and onsets are least sensitive";
             return Err(refuse("parameters", value, allowed, remedy));
         }
     };

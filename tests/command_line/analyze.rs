@@ -3,12 +3,13 @@
 //!
 //! Source: the scene and report keys and exit codes of docs/reference and `--help`.
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 use std::sync::OnceLock;
 
 use sawflutter::report::Report;
-use sawflutter::scene::Scene;
+use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
 use super::program::{names_in, program, quick_scene, sawflutter, text, write_scene};
@@ -73,7 +74,7 @@ fn the_default_run_writes_its_files_and_no_other() {
 fn the_default_run_is_the_papers_saw() {
     let report = &default_run().report;
     let mut scene = Scene::paper().file().clone();
-    scene.accuracy = sawflutter::scene::Accuracy::Draft;
+    scene.accuracy = Accuracy::Draft;
     assert_eq!(report.scene, scene);
     assert_eq!(report.sawflutter, env!("CARGO_PKG_VERSION"));
     assert!(!report.critical_speeds.is_empty() && !report.instabilities.is_empty());
@@ -281,6 +282,37 @@ fn a_closed_pipe_is_no_failure() {
     }
     let out = folder.path().join("sawflutter-out");
     assert_eq!(names_in(&out), FILES_WITHOUT_FLUTTER);
+}
+
+/// The built-in saw passes 42 critical speeds up to 10 000 rpm, of which the search takes minutes: the number is said
+/// before, with the key that shortens it. Sweeps of seconds say nothing.
+#[test]
+fn a_long_sweep_is_estimated_before_its_search() {
+    let folder = TempDir::new().unwrap();
+    let mut file = Scene::paper().file().clone();
+    file.accuracy = Accuracy::Draft;
+    file.sweep.as_mut().unwrap().to_rpm = 10_000.0;
+    let mut child = std::process::Command::new(program())
+        .current_dir(&folder)
+        .arg("analyze")
+        .arg(write_scene(&folder, &file))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut said = String::new();
+    let mut errors = BufReader::new(child.stderr.take().unwrap());
+    errors.read_line(&mut said).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    for part in [
+        "42 critical speeds",
+        "minutes",
+        "estimate",
+        "lower sweep.to_rpm",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    assert_eq!(text(&default_run().output.stderr), "");
 }
 
 /// The forces of the cut on the chart, and the idling saw beside it, in every face of the answer.

@@ -274,7 +274,7 @@ fn a_log_of_another_study_is_refused_and_left_alone() {
         "{message}"
     );
     assert!(
-        message.contains("name another folder with --out"),
+        message.contains("name another folder, or remove"),
         "{message}"
     );
     bench.write_study(20);
