@@ -39,7 +39,8 @@ def test_every_point_of_the_chart_is_one_of_the_report(report: sf.CampbellResult
     }
     upper = chart.panels[0]
     drawn: set[tuple[float, float]] = set()
-    for line in (item for item in upper.items if isinstance(item, Line)):
+    names = {b.name for b in report.branches}
+    for line in (i for i in upper.items if isinstance(i, Line) and i.name in names):
         kept = ~np.isnan(line.x)
         assert len(line.hover) == len(line.x)
         drawn |= set(zip(line.x[kept].tolist(), line.y[kept].tolist()))
@@ -48,6 +49,9 @@ def test_every_point_of_the_chart_is_one_of_the_report(report: sf.CampbellResult
     assert sorted((s.start, s.end) for s in shades) == sorted(
         (b.from_rpm, b.to_rpm) for b in report.bands
     )
+    assert report.operating is not None and report.operating.safe_window_rpm is not None
+    (window,) = (i for i in upper.items if isinstance(i, Line) and i.name.startswith("window"))
+    assert window.x.tolist() == list(report.operating.safe_window_rpm) and not window.y.any()
     uprights = [item.x for item in upper.items if isinstance(item, Upright)]
     assert set(report.critical_rpm.tolist()) <= set(uprights)
 

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::reply::{Refusal, SavedFile};
 use super::told::Told;
 use super::under_way::UnderWay;
+use crate::figure::ChartData;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
@@ -34,6 +35,8 @@ struct Chart<'a> {
     chart: usize,
     milliseconds: f64,
     told: Told,
+    /// What is drawn.
+    figure: ChartData,
     report: &'a Report,
 }
 
@@ -90,10 +93,9 @@ impl Charts {
         let watched = self.under_way.watched(page, analysis);
         let analysis = watched.map_err(|error| Refusal::of(&error))??;
         let mut report = analysis.report();
+        let (told, figure) = (Told::new(&report), report.campbell_chart());
         if fidelity == Fidelity::Draft {
-            // Half of what would be sent, and not shown.
-            let at_rest = report.modes_at_rest.iter_mut();
-            at_rest.for_each(|mode| mode.shape.clear());
+            leave_out_what_is_not_shown(&mut report);
         }
         let report = Arc::new(report);
         let of_scene = (fidelity == Fidelity::Scene).then(|| report.clone());
@@ -102,7 +104,8 @@ impl Charts {
         serde_json::to_string(&Chart {
             chart,
             milliseconds,
-            told: Told::new(&report),
+            told,
+            figure,
             report: &report,
         })
         .map_err(|error| Refusal::of(&error))
@@ -168,6 +171,19 @@ impl Charts {
     fn find<T>(&self, name: usize, get: impl Fn(&KeptChart) -> T) -> Option<T> {
         let kept = self.kept();
         kept.latest.iter().find(|chart| chart.name == name).map(get)
+    }
+}
+
+/// Most of what would be sent: shapes at rest, and what the figure says of the branches.
+fn leave_out_what_is_not_shown(report: &mut Report) {
+    let at_rest = report.modes_at_rest.iter_mut();
+    at_rest.for_each(|mode| mode.shape.clear());
+    for branch in &mut report.campbell.branches {
+        branch.direction.clear();
+        branch.body_frequency_hz.clear();
+        branch.growth_per_s.clear();
+        branch.krein_sign.clear();
+        branch.dominant_harmonics.clear();
     }
 }
 

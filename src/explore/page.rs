@@ -36,7 +36,6 @@ files! {
     "blade.js": SCRIPT, "page/blade.js";
     "motion.js": SCRIPT, "page/motion.js";
     "charts.js": SCRIPT, "page/charts.js";
-    "growth.js": SCRIPT, "page/growth.js";
     "marks.js": SCRIPT, "page/marks.js";
     "panel.js": SCRIPT, "page/panel.js";
     "tasks.js": SCRIPT, "page/tasks.js";

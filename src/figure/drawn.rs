@@ -111,6 +111,12 @@ impl Report {
         named(Self::NAMES, sheets)
     }
 
+    /// The Campbell diagram as numbers, without what is said of each point.
+    #[cfg(feature = "explore")]
+    pub(crate) fn campbell_chart(&self) -> ChartData {
+        campbell::chart(self, false)
+    }
+
     /// The Campbell diagram as SVG.
     ///
     /// # Errors

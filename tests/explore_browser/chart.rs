@@ -209,46 +209,34 @@ fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
     });
 }
 
-/// Branch 1 flutters from 10 to 30 rpm while branch 2 diverges from 20 to 40: each is drawn in the colour of its own band
-/// and from its own edges.
+/// The numbers that the figure of the program has: of critical speeds, of bands and of operation.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
+fn critical_speeds_bands_and_operation_have_their_numbers() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
-        let drawn = page
-            .awaited(
-                "{
-            const { drawGrowth } = await import('/page/growth.js');
-            const { bandColour } = await import('/page/marks.js');
-            const colours = { divergence: 'divergence', flutter: 'flutter', standing: 'standing' };
-            const strokes = [];
-            const context = {
-                beginPath() { strokes.push({ colour: this.strokeStyle, places: [] }); },
-                moveTo(x, y) { strokes.at(-1).places.push([x, y]); },
-                lineTo(x, y) { strokes.at(-1).places.push([x, y]); },
-                stroke() {},
-            };
-            const rpm = [5, 15, 25, 35, 45];
-            const report = {
-                terms: [],
-                campbell: { branches: [
-                    { branch: 1, rpm, growth_per_s: [0, 1, 1, 0, 0] },
-                    { branch: 2, rpm, growth_per_s: [0, 0, 2, 2, 0] },
-                ] },
-                instabilities: [
-                    { kind: 'flutter', from_rpm: 10, to_rpm: 30, branches: [1] },
-                    { kind: 'divergence', from_rpm: 20, to_rpm: 40, branches: [2] },
-                ],
-            };
-            const same = (value) => value;
-            drawGrowth(context, same, same, report, colours, 1);
-            const kinds = ['flutter', 'divergence'].map((kind) => bandColour(colours, kind));
-            return strokes.map(({ colour, places }) => [kinds.indexOf(colour), places[0][0], places.at(-1)[0]]);
-        }",
-            )
-            .await;
-        assert_eq!(drawn, json!([[0, 10, 30], [1, 20, 40]]));
+        page.settle().await;
+        page.script(
+            "window.written = []; \
+            const own = CanvasRenderingContext2D.prototype.fillText; \
+            CanvasRenderingContext2D.prototype.fillText = function (text, ...at) { \
+                written.push(text); return own.call(this, text, ...at); };",
+        )
+        .await;
+        page.enter("blade.thickness_m", "2.9").await;
+        page.settle().await;
+        let critical = "sawflutter.report().critical_speeds[0].rpm.toFixed(0)";
+        let band = "sawflutter.report().instabilities[0]";
+        for text in [
+            critical.to_owned(),
+            format!(
+                "{band}.kind + ' ' + {band}.from_rpm.toFixed(0) + '–' + {band}.to_rpm.toFixed(0)"
+            ),
+            "'operating 1800'".to_owned(),
+        ] {
+            let found = format!("written.includes({text})");
+            assert_eq!(page.value(&found).await, json!(true), "{text}");
+        }
         page.close().await;
     });
 }

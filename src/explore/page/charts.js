@@ -1,21 +1,22 @@
-// The Campbell diagram and the growth rates: panels by panel.js, marks by marks.js.
+// The Campbell diagram and the growth rates, as the program describes them: panels by panel.js, items by marks.js.
 
 import { nearest, samePoint, walked } from "./branches.js";
-import { drawGrowth } from "./growth.js";
-import {
-  bandColour, drawBands, drawBranches, drawMeasured, highestShown, labelEnds, verticalLine,
-} from "./marks.js";
-import { plot, roundGrowth } from "./panel.js";
+import { node } from "./dom.js";
+import { Painter } from "./marks.js";
+import { plot, splitsOf } from "./panel.js";
+import { shown } from "./words.js";
 
 // No shorter stretch of the sweep is shown.
 const LEAST_STRETCH = 1e-3;
+// Labels of bands.
+const ROWS = 2;
+const ROW_PX = 14;
 
 export class Charts {
-  report = null;
-  // Whether its saw can run at its speed, in the program's word.
-  #answer = null;
+  // The chart, its figure and its report, as the program sends them.
+  #chart = null;
   pinned = null;
-  // Another report that is shown beside this one, on the same axes.
+  // Another chart that is shown beside this one, on the same axes.
   #other = null;
   width = 600;
   // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
@@ -31,16 +32,18 @@ export class Charts {
     const room = () => (narrow() ? 20 : this.width < 700 ? 108 : 150);
     this.campbell = plot(campbellPlace, {
       height: 380, label: "Frequency in space [Hz]", room: () => room(), xLabel: null,
-      yRange: () => [0, Math.max(...this.#shown.map(highestShown), 0) || 1],
+      yRange: () => this.#range(0),
       draw: (u) => this.#drawCampbell(u, narrow()),
     });
     this.growth = plot(growthPlace, {
-      height: 170, label: "Re λ [1/s]", splits: roundGrowth, room: () => room(), xLabel: "Rotation speed [rpm]",
-      yRange: () => this.#growthRange(),
+      height: 170, label: "Re λ [1/s]", splits: (_, __, least, most) => splitsOf(this.#isRooted, least, most), room: () => room(), xLabel: "Rotation speed [rpm]",
+      tick: (value) => (this.#isRooted ? value * Math.abs(value) : value), yRange: () => this.#growthRange(),
       draw: (u) => this.#drawGrowth(u),
     });
     this.setColours(colours);
     this.places = [campbellPlace, growthPlace];
+    this.readout = node("span", { className: "at" });
+    campbellPlace.append(this.readout);
     this.#follow(campbellPlace);
     for (const { chart } of [this.campbell, this.growth]) this.#zoomTogether(chart);
     new ResizeObserver(() => this.resize()).observe(campbellPlace);
@@ -59,7 +62,7 @@ export class Charts {
     this.width = width;
     const tall = Math.round(Math.min(Math.max(innerHeight * 0.46, 260), 470));
     this.campbell.chart.setSize({ width, height: width < 480 ? 270 : tall });
-    this.growth.chart.setSize({ width, height: 165 });
+    this.growth.chart.setSize({ width, height: 190 });
   }
 
   // Shows or hides the measured points.
@@ -68,29 +71,58 @@ export class Charts {
     this.redraw();
   }
 
-  show(report, answer, pinned) {
-    this.report = report;
-    this.#answer = answer;
+  show(chart, pinned) {
+    this.#chart = chart;
     this.pinned = pinned;
-    this.pointed &&= samePoint(report, this.pointed);
+    this.pointed &&= samePoint(this.report, this.pointed);
     this.redraw();
   }
 
-  // Drawn with the next report.
+  get report() {
+    return this.#chart?.report ?? null;
+  }
+
+  // Drawn with the next chart.
   shareAxes(other, stretch = this.#zoom) {
     this.#other = other;
     this.#zoom = stretch;
   }
 
-  // Reports that the axes have room for.
-  get #shown() {
-    return [this.report, this.#other].filter((report) => report !== null);
+  // The same panel of each chart that the axes have room for.
+  #panels(number) {
+    return [this.#chart, this.#other].filter((chart) => chart !== null).map(({ figure }) => figure.panels[number]);
   }
+
+  // The vertical axis of a panel.
+  #range(number) {
+    const ranges = this.#panels(number).map(({ y }) => y.range);
+    return ranges.length ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : [0, 1];
+  }
+
+  // Whether growth rates stand on a root scale: divergence may grow thirty times as fast as the flutter beside it.
+  get #isRooted() {
+    return this.#panels(1).some(({ y }) => y.spread === "signed_root");
+  }
+
+  // Rows of labels of bands above the curves of growth.
+  get #rows() {
+    return Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
+  }
+
+  // The axis of growth rates, with room for the labels of bands.
+  #growthRange() {
+    const [least, most] = this.#range(1).map(this.#height);
+    const room = this.#chart ? (this.#rows * ROW_PX * devicePixelRatio) / this.growth.chart.bbox.height : 0;
+    return [least, least + (most - least) / (1 - Math.min(room, 0.5))];
+  }
+
+  // Where a growth rate stands on its axis.
+  #height = (rate) => (this.#isRooted ? Math.sign(rate) * Math.sqrt(Math.abs(rate)) : rate);
 
   // From the first to the last speed that is swept.
   get #sweep() {
-    const sweeps = this.#shown.map(({ campbell }) => campbell);
-    return [Math.min(...sweeps.map((s) => s.from_rpm)), Math.max(...sweeps.map((s) => s.to_rpm))];
+    const sweeps = this.#panels(0).map(({ x }) => x.range);
+    return [Math.min(...sweeps.map((s) => s[0])), Math.max(...sweeps.map((s) => s[1]))];
   }
 
   // The speeds that are shown.
@@ -104,7 +136,7 @@ export class Charts {
   }
 
   redraw() {
-    if (!this.report) return;
+    if (!this.#chart) return;
     for (const part of [this.campbell, this.growth]) part.setRange(this.speeds);
   }
 
@@ -148,135 +180,58 @@ export class Charts {
     this.zoom([about + factor * (from - about), about + factor * (to - about)]);
   }
 
-  // How far the growth axis goes, on a root scale: divergence grows thirty times as fast as
-  // the flutter beside it.
-  #growthRange() {
-    if (!this.report) return [0, 1];
-    const damped = this.#shown.some(({ terms }) => terms.some((term) => term.includes("damping")));
-    const peaks = this.#shown.flatMap(({ instabilities }) => instabilities.map((band) => band.peak_growth_per_s));
-    const all = this.#shown.flatMap(({ campbell }) => campbell.branches.flatMap((b) => b.growth_per_s));
-    const most = [...peaks, ...all].reduce((x, y) => Math.max(x, y), 1);
-    const least = damped ? all.reduce((x, y) => Math.min(x, y), 0) : 0;
-    return [Math.max(rooted(least), -rooted(most)), 1.08 * rooted(most)];
+  #painter(u, height = (/** @type {number} */ value) => value) {
+    const [x, y] = [(value) => u.valToPos(value, "x", true), (value) => u.valToPos(height(value), "y", true)];
+    return new Painter(u.ctx, { x, y, box: u.bbox, scale: devicePixelRatio, colours: this.colours });
+  }
+
+  get #alarms() {
+    return ["flutter", "divergence"].includes(this.#chart.told.answer);
   }
 
   #drawCampbell(u, narrow) {
-    if (!this.report) return;
-    const { ctx, bbox: box } = u;
-    const scale = devicePixelRatio;
-    const x = (value) => u.valToPos(value, "x", true);
-    const place = (rpm, hz) => [x(rpm), u.valToPos(hz, "y", true)];
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(box.left, box.top, box.width, box.height);
-    ctx.clip();
-    drawBands(ctx, x, box, this.report, this.colours, scale);
-    this.#drawSpeeds(ctx, x, box, scale);
-    const top = u.scales.y.max;
-    if (this.pinned) drawBranches(ctx, place, this.pinned, this.colours, { scale, top, ghost: true });
-    drawBranches(ctx, place, this.report, this.colours, { scale, top, highlighted: this.pointed?.branch });
-    if (this.measured && this.report.scene.measured) drawMeasured(ctx, place, this.report.scene.measured, this.colours, scale);
-    this.#drawExcitation(ctx, place, scale);
-    this.#dotCritical(ctx, place, scale);
-    this.#drawSpot(ctx, place, scale);
-    ctx.restore();
-    if (!narrow && !this.#zoom) labelEnds(ctx, place, box, this.report, this.colours, scale);
-  }
-
-  #drawSpeeds(ctx, x, box, scale) {
-    const { critical_speeds, operating } = this.report;
-    for (const { rpm } of critical_speeds) verticalLine(ctx, x(rpm), box, this.colours.quiet, 0.8 * scale);
-    if (this.pinned?.critical_speeds.length) {
-      verticalLine(ctx, x(this.pinned.critical_speeds[0].rpm), box, this.colours.standing, scale, [1, 3]);
-    }
-    if (operating) {
-      const colour = ["flutter", "divergence"].includes(this.#answer) ? this.colours.alarm : this.colours.ink;
-      verticalLine(ctx, x(operating.rpm), box, colour, 1.6 * scale, []);
-    }
-  }
-
-  // Lines at multiples of the speed, and rings where they cross branches.
-  #drawExcitation(ctx, place, scale) {
-    const { excitation, campbell } = this.report;
-    if (!excitation) return;
-    ctx.strokeStyle = this.colours.quiet;
-    ctx.lineWidth = scale;
-    for (const { order } of excitation.lines) {
-      ctx.setLineDash([4 * scale, 4 * scale]);
-      ctx.beginPath();
-      ctx.moveTo(...place(campbell.from_rpm, (order * campbell.from_rpm) / 60));
-      ctx.lineTo(...place(campbell.to_rpm, (order * campbell.to_rpm) / 60));
-      ctx.stroke();
-    }
-    ctx.setLineDash([]);
-    for (const { rpm, frequency_hz } of excitation.crossings) {
-      ctx.beginPath();
-      ctx.arc(...place(rpm, frequency_hz), 3 * scale, 0, 2 * Math.PI);
-      ctx.stroke();
-    }
-  }
-
-  #dotCritical(ctx, place, scale) {
-    ctx.fillStyle = this.colours.ink;
-    for (const { rpm } of this.report.critical_speeds) {
-      const [x, y] = place(rpm, 0);
-      ctx.beginPath();
-      ctx.arc(x, y, 3.5 * scale, 0, 2 * Math.PI);
-      ctx.fill();
-    }
-  }
-
-  #drawSpot(ctx, place, scale) {
-    if (!this.pointed) return;
-    const { branch, i } = this.pointed;
-    const [x, y] = place(branch.rpm[i], branch.frequency_hz[i]);
-    ctx.strokeStyle = this.colours.ink;
-    ctx.lineWidth = 2 * scale;
-    ctx.beginPath();
-    ctx.arc(x, y, 6 * scale, 0, 2 * Math.PI);
-    ctx.stroke();
+    if (!this.#chart) return;
+    const [painter, { items }] = [this.#painter(u), this.#chart.figure.panels[0]];
+    painter.within(() => {
+      painter.bands(items);
+      painter.uprights(items, this.#alarms);
+      const lowest = this.pinned?.report.critical_speeds[0];
+      if (lowest) painter.upright(lowest.rpm, this.colours.standing, 1, [1, 3]);
+      if (this.pinned) painter.lines(this.pinned.figure.panels[0].items, { ghost: true });
+      painter.lines(items, { highlighted: this.pointed?.branch.branch });
+      const source = this.measured ? null : this.report.scene.measured?.source;
+      painter.points(items.filter(({ name }) => name !== source));
+      if (this.pointed) painter.ring(this.pointed.branch.rpm[this.pointed.i], this.pointed.branch.frequency_hz[this.pointed.i], 6);
+    });
+    painter.labelUprights(items);
+    if (!narrow && !this.#zoom) painter.labelEnds(items);
   }
 
   #drawGrowth(u) {
-    if (!this.report) return;
-    const { ctx, bbox: box } = u;
-    const scale = devicePixelRatio;
-    const x = (value) => u.valToPos(value, "x", true);
-    const y = (value) => u.valToPos(rooted(value), "y", true);
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(box.left, box.top, box.width, box.height);
-    ctx.clip();
-    drawBands(ctx, x, box, this.report, this.colours, scale);
-    this.#drawSpeeds(ctx, x, box, scale);
-    drawGrowth(ctx, x, y, this.report, this.colours, scale);
-    for (const band of this.report.instabilities) {
-      ctx.fillStyle = bandColour(this.colours, band.kind);
-      ctx.beginPath();
-      ctx.arc(x(band.peak_rpm), y(band.peak_growth_per_s), 2.75 * scale, 0, 2 * Math.PI);
-      ctx.fill();
-    }
-    ctx.restore();
-    if (this.report.instabilities.length === 0) {
-      const words = "Stable at every speed of the sweep";
-      const [left, middle] = [box.left + 10 * scale, box.top + box.height / 2];
-      ctx.font = `${12 * scale}px Inter, sans-serif`;
-      ctx.textAlign = "left";
-      ctx.textBaseline = "middle";
-      ctx.fillStyle = this.colours.paper;
-      ctx.fillRect(left - 4 * scale, middle - 9 * scale, ctx.measureText(words).width + 8 * scale, 18 * scale);
-      ctx.fillStyle = this.colours.quiet;
-      ctx.fillText(words, left, middle);
-    }
+    if (!this.#chart) return;
+    const [painter, { items, note }] = [this.#painter(u, this.#height), this.#chart.figure.panels[1]];
+    painter.within(() => {
+      painter.bands(items);
+      painter.uprights(items, this.#alarms);
+      painter.lines(items);
+      painter.points(items);
+    });
+    painter.labelBands(items, this.#rows, ROW_PX);
+    if (note) painter.note(note);
   }
 
   // The branch next to the pointer, or the one that the arrow keys have come to.
   #follow(element) {
     const over = this.campbell.chart.over;
     over.addEventListener("pointermove", (event) => {
+      const [rpm, hz] = [this.campbell.chart.posToVal(event.offsetX, "x"), this.campbell.chart.posToVal(event.offsetY, "y")];
+      this.readout.textContent = `${Math.round(rpm)} rpm, ${shown(hz, 3)} Hz`;
       if (event.buttons === 0) this.#point(this.report && nearest(this.report, this.campbell.chart, [event.offsetX, event.offsetY]));
     });
-    over.addEventListener("pointerleave", () => this.#point(null));
+    over.addEventListener("pointerleave", () => {
+      this.readout.textContent = "";
+      this.#point(null);
+    });
     element.addEventListener("blur", () => this.#point(null));
     element.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
@@ -299,8 +254,4 @@ export class Charts {
     this.campbell.chart.redraw(false, false);
     this.onHover(found);
   }
-}
-
-function rooted(value) {
-  return Math.sign(value) * Math.sqrt(Math.abs(value));
 }

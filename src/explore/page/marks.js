@@ -1,9 +1,8 @@
-// How things are drawn: the colours of the figures, lighter on a dark page, and the marks of
-// a Campbell diagram on a canvas.
+// How things are drawn: the colours of the figures, lighter on a dark page, and the items of a chart on a canvas.
 
-export const NEGLIGIBLE_PER_S = 1e-3;
 const DASH = [6, 4];
 const FINE_DASH = [4, 4];
+const FONT = "Inter, Helvetica, Arial, sans-serif";
 const DARK_PAPER = [22, 25, 30];
 const WHITE = [255, 255, 255];
 
@@ -36,155 +35,210 @@ export function publish(colours, onPaper) {
   return chosen;
 }
 
-export function waveColour(colours, direction) {
-  return direction === "forward" ? colours.forward : direction === "standing" ? colours.standing : colours.backward;
-}
-
-export const bandColour = (colours, kind) => (kind === "flutter" ? colours.flutter : colours.divergence);
-
-// What a stretch of a branch between two samples looks like, as in the figures.
-function lookOf(report, branch, i) {
-  const middle = 0.5 * (branch.rpm[i] + branch.rpm[i + 1]);
-  const grows = branch.growth_per_s[i] > NEGLIGIBLE_PER_S || branch.growth_per_s[i + 1] > NEGLIGIBLE_PER_S;
-  const inside = grows && report.instabilities.some((band) => band.from_rpm <= middle && middle <= band.to_rpm);
-  if (inside) return "unstable";
-  return branch.krein_sign[i] < 0 || branch.krein_sign[i + 1] < 0 ? "reflected" : "plain";
-}
-
-export function stretches(report, branch) {
-  const all = [];
-  for (let i = 0; i + 1 < branch.rpm.length; i++) {
-    const look = lookOf(report, branch, i);
-    // Guides let waves stand at rest, whatever they do from there on.
-    const direction = branch.direction[i + 1];
-    const last = all.at(-1);
-    if (last?.look === look && last.direction === direction) last.to = i + 1;
-    else all.push({ look, direction, from: i, to: i + 1 });
+// Items of the program's description of a chart, on one of its panels. `x` and `y` are the places of values on the
+// canvas, `box` is the panel there, and `scale` is the number of its pixels to one of the page.
+export class Painter {
+  constructor(context, { x, y, box, scale, colours }) {
+    this.context = context;
+    this.x = x;
+    this.y = y;
+    this.box = box;
+    this.scale = scale;
+    this.colours = colours;
   }
-  return all;
-}
 
-// Highest frequency worth showing, as in the figures.
-export function highestShown(report) {
-  const { branches, from_rpm, complete_to_hz } = report.campbell;
-  const atRest = branches.filter((b) => b.rpm[0] === from_rpm).map((b) => b.frequency_hz[0]);
-  const lowest = atRest.sort((x, y) => x - y).slice(0, 6);
-  const reflected = branches.flatMap((b) => b.frequency_hz.filter((_, i) => b.krein_sign[i] < 0));
-  const bands = report.instabilities.map((band) => band.frequency_hz);
-  const measured = (report.scene.measured?.rows ?? []).flatMap((row) => row.frequencies_hz.filter((hz) => hz !== null));
-  const wanted = 1.1 * [...lowest, ...reflected, ...bands, ...measured].reduce((x, y) => Math.max(x, y), 0);
-  const top = Math.min(wanted, complete_to_hz > 0 ? complete_to_hz : Infinity);
-  return top > 0 ? top : 1;
-}
-
-// What lies above the panel is not drawn: of a damped saw that is most of it.
-function trace(context, place, branch, from, to, top) {
-  const at = (i) => place(branch.rpm[i], branch.frequency_hz[i]);
-  let goesOn = false;
-  context.beginPath();
-  for (let i = from; i < to; i++) {
-    const isAbove = Math.min(branch.frequency_hz[i], branch.frequency_hz[i + 1]) > top;
-    if (!isAbove && !goesOn) context.moveTo(...at(i));
-    if (!isAbove) context.lineTo(...at(i + 1));
-    goesOn = !isAbove;
+  // What is drawn within the panel.
+  within(draw) {
+    this.context.save();
+    this.context.beginPath();
+    this.context.rect(this.box.left, this.box.top, this.box.width, this.box.height);
+    this.context.clip();
+    draw();
+    this.context.restore();
   }
-  context.stroke();
-}
 
-// `top` is the frequency at the upper end of the panel.
-export function drawBranches(context, place, report, colours, { scale, top, highlighted = undefined, ghost = false }) {
-  // From the highest down, so that the lowest lie on top.
-  for (const branch of [...report.campbell.branches].reverse()) {
-    const strong = branch === highlighted ? 1.6 : 0;
-    context.globalAlpha = ghost ? 0.45 : 1;
-    for (const { look, direction, from, to } of stretches(report, branch)) {
-      context.strokeStyle = ghost ? colours.standing : waveColour(colours, direction);
-      context.lineWidth = (ghost ? 1 : look === "unstable" ? 3.4 : 1.6 + strong) * scale;
-      context.setLineDash(look === "reflected" ? DASH.map((d) => d * scale) : []);
-      trace(context, place, branch, from, to, top);
+  // Narrow bands last: a wide one must not hide them.
+  bands(items) {
+    const stretches = items.filter(({ item }) => item === "band").flatMap((band) => band.shaded.map((ends) => ({ band, ends: ends.map(this.x) })));
+    for (const narrow of [false, true]) {
+      for (const { band, ends: [left, right] } of stretches) {
+        if (right - left < 2 * this.scale !== narrow) continue;
+        this.context.fillStyle = this.colours[narrow ? band.streak : band.shade];
+        this.context.fillRect(left, this.box.top, Math.max(right - left, 1.2 * this.scale), this.box.height);
+      }
     }
   }
-  context.globalAlpha = 1;
-  context.setLineDash([]);
-}
 
-export function drawBands(context, x, box, report, colours, scale) {
-  for (const band of report.instabilities) {
-    const [left, right] = [x(band.from_rpm), x(band.to_rpm)];
-    const narrow = right - left < 2 * scale;
-    context.fillStyle = colours[`${band.kind}_${narrow ? "streak" : "shade"}`];
-    context.fillRect(left, box.top, Math.max(right - left, 1.2 * scale), box.height);
+  upright(at, colour, width, dash) {
+    const x = this.x(at);
+    this.#stroke(colour, width, dash);
+    this.context.beginPath();
+    this.context.moveTo(x, this.box.top);
+    this.context.lineTo(x, this.box.top + this.box.height);
+    this.context.stroke();
+  }
+
+  uprights(items, alarm) {
+    for (const { x, role, colour, dashed } of items.filter(({ item }) => item === "upright")) {
+      const operating = role === "operating";
+      this.upright(x, this.colours[operating && alarm ? "alarm" : colour], operating ? 1.6 : 0.8, dashed ? FINE_DASH : []);
+    }
+  }
+
+  // The branch of a number is thicker. A saw that another is held against is grey, and its branches alone are drawn.
+  lines(items, { highlighted = null, ghost = false } = {}) {
+    for (const line of items) {
+      if (line.item !== "line" || (ghost && line.branch === null)) continue;
+      const strong = line.branch !== null && line.branch === highlighted && line.width < 3 ? 1.6 : 0;
+      this.context.globalAlpha = ghost ? 0.45 : line.tint;
+      const dash = line.width > 1 ? DASH : FINE_DASH;
+      this.#stroke(this.colours[ghost ? "standing" : line.colour], ghost ? 1 : line.width + strong, line.dashed ? dash : []);
+      this.#trace(line);
+    }
+    this.context.globalAlpha = 1;
+    this.context.setLineDash([]);
+  }
+
+  #stroke(colour, width, dash = []) {
+    this.context.strokeStyle = colour;
+    this.context.lineWidth = width * this.scale;
+    this.context.setLineDash(dash.map((d) => d * this.scale));
+  }
+
+  // What lies above the panel is not drawn: of a damped saw that is most of it. A line is interrupted by null.
+  #trace({ x, y }) {
+    let goesOn = false;
+    this.context.beginPath();
+    for (let i = 0; i + 1 < x.length; i++) {
+      const isSeen = x[i] !== null && x[i + 1] !== null && Math.max(this.y(y[i]), this.y(y[i + 1])) >= this.box.top;
+      if (isSeen && !goesOn) this.context.moveTo(this.x(x[i]), this.y(y[i]));
+      if (isSeen) this.context.lineTo(this.x(x[i + 1]), this.y(y[i + 1]));
+      goesOn = isSeen;
+    }
+    this.context.stroke();
+  }
+
+  points(items) {
+    for (const { x, y, colour, size, hollow } of items.filter(({ item }) => item === "points")) {
+      this.#stroke(this.colours[colour], 0.2 * size);
+      this.context.fillStyle = this.colours[hollow ? "paper" : colour];
+      x.forEach((at, i) => {
+        this.context.beginPath();
+        this.context.arc(this.x(at), this.y(y[i]), 0.5 * size * this.scale, 0, 2 * Math.PI);
+        this.context.fill();
+        if (hollow) this.context.stroke();
+      });
+    }
+  }
+
+  ring(at, height, radius) {
+    this.#stroke(this.colours.ink, 2);
+    this.context.beginPath();
+    this.context.arc(this.x(at), this.y(height), radius * this.scale, 0, 2 * Math.PI);
+    this.context.stroke();
+  }
+
+  #letters(colour, align, size = 11) {
+    this.context.font = `${size * this.scale}px ${FONT}`;
+    this.context.textAlign = align;
+    this.context.textBaseline = "middle";
+    this.context.fillStyle = colour;
+  }
+
+  #has(at) {
+    return this.x(at) >= this.box.left && this.x(at) <= this.box.left + this.box.width;
+  }
+
+  // What is said where there is nothing to be seen.
+  note(words) {
+    const [left, middle] = [this.box.left + 10 * this.scale, this.box.top + this.box.height / 2];
+    this.#letters(this.colours.paper, "left", 12);
+    this.context.fillRect(left - 4 * this.scale, middle - 9 * this.scale, this.context.measureText(words).width + 8 * this.scale, 18 * this.scale);
+    this.context.fillStyle = this.colours.quiet;
+    this.context.fillText(words, left, middle);
+  }
+
+  // Labels of upright lines above the panel or below its upper edge, on paper; the operating speed first; those
+  // without room are left out.
+  labelUprights(items) {
+    const { context, scale } = this;
+    const taken = [];
+    const uprights = items.filter(({ item, x }) => item === "upright" && this.#has(x));
+    const isLater = ({ role }) => Number(role !== "operating");
+    for (const { x, label } of uprights.sort((a, b) => isLater(a) - isLater(b))) {
+      this.#letters(this.colours.ink, "center");
+      const half = context.measureText(label).width / 2 + 3 * scale;
+      const [left, right] = [this.x(x) - half, this.x(x) + half];
+      const isFree = (row) => !taken.some((other) => other.row === row && other.left < right && left < other.right);
+      const row = [-8, 8].find(isFree);
+      if (row === undefined) continue;
+      taken.push({ row, left, right });
+      const middle = this.box.top + row * scale;
+      context.fillStyle = this.colours.paper;
+      if (row > 0) context.fillRect(left, middle - 7 * scale, right - left, 14 * scale);
+      context.fillStyle = this.colours.ink;
+      context.fillText(label, this.x(x), middle);
+    }
+  }
+
+  // Labels of bands in rows at the top of the panel, beside their bands, the fastest growing first; those without room
+  // are left out.
+  labelBands(items, rows, height) {
+    const taken = [];
+    const shown = items.filter((band) => band.item === "band" && band.shaded.length > 0 && (this.#has(band.to) || this.#has(band.from)));
+    for (const band of shown.sort((a, b) => b.peak_growth_per_s - a.peak_growth_per_s)) {
+      this.#letters(this.colours[band.colour], "left");
+      const [width, gap] = [this.context.measureText(band.label).width, 5 * this.scale];
+      const sides = [this.x(band.to) + gap, this.x(band.from) - gap - width];
+      const places = Array.from({ length: rows }, (_, row) => sides.map((left) => ({ left, right: left + width, row }))).flat();
+      const free = places.find(({ left, right, row }) => left >= this.box.left && right <= this.context.canvas.width
+        && !taken.some((other) => other.row === row && other.left < right + gap && left < other.right + gap));
+      if (!free) continue;
+      taken.push(free);
+      this.context.fillText(band.label, free.left, this.box.top + height * (0.6 + free.row) * this.scale);
+    }
+  }
+
+  // Names at the right ends of lines, pushed apart; those without room are left out.
+  labelEnds(items) {
+    const { context, box, scale } = this;
+    const height = 13 * scale;
+    const labels = items
+      .filter((line) => line.item === "line" && line.end !== "")
+      .map((line) => ({ line, end: this.y(line.y.at(-1)), at: 0 }))
+      .filter(({ end }) => end >= box.top && end <= box.top + box.height)
+      .sort((a, b) => a.end - b.end);
+    let free = box.top - height / 2;
+    for (const label of labels) {
+      label.at = Math.max(label.end, free + height);
+      free = label.at;
+    }
+    let limit = box.top + box.height + height / 2;
+    for (const label of [...labels].reverse()) {
+      label.at = Math.min(label.at, limit);
+      limit = label.at - height;
+    }
+    const right = box.left + box.width;
+    for (const { line, end, at } of labels) {
+      if (Math.abs(at - end) > 60 * scale || at < box.top - height) continue;
+      const colour = this.colours[line.colour];
+      this.#letters(colour, "left");
+      context.fillText(fitted(context, line.end, context.canvas.width - right - 16 * scale), right + 14 * scale, at);
+      this.#stroke(colour, 1);
+      context.globalAlpha = 0.5;
+      context.beginPath();
+      context.moveTo(right + 2 * scale, end);
+      context.lineTo(right + 12 * scale, at);
+      context.stroke();
+      context.globalAlpha = 1;
+    }
   }
 }
 
-export function verticalLine(context, at, box, colour, scale, dash = FINE_DASH) {
-  context.strokeStyle = colour;
-  context.lineWidth = scale;
-  context.setLineDash(dash.map((d) => d * scale));
-  context.beginPath();
-  context.moveTo(at, box.top);
-  context.lineTo(at, box.top + box.height);
-  context.stroke();
-  context.setLineDash([]);
-}
-
-// Names at the right ends of the branches, pushed apart; those without room are left out.
 // As much of a text as there is room for.
 function fitted(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let cut = text.length - 1;
   while (cut > 1 && context.measureText(`${text.slice(0, cut)}…`).width > room) cut -= 1;
   return `${text.slice(0, cut).trimEnd()}…`;
-}
-
-export function labelEnds(context, place, box, report, colours, scale) {
-  const height = 13 * scale;
-  const labels = report.campbell.branches
-    .filter((branch) => branch.rpm.at(-1) >= report.campbell.to_rpm * (1 - 1e-9))
-    .map((branch) => ({ branch, end: place(branch.rpm.at(-1), branch.frequency_hz.at(-1))[1] }))
-    .filter(({ end }) => end >= box.top && end <= box.top + box.height)
-    .sort((x, y) => x.end - y.end);
-  let free = box.top - height / 2;
-  for (const label of labels) {
-    label.at = Math.max(label.end, free + height);
-    free = label.at;
-  }
-  let limit = box.top + box.height + height / 2;
-  for (const label of [...labels].reverse()) {
-    label.at = Math.min(label.at, limit);
-    limit = label.at - height;
-  }
-  context.font = `${11 * scale}px Inter, Helvetica, Arial, sans-serif`;
-  context.textAlign = "left";
-  context.textBaseline = "middle";
-  const right = box.left + box.width;
-  for (const { branch, end, at } of labels) {
-    if (Math.abs(at - end) > 60 * scale || at < box.top - height) continue;
-    const colour = waveColour(colours, branch.direction.at(-1));
-    context.fillStyle = colour;
-    context.fillText(fitted(context, branch.label, context.canvas.width - right - 16 * scale), right + 14 * scale, at);
-    context.strokeStyle = colour;
-    context.globalAlpha = 0.5;
-    context.lineWidth = scale;
-    context.beginPath();
-    context.moveTo(right + 2 * scale, end);
-    context.lineTo(right + 12 * scale, at);
-    context.stroke();
-    context.globalAlpha = 1;
-  }
-}
-
-export function drawMeasured(context, place, measured, colours, scale) {
-  context.strokeStyle = colours.ink;
-  context.fillStyle = colours.paper;
-  context.lineWidth = 1.2 * scale;
-  for (const row of measured.rows) {
-    for (const frequency of row.frequencies_hz.filter((hz) => hz !== null)) {
-      const [x, y] = place(row.rpm, frequency);
-      context.beginPath();
-      context.arc(x, y, 3 * scale, 0, 2 * Math.PI);
-      context.fill();
-      context.stroke();
-    }
-  }
 }

@@ -7,18 +7,25 @@ const { uPlot } = /** @type {any} */ (globalThis);
 
 const FONT = "12px Inter, Helvetica, Arial, sans-serif";
 
-function axis(label, size, splits) {
-  const values = (_, places) => places.map((v) => shown(splits ? v * Math.abs(v) : v, 4).replace("-", "−"));
+function axis(label, size, splits, tick = (/** @type {number} */ value) => value) {
+  const values = (_, places) => places.map((v) => shown(tick(v), 4).replace("-", "−"));
   return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
 }
 
-// Growth rates stand on a root scale. Round ones are marked, as far apart as can be read.
+// Round values on an axis from the least to the most, as far apart as can be read. On a root scale these are roots.
 const ROUND = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000];
-export function roundGrowth(_, __, least, most) {
+export function splitsOf(rooted, least, most) {
+  const apart = 0.16 * (most - least);
+  if (!rooted) {
+    const ten = 10 ** Math.floor(Math.log10(apart));
+    const step = ten * ([1, 2, 5].find((digit) => digit * ten >= apart) ?? 10);
+    const first = Math.ceil(least / step);
+    return Array.from({ length: Math.floor(most / step) - first + 1 }, (_, k) => (first + k) * step);
+  }
   const marked = [0];
   let last = 0;
   for (const root of ROUND.map(Math.sqrt)) {
-    if (root - last < 0.16 * (most - least)) continue;
+    if (root - last < apart) continue;
     if (root <= most) marked.push(root);
     if (-root >= least) marked.unshift(-root);
     last = root;
@@ -28,16 +35,16 @@ export function roundGrowth(_, __, least, most) {
 
 // uPlot wants a series to spread its axes over; the branches have speeds of their own and are
 // drawn by hand.
-export function plot(place, { height, label, splits = undefined, yRange, draw, room, xLabel }) {
+export function plot(place, { height, label, splits = undefined, tick = undefined, yRange, draw, room, xLabel }) {
   let range = null;
   const options = {
     width: 600,
     height,
-    padding: [10, room, 0, 0],
+    padding: [18, room, 0, 0],
     legend: { show: false },
     cursor: { drag: { x: true, y: false }, y: false, points: { show: false } },
     scales: { x: { time: false, range: () => range ?? [0, 1] }, y: { range: () => yRange() } },
-    axes: [axis(xLabel, 28), axis(label, 46, splits)],
+    axes: [axis(xLabel, 28), axis(label, 46, splits, tick)],
     series: [{}, { show: true, stroke: "transparent", points: { show: false } }],
     hooks: { drawAxes: [draw] },
   };

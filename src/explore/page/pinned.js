@@ -48,12 +48,12 @@ export class Pinned {
   }
 
   // Both saws on the same axes, or the present one alone.
-  showWith({ report, told }, beside) {
+  showWith(chart, beside) {
     this.place.hidden = !beside;
     this.place.parentElement.classList.toggle("two", beside);
-    this.present.shareAxes(beside ? this.#chart.report : null);
+    this.present.shareAxes(beside ? this.#chart : null);
     // Side by side nothing lies over each other.
-    this.present.show(report, told.answer, !beside && this.isNamed && this.#differs(report) ? this.#chart.report : null);
+    this.present.show(chart, !beside && this.isNamed && this.#differs(chart.report) ? this.#chart : null);
     if (!beside) return;
     this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
       onHover: () => {},
@@ -62,8 +62,8 @@ export class Pinned {
     this.title.textContent = this.name;
     this.campbell.ariaLabel = `Campbell diagram of ${this.name}`;
     this.#charts.resize();
-    this.#charts.shareAxes(report, this.present.stretch);
-    this.#charts.show(this.#chart.report, this.#chart.told.answer, null);
+    this.#charts.shareAxes(chart, this.present.stretch);
+    this.#charts.show(this.#chart, null);
   }
 
   zoomed(speeds) {

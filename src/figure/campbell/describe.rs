@@ -11,6 +11,11 @@ use super::{facts, growth};
 use crate::report::{BranchEntry, Direction, Report};
 use crate::text::shown_to;
 
+/// What the line along the axis is.
+pub const WINDOW: &str = "window without instability";
+const WINDOW_TINT: f64 = 0.35;
+/// Half of it is seen where a painter cuts at the axis.
+const WINDOW_WIDTH: f64 = 7.0;
 const CRITICAL_SIZE: f64 = 7.0;
 const CROSSING_SIZE: f64 = 5.0;
 const MEASURED_SIZE: f64 = 6.0;
@@ -25,6 +30,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     let bands = bands.map(|band| Item::Band(Band::new(band, shown.rpm)));
     let marks: Vec<Item> = bands.chain(uprights(report)).collect();
     let mut upper = marks.clone();
+    upper.extend(safe_window(report));
     upper.extend(branches(report, said));
     upper.extend(excitation(report, shown));
     upper.extend(measured(report, said));
@@ -75,6 +81,18 @@ fn uprights(report: &Report) -> impl Iterator<Item = Item> {
         name: format!("operating speed {rpm:.0} rpm"),
     });
     critical.chain(operating).map(Item::Upright)
+}
+
+/// The window without instability around the operating speed, along the axis of speeds.
+fn safe_window(report: &Report) -> Option<Item> {
+    let ends = report.operating.as_ref()?.safe_window_rpm?;
+    let name = format!("{WINDOW}: {:.0} to {:.0} rpm", ends[0], ends[1]);
+    Some(Item::Line(Line {
+        tint: WINDOW_TINT,
+        width: WINDOW_WIDTH,
+        said: vec![name.replace(": ", "\n"); 2],
+        ..Line::new(ends.map(|rpm| [rpm, 0.0]), Hue::Ink, &name)
+    }))
 }
 
 /// Lines through the samples of a branch that look alike, each interrupted where another look begins: between two

@@ -12,7 +12,9 @@ const LABEL_INSET: f64 = 8.0;
 
 /// Writes the name of every line near its upper end.
 pub fn label(sheet: &mut Sheet, chart: &Chart) {
-    let lines = chart.lines().filter(|line| line.branch.is_none());
+    let lines = chart
+        .lines()
+        .filter(|line| line.dashed && line.branch.is_none());
     for line in lines {
         let parts = chart.upper_ground().parts(line);
         if let Some(ends) = parts.first().and_then(|part| part.first_chunk::<2>()) {

@@ -9,6 +9,7 @@ use super::super::style::{
     BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, shorten,
 };
 use super::band_labels::BandLabels;
+use super::describe::WINDOW;
 use super::view::left_out;
 use super::waves::{draw_measured_mark, measured_source};
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
@@ -67,6 +68,9 @@ fn draw_sample(key: &mut Key, stroke: Stroke, word: &str) {
 fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     let mut notes =
         vec!["at the lines, branch: nodal diameters/circles at its first speed".to_owned()];
+    if chart.lines().any(|line| line.name.starts_with(WINDOW)) {
+        notes.push(format!("grey along the axis: {WINDOW}"));
+    }
     let shown = chart.speed.values();
     notes.extend(left_out(chart.report, shown, labels.count()));
     if growth::hides_decay(chart.report) {

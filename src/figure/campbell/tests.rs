@@ -2,7 +2,8 @@ use super::super::canvas::Mark;
 use super::super::sample::{band, busy_report, empty_report};
 use super::super::tidy::{assert_tidy, assert_unstruck, texts};
 use super::*;
-use crate::report::CriticalSpeedEntry;
+use crate::figure::Hue;
+use crate::report::{CriticalSpeedEntry, InstabilityEntry};
 
 #[test]
 fn every_critical_speed_is_labelled() {
@@ -204,6 +205,40 @@ fn growth_is_drawn_within_the_bands_and_never_below_zero() {
         assert_eq!([curve[0], curve[curve.len() - 1]], ends);
         assert!(curve.iter().all(|[_, y]| *y <= zero));
     }
+}
+
+/// Branch 1 flutters from 10 to 30 rpm while branch 2 diverges from 20 to 40: each is drawn in the colour of its own band
+/// and from its own edges.
+#[test]
+fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
+    let mut report = busy_report();
+    report.campbell.branches.truncate(2);
+    for (k, growth) in [[0.0, 1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 2.0, 2.0, 0.0]]
+        .iter()
+        .enumerate()
+    {
+        let branch = &mut report.campbell.branches[k];
+        branch.branch = k + 1;
+        branch.rpm = vec![5.0, 15.0, 25.0, 35.0, 45.0];
+        branch.growth_per_s = growth.to_vec();
+    }
+    let bands = [
+        (InstabilityKind::Flutter, 10.0, 30.0, 1),
+        (InstabilityKind::Divergence, 20.0, 40.0, 2),
+    ];
+    let new = |(kind, from, to, branch)| InstabilityEntry {
+        branches: vec![branch],
+        ..band(kind, from, to, 1.0, 1.0)
+    };
+    report.instabilities = bands.map(new).into();
+    let data = chart(&report, false);
+    let drawn = data.panels[1].items.iter().filter_map(|item| match item {
+        Item::Line(line) => Some((line.colour, line.x[0], line.x[line.x.len() - 1])),
+        _ => None,
+    });
+    let drawn: Vec<_> = drawn.collect();
+    let expected = [(Hue::Flutter, 10.0, 30.0), (Hue::Divergence, 20.0, 40.0)];
+    assert_eq!(drawn, expected);
 }
 
 /// Every sample of a branch is a point of one of its lines, at the frequency of the report.
