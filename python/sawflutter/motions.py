@@ -160,11 +160,6 @@ class DeflectResults(Result, DeflectReport):
         ]
         return frame(rows)
 
-    def _chart(self, facts: str) -> Chart:
-        from .plot.histories import deflection
-
-        return deflection(self, facts)
-
     def _facts(self) -> str:
         jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
         return f"{self.force_n:g} N across the rim, {jumps}, {len(self.down.jumps)} while it falls"
@@ -175,11 +170,6 @@ class WashboardResults(Result, WashboardReport):
 
     command, table = "washboard", "modes"
     figure_names = pictures("washboard")
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.washboard import lobes
-
-        return lobes(self, facts)
 
     def _facts(self) -> str:
         least = self.critical_stiffness_n_per_m

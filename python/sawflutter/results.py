@@ -178,7 +178,7 @@ class CampbellResults(Result, CampbellReport):
         return table
 
     def root_loci_chart(self) -> Chart:
-        """The two modes that meet at the flutter speed, in the complex plane.
+        """The two modes that meet at the flutter speed, in the complex plane and over speed.
 
         Returns
         -------
@@ -192,9 +192,7 @@ class CampbellResults(Result, CampbellReport):
         >>> r.root_loci_chart().panels[0].x_name
         'Re λ [1/s]'
         """
-        from .plot.campbell import root_loci
-
-        return root_loci(self)
+        return self._described("root-loci", "no two modes meet within the sweep")
 
     def _read(self) -> None:
         know_bands(self.branches, self.bands)

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::axis::Spread;
+use super::axis::{Axis, Spread};
 use super::palette::Hue;
 use super::style::CURVE;
 
@@ -94,6 +94,16 @@ impl AxisData {
         Self { spread, ..self }
     }
 
+    /// From its first place on a sheet to its last.
+    pub(super) fn placed(&self, places: [f64; 2]) -> Axis {
+        Axis::new(self.range.unwrap_or([0.0, 1.0]), places, self.spread)
+    }
+
+    /// Name and unit as they are written on a sheet.
+    pub(super) fn title(&self) -> String {
+        format!("{}\u{2003}[{}]", self.name, self.unit)
+    }
+
     /// The axis of rotation speeds.
     pub(super) fn speed() -> Self {
         Self::new("rotation speed Ω", "rpm")
@@ -145,6 +155,8 @@ pub enum Role {
     Critical,
     /// The operating speed.
     Operating,
+    /// What its name says.
+    Guide,
 }
 
 /// A line over the height of the panel.
@@ -217,6 +229,8 @@ pub struct Points {
     pub y: Vec<f64>,
     /// Colour.
     pub colour: Hue,
+    /// Share of the colour, mixed with that of the paper.
+    pub tint: f64,
     /// Diameter on a figure 1200 wide.
     pub size: f64,
     /// Whether they are rings.
@@ -240,10 +254,29 @@ impl Points {
             x,
             y,
             colour,
+            tint: 1.0,
             size,
             hollow: false,
             name: name.to_owned(),
             said: Vec::new(),
         }
     }
+}
+
+/// Lines through samples that look alike, each interrupted where another look begins: between two
+/// samples as `look` says, not drawn where it says nothing.
+pub(super) fn lines_by_look<L: PartialEq>(
+    samples: usize,
+    look: impl Fn(usize) -> Option<L>,
+) -> Vec<(L, Vec<Option<usize>>)> {
+    let mut lines: Vec<(L, Vec<Option<usize>>)> = Vec::new();
+    for i in 0..samples.saturating_sub(1) {
+        let Some(look) = look(i) else { continue };
+        match lines.iter_mut().find(|(other, _)| *other == look) {
+            Some((_, line)) if line.last() == Some(&Some(i)) => line.push(Some(i + 1)),
+            Some((_, line)) => line.extend([None, Some(i), Some(i + 1)]),
+            None => lines.push((look, vec![Some(i), Some(i + 1)])),
+        }
+    }
+    lines
 }

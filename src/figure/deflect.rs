@@ -1,16 +1,21 @@
 //! Where the blade stands over speed, and the frequencies of small motions about that beside the linear
 //! Campbell diagram.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
+use super::axis::{Axis, draw_horizontal, draw_named, draw_vertical, proper_range};
 use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::clip;
+use super::chart_data::{
+    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
+};
 use super::key::Key;
+use super::paint::Ground;
+use super::palette::Hue;
 use super::style::{
-    ALARM, BACKWARD, BETWEEN_FACTS, Colour, DASH, DIVERGENCE_SHADE, FLUTTER_SHADE, FORWARD,
-    HAIRLINE, INK, PAPER, STANDING, STRONG_CURVE, tint,
+    ALARM, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK, PAPER,
+    STANDING, STRONG_CURVE, tint,
 };
 use super::{bands, heading};
 use crate::report::{DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry};
+use crate::text::shown_to;
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 1000;
@@ -25,8 +30,12 @@ const FREQUENCIES: Frame = Frame {
     bottom: 880.0,
     ..LEAN
 };
-const UP: Colour = FORWARD;
-const DOWN: Colour = BACKWARD;
+const UP: Hue = Hue::Forward;
+const DOWN: Hue = Hue::Backward;
+/// Size of the ring at a fold or bifurcation.
+const TURN_SIZE: f64 = 6.0;
+/// Share of the colour of the flat blade's branches.
+const FLAT_TINT: f64 = 0.6;
 /// The curve while the speed rises is drawn as much wider, so that both are seen where they are the same.
 const WIDER: f64 = STRONG_CURVE;
 const NARROWER: f64 = 1.4;
@@ -35,48 +44,115 @@ const SHOWN: usize = 6;
 
 pub fn sheet(report: &DeflectReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let speeds = [report.from_rpm, report.to_rpm];
-    let speed = Axis::new(speeds, [LEAN.left, LEAN.right], Spread::Linear);
-    bands::shade(
-        &mut sheet,
-        &speed,
-        report.instabilities.iter(),
-        &[LEAN, FREQUENCIES],
-    );
-    draw_lean(&mut sheet, report, &speed);
+    let data = chart(report);
+    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
+    let [lean, frequencies] = &data.panels[..] else {
+        return sheet;
+    };
+    let speed = lean.x.placed([LEAN.left, LEAN.right]);
+    let bands = report.instabilities.iter();
+    bands::shade(&mut sheet, &speed, bands, &[LEAN, FREQUENCIES]);
+    let deflection = lean.y.placed([LEAN.bottom, LEAN.top]);
+    draw_vertical(&mut sheet, &deflection, &LEAN, &lean.y.title());
+    let upper = Ground {
+        x: &speed,
+        y: &deflection,
+        frame: &LEAN,
+    };
+    upper.draw_lines(&mut sheet, &lean.items);
+    for (sweep, hue, ..) in sweeps(report) {
+        for jump in seen_jumps(report, sweep) {
+            draw_head(&mut sheet, jump, (&speed, &deflection), hue.colour());
+        }
+        if let Some(rpm) = sweep.valid_until_rpm {
+            let line = [LEAN.top, LEAN.bottom].map(|y| [speed.at(rpm), y]);
+            sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
+        }
+    }
+    upper.draw_points(&mut sheet, &lean.items);
     draw_horizontal(&mut sheet, &speed, LEAN.bottom, false);
-    draw_frequencies(&mut sheet, report, &speed);
+    let frequency = frequencies.y.placed([FREQUENCIES.bottom, FREQUENCIES.top]);
+    draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &frequencies.y.title());
+    let lower = Ground {
+        x: &speed,
+        y: &frequency,
+        frame: &FREQUENCIES,
+    };
+    lower.draw_lines(&mut sheet, &frequencies.items);
+    lower.draw_points(&mut sheet, &frequencies.items);
     draw_named(
         &mut sheet,
         &speed,
         FREQUENCIES.bottom,
-        "rotation speed Ω\u{2003}[rpm]",
+        &frequencies.x.title(),
     );
     draw_key(&mut sheet);
     sheet
 }
 
-fn facts(report: &DeflectReport) -> String {
+/// Where the blade stands, and the frequencies about that, as numbers.
+pub fn chart(report: &DeflectReport) -> ChartData {
+    let speeds = proper_range([report.from_rpm, report.to_rpm]);
+    let speed = AxisData::speed().within(speeds);
+    let bands = report.instabilities.iter();
+    let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
+    let bands: Vec<Item> = bands.collect();
+    ChartData {
+        title: report.scene.name.clone(),
+        facts: facts(report),
+        panels: vec![
+            PanelData::new(
+                speed.clone(),
+                AxisData::new("deflection", "mm").within(reach_mm(report)),
+                [bands.clone(), leans(report)].concat(),
+            ),
+            PanelData {
+                harmonics: true,
+                ..PanelData::new(
+                    speed,
+                    AxisData::new("frequency in space", "Hz").within(shown_hz(report)),
+                    [bands, frequencies(report)].concat(),
+                )
+            },
+        ],
+    }
+}
+
+/// Each sweep with its colour, the width of its curve, the size of its dots, and what it is.
+fn sweeps(report: &DeflectReport) -> [(&SlowSweepEntry, Hue, f64, f64, &'static str); 2] {
+    [
+        (&report.up, UP, WIDER, 4.4, "stable, while the speed rises"),
+        (&report.down, DOWN, NARROWER, 2.2, "while it falls"),
+    ]
+}
+
+fn seen_jumps<'a>(
+    report: &'a DeflectReport,
+    sweep: &'a SlowSweepEntry,
+) -> impl Iterator<Item = &'a JumpEntry> {
+    let thickness_m = report.scene.blade.thickness_m;
+    sweep
+        .jumps
+        .iter()
+        .filter(move |jump| jump.is_seen(thickness_m))
+}
+
+fn facts(report: &DeflectReport) -> Vec<String> {
     let force = format!(
         "{} N across the rim at {}°",
         report.force_n, report.force_angle_deg
     );
     let probe = format!("deflection at the probe at {}°", report.probe_angle_deg);
-    let thickness_m = report.scene.blade.thickness_m;
-    let jumps = |sweep: &SlowSweepEntry| {
-        let seen = sweep.jumps.iter().filter(|jump| jump.is_seen(thickness_m));
-        seen.count()
-    };
+    let jumps = |sweep| seen_jumps(report, sweep).count();
     let jumps = format!(
         "jumps: {} while the speed rises, {} while it falls",
         jumps(&report.up),
         jumps(&report.down)
     );
-    [force, probe, jumps].join(BETWEEN_FACTS)
+    vec![force, probe, jumps]
 }
 
-fn draw_lean(sheet: &mut Sheet, report: &DeflectReport, speed: &Axis) {
+fn reach_mm(report: &DeflectReport) -> [f64; 2] {
     let of_curves = report.curves.iter().flat_map(|curve| &curve.deflection_m);
     let sweeps = [&report.up, &report.down];
     let of_sweeps = sweeps.iter().flat_map(|sweep| &sweep.arcs);
@@ -85,68 +161,74 @@ fn draw_lean(sheet: &mut Sheet, report: &DeflectReport, speed: &Axis) {
         .chain(of_sweeps)
         .fold(0.0_f64, |most, m| most.max(m.abs()));
     let reach = 1.1e3 * most.max(1e-9);
-    let lean = Axis::new([-reach, reach], [LEAN.bottom, LEAN.top], Spread::Linear);
-    draw_vertical(sheet, &lean, &LEAN, "deflection\u{2003}[mm]");
-    for curve in &report.curves {
-        draw_curve(sheet, curve, speed, &lean);
-    }
-    for (sweep, colour, width) in [(&report.up, UP, WIDER), (&report.down, DOWN, NARROWER)] {
+    [-reach, reach]
+}
+
+/// The curves of equilibria, and what is reached of them while the speed rises and falls.
+fn leans(report: &DeflectReport) -> Vec<Item> {
+    let mut items: Vec<Item> = report.curves.iter().flat_map(curve_lines).collect();
+    for (sweep, colour, width, _, name) in sweeps(report) {
         for arc in &sweep.arcs {
-            let places = arc.rpm.iter().zip(&arc.deflection_m);
-            let places: Vec<[f64; 2]> = places
-                .map(|(rpm, m)| [speed.at(*rpm), lean.at(1e3 * m)])
-                .collect();
-            for part in clip(&places, &LEAN) {
-                sheet.line(part, Stroke::solid(colour, width));
-            }
+            let points = arc.rpm.iter().zip(&arc.deflection_m);
+            let points = points.map(|(rpm, m)| [*rpm, 1e3 * m]);
+            let say = |[rpm, mm]: [f64; 2]| format!("{rpm:.1} rpm\n{} mm", shown_to(4, mm));
+            items.push(Item::Line(Line {
+                width,
+                said: points.clone().map(say).collect(),
+                ..Line::new(points, colour, name)
+            }));
         }
-        for jump in sweep
-            .jumps
-            .iter()
-            .filter(|jump| jump.is_seen(report.scene.blade.thickness_m))
-        {
-            draw_jump(sheet, jump, (speed, &lean), colour);
-        }
-        if let Some(rpm) = sweep.valid_until_rpm {
-            let line = [LEAN.top, LEAN.bottom].map(|y| [speed.at(rpm), y]);
-            sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
-        }
+        items.extend(seen_jumps(report, sweep).map(|jump| {
+            let ends = [jump.from_m, jump.to_m].map(|m| [jump.rpm, 1e3 * m]);
+            Item::Line(Line {
+                width: HAIRLINE,
+                ..Line::new(ends, colour, "jump")
+            })
+        }));
+        items.extend(sweep.valid_until_rpm.map(|rpm| {
+            Item::Upright(Upright {
+                x: rpm,
+                role: Role::Guide,
+                colour: Hue::Alarm,
+                dashed: false,
+                label: String::new(),
+                name: "the model ends".to_owned(),
+            })
+        }));
     }
-    for turn in report.curves.iter().flat_map(|curve| &curve.turns) {
-        let at = [speed.at(turn.rpm), lean.at(1e3 * turn.deflection_m)];
-        sheet.ring(at, 3.0, Stroke::solid(INK, HAIRLINE), PAPER);
-    }
+    let turns = report.curves.iter().flat_map(|curve| &curve.turns);
+    let turns = turns.map(|turn| [turn.rpm, 1e3 * turn.deflection_m]);
+    items.push(Item::Points(Points {
+        hollow: true,
+        ..Points::new(turns, Hue::Ink, TURN_SIZE, "fold or bifurcation")
+    }));
+    items
 }
 
 /// Stable parts as thin lines, unstable ones dashed.
-fn draw_curve(sheet: &mut Sheet, curve: &EquilibriumCurveEntry, speed: &Axis, lean: &Axis) {
-    let place = |k: usize| [speed.at(curve.rpm[k]), lean.at(1e3 * curve.deflection_m[k])];
-    let mut first = 0;
-    for k in 1..=curve.rpm.len() {
-        let is_stable = |k: usize| curve.negative_eigenvalues[k] == 0;
-        let goes_on = k < curve.rpm.len() && is_stable(k) == is_stable(first);
-        if goes_on {
-            continue;
-        }
-        let stroke = match is_stable(first) {
-            true => Stroke::solid(STANDING, NARROWER),
-            false => Stroke {
-                dash: Some(DASH),
-                ..Stroke::solid(STANDING, HAIRLINE)
-            },
+fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
+    let is_stable = |k: usize| curve.negative_eigenvalues[k] == 0;
+    let found = lines_by_look(curve.rpm.len(), |k| Some(is_stable(k)));
+    let lines = found.into_iter().map(|(stable, samples)| {
+        let at = |k: usize| [curve.rpm[k], 1e3 * curve.deflection_m[k]];
+        let points = samples.into_iter().map(|k| k.map_or([f64::NAN; 2], at));
+        let (width, name) = match stable {
+            true => (NARROWER, "stable, not reached"),
+            false => (HAIRLINE, "unstable"),
         };
-        let places: Vec<[f64; 2]> = (first..(k + 1).min(curve.rpm.len())).map(place).collect();
-        for part in clip(&places, &LEAN) {
-            sheet.line(part, stroke);
-        }
-        first = k;
-    }
+        Item::Line(Line {
+            width,
+            dashed: !stable,
+            ..Line::new(points, Hue::Standing, name)
+        })
+    });
+    lines.collect()
 }
 
-fn draw_jump(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis), colour: Colour) {
+/// The head of the arrow of a jump.
+fn draw_head(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis), colour: Colour) {
     let x = speed.at(jump.rpm);
     let [from, to] = [jump.from_m, jump.to_m].map(|m| lean.at(1e3 * m));
-    sheet.line([[x, from], [x, to]], Stroke::solid(colour, HAIRLINE));
     let back = 7.0_f64.copysign(from - to);
     if (from - to).abs() > 9.0 {
         for aside in [-4.0, 4.0] {
@@ -158,45 +240,36 @@ fn draw_jump(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis),
     }
 }
 
-fn draw_frequencies(sheet: &mut Sheet, report: &DeflectReport, speed: &Axis) {
-    let at_rest = report
-        .campbell
-        .branches
-        .iter()
-        .filter_map(|branch| branch.frequency_hz.first());
+fn shown_hz(report: &DeflectReport) -> [f64; 2] {
+    let branches = report.campbell.branches.iter();
+    let at_rest = branches.filter_map(|branch| branch.frequency_hz.first());
     let mut at_rest: Vec<f64> = at_rest.copied().collect();
     at_rest.sort_by(f64::total_cmp);
-    let top = at_rest
-        .get(SHOWN - 1)
-        .or(at_rest.last())
-        .copied()
-        .unwrap_or(1.0);
-    let places = [FREQUENCIES.bottom, FREQUENCIES.top];
-    let frequency = Axis::new([0.0, 1.1 * top], places, Spread::Linear);
-    draw_vertical(
-        sheet,
-        &frequency,
-        &FREQUENCIES,
-        "frequency in space\u{2003}[Hz]",
-    );
-    for branch in &report.campbell.branches {
+    let top = at_rest.get(SHOWN - 1).or(at_rest.last()).copied();
+    [0.0, 1.1 * top.unwrap_or(1.0)]
+}
+
+/// Of the flat blade, and about where it stands.
+fn frequencies(report: &DeflectReport) -> Vec<Item> {
+    let branches = report.campbell.branches.iter().map(|branch| {
         let samples = branch.rpm.iter().zip(&branch.frequency_hz);
-        let places: Vec<[f64; 2]> = samples
-            .map(|(rpm, hz)| [speed.at(*rpm), frequency.at(*hz)])
-            .collect();
-        for part in clip(&places, &FREQUENCIES) {
-            sheet.line(part, Stroke::solid(tint(STANDING, 0.6), NARROWER));
-        }
-    }
-    for (sweep, colour, radius) in [(&report.up, UP, 2.2), (&report.down, DOWN, 1.1)] {
-        for arc in &sweep.arcs {
-            for (rpm, frequencies) in arc.rpm.iter().zip(&arc.frequencies_hz) {
-                for hz in frequencies.iter().filter(|hz| frequency.shows(**hz)) {
-                    sheet.disc([speed.at(*rpm), frequency.at(*hz)], radius, colour);
-                }
-            }
-        }
-    }
+        let samples = samples.map(|(rpm, hz)| [*rpm, *hz]);
+        Item::Line(Line {
+            tint: FLAT_TINT,
+            width: NARROWER,
+            branch: Some(branch.branch),
+            ..Line::new(samples, Hue::Standing, &branch.name)
+        })
+    });
+    let dots = sweeps(report).map(|(sweep, colour, _, size, name)| {
+        let samples = sweep
+            .arcs
+            .iter()
+            .flat_map(|arc| arc.rpm.iter().zip(&arc.frequencies_hz));
+        let at = samples.flat_map(|(rpm, all)| all.iter().map(|hz| [*rpm, *hz]));
+        Item::Points(Points::new(at, colour, size, name))
+    });
+    branches.chain(dots).collect()
 }
 
 fn draw_key(sheet: &mut Sheet) {
@@ -204,14 +277,14 @@ fn draw_key(sheet: &mut Sheet) {
         move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
     };
     let dashed = Stroke {
-        dash: Some(DASH),
+        dash: Some(FINE_DASH),
         ..Stroke::solid(STANDING, HAIRLINE)
     };
     let y = f64::from(HEIGHT);
     Key::new(sheet, LEAN.left, y - 52.0)
-        .mark(24.0, line(Stroke::solid(UP, WIDER)))
+        .mark(24.0, line(Stroke::solid(UP.colour(), WIDER)))
         .word("stable, while the speed rises")
-        .mark(24.0, line(Stroke::solid(DOWN, NARROWER)))
+        .mark(24.0, line(Stroke::solid(DOWN.colour(), NARROWER)))
         .word("while it falls")
         .mark(24.0, line(Stroke::solid(STANDING, NARROWER)))
         .word("stable, not reached")
@@ -222,7 +295,10 @@ fn draw_key(sheet: &mut Sheet) {
         })
         .word("fold or bifurcation");
     Key::new(sheet, LEAN.left, y - 26.0)
-        .mark(24.0, line(Stroke::solid(tint(STANDING, 0.6), NARROWER)))
+        .mark(
+            24.0,
+            line(Stroke::solid(tint(STANDING, FLAT_TINT), NARROWER)),
+        )
         .word("frequencies of the flat blade")
         .shade(DIVERGENCE_SHADE)
         .word("the flat blade diverges")

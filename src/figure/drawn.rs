@@ -95,7 +95,11 @@ impl Figures for Report {
     }
 
     fn chart(&self, name: &str) -> Option<ChartData> {
-        (name == "campbell").then(|| campbell::chart(self, true))
+        match name {
+            "campbell" => Some(campbell::chart(self, true)),
+            "root-loci" => root_loci::chart(self),
+            _ => None,
+        }
     }
 }
 
@@ -168,6 +172,10 @@ impl Figures for DeflectReport {
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(deflect::sheet(self))])
     }
+
+    fn chart(&self, name: &str) -> Option<ChartData> {
+        (name == "deflect").then(|| deflect::chart(self))
+    }
 }
 
 impl Figures for WashboardReport {
@@ -175,6 +183,10 @@ impl Figures for WashboardReport {
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(washboard::sheet(self))])
+    }
+
+    fn chart(&self, name: &str) -> Option<ChartData> {
+        (name == "washboard").then(|| washboard::chart(self))
     }
 }
 

@@ -48,7 +48,8 @@ impl Ground<'_> {
     }
 
     fn draw_all(&self, sheet: &mut Sheet, points: &Points) {
-        let (radius, colour) = (points.size / 2.0, points.colour.colour());
+        let radius = points.size / 2.0;
+        let colour = tint(points.colour.colour(), points.tint);
         for (x, y) in points.x.iter().zip(&points.y) {
             if !(self.x.shows(*x) && self.y.shows(*y)) {
                 continue;

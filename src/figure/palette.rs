@@ -44,6 +44,7 @@ pub enum Hue {
     FlutterShade,
     DivergenceStreak,
     FlutterStreak,
+    Alarm,
 }
 
 impl Hue {
@@ -80,6 +81,7 @@ impl Hue {
             Hue::FlutterShade => style::FLUTTER_SHADE,
             Hue::DivergenceStreak => style::DIVERGENCE_STREAK,
             Hue::FlutterStreak => style::FLUTTER_STREAK,
+            Hue::Alarm => style::ALARM,
         }
     }
 }

@@ -3,13 +3,18 @@
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::chart_data::{
+    AxisData, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
+};
 use super::declutter::{Wish, push_apart};
 use super::heading;
+use super::palette::Hue;
 use super::style::{
-    BACKWARD, BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, FORWARD, GRID, HAIRLINE,
-    LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, shorten, tint,
+    BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, LABEL_SIZE, MARGIN,
+    PAPER, QUIET, Weight, shorten, tint,
 };
 use crate::report::{Report, RootLociEntry, RootPathEntry};
+use crate::text::shown_to;
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 800;
@@ -26,6 +31,8 @@ const SPEED: Frame = Frame {
 };
 /// Purely imaginary eigenvalues of the two signs stand this far left and right of the axis that they share.
 const ASIDE: f64 = 3.5;
+/// Radius of the dot at a computed eigenvalue.
+const DOT: f64 = 2.2;
 /// Height of a line of a label.
 const LINE: f64 = 15.0;
 /// From the imaginary axis, and from a growing eigenvalue, to a label.
@@ -81,6 +88,71 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let at = [PLANE.left, f64::from(HEIGHT) - 16.0];
     sheet.text(at, letters, &notes.join(BETWEEN_FACTS));
     Some(sheet)
+}
+
+/// The eigenvalues in the complex plane and over speed, as numbers.
+pub fn chart(report: &Report) -> Option<ChartData> {
+    let entry = report.root_loci.as_ref()?;
+    let chart = Chart::new(entry)?;
+    let hz = AxisData::new("Im λ / 2π", "Hz").within(chart.frequency.values());
+    let mut plane = vec![Item::Upright(Upright {
+        x: 0.0,
+        role: Role::Guide,
+        colour: Hue::Quiet,
+        dashed: true,
+        label: String::new(),
+        name: "neither grows nor decays".to_owned(),
+    })];
+    let mut over_speed = Vec::new();
+    for (path, own) in chart.paths.iter().zip(&entry.paths).rev() {
+        plane.extend(items(path, &own.name, |s| [s.growth, s.hz]));
+        over_speed.extend(items(path, &own.name, |s| [s.rpm, s.hz]));
+    }
+    let growth = AxisData::new("Re λ", "1/s").within(chart.growth.values());
+    let speed = AxisData::speed().within(chart.speed.values());
+    let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
+    Some(ChartData {
+        title: report.scene.name.clone(),
+        facts: vec![format!("flutter from {from} to {to} rpm")],
+        panels: vec![
+            PanelData::new(growth, hz.clone(), plane),
+            PanelData::new(speed, hz, over_speed),
+        ],
+    })
+}
+
+/// Lines from one computed eigenvalue to the next, and a dot at each.
+fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Item> {
+    let say = |s: &Sample| {
+        let growth = shown_to(3, s.growth);
+        format!("{name}\n{:.1} rpm\n{:.3} Hz\n{growth} 1/s", s.rpm, s.hz)
+    };
+    let look = |i: usize| Some(hue(looked_like(path, i)));
+    let lines = lines_by_look(path.len(), look);
+    let mut items: Vec<Item> = Vec::new();
+    for ((colour, tint), samples) in lines {
+        let at = |i: &Option<usize>| i.map_or([f64::NAN; 2], |i| place(&path[i]));
+        let said = |i: &Option<usize>| i.map_or_else(String::new, |i| say(&path[i]));
+        items.push(Item::Line(Line {
+            tint,
+            said: samples.iter().map(said).collect(),
+            ..Line::new(samples.iter().map(at), colour, name)
+        }));
+    }
+    for of in [
+        (Hue::Forward, 1.0),
+        (Hue::Backward, 1.0),
+        (Hue::Flutter, 1.0),
+        (Hue::Flutter, 0.5),
+    ] {
+        let own = path.iter().filter(|s| hue(s) == of);
+        items.push(Item::Points(Points {
+            tint: of.1,
+            said: own.clone().map(say).collect(),
+            ..Points::new(own.map(&place), of.0, 2.0 * DOT, name)
+        }));
+    }
+    items
 }
 
 /// The eigenvalues of a path of which all numbers are known, and such as a saw may have.
@@ -141,13 +213,25 @@ impl Chart {
     }
 }
 
-fn colour(s: &Sample) -> Colour {
+/// Colour, and its share.
+fn hue(s: &Sample) -> (Hue, f64) {
     match s.sign {
-        1 => FORWARD,
-        -1 => BACKWARD,
-        _ if s.growth > 0.0 => FLUTTER,
-        _ => tint(FLUTTER, 0.5),
+        1 => (Hue::Forward, 1.0),
+        -1 => (Hue::Backward, 1.0),
+        _ if s.growth > 0.0 => (Hue::Flutter, 1.0),
+        _ => (Hue::Flutter, 0.5),
     }
+}
+
+fn colour(s: &Sample) -> Colour {
+    let (hue, share) = hue(s);
+    tint(hue.colour(), share)
+}
+
+/// The eigenvalue that a line from one to the next has its colour of: one that leads into the band is the band's.
+fn looked_like(path: &[Sample], i: usize) -> &Sample {
+    let pair = &path[i..=i + 1];
+    pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0])
 }
 
 fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
@@ -195,14 +279,12 @@ fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
 
 /// Straight lines from one computed eigenvalue to the next, and a dot at each.
 fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64; 2]) {
-    for pair in path.windows(2) {
-        // A line that leads into the band is the band's.
-        let inside = pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0]);
+    for (i, pair) in path.windows(2).enumerate() {
         let line = [place(&pair[0]), place(&pair[1])];
-        sheet.line(line, Stroke::solid(colour(inside), CURVE));
+        sheet.line(line, Stroke::solid(colour(looked_like(path, i)), CURVE));
     }
     for sample in path {
-        sheet.disc(place(sample), 2.2, colour(sample));
+        sheet.disc(place(sample), DOT, colour(sample));
     }
 }
 

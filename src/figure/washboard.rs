@@ -1,15 +1,16 @@
 //! The lobe diagram: from which cutting stiffness on a motion grows, over the speed, and at which
 //! frequency.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
+use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, proper_range};
 use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::clip;
+use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points};
 use super::heading;
 use super::key::Key;
-use super::style::{
-    ALARM, BETWEEN_FACTS, CURVE, DASH, FLUTTER, FLUTTER_SHADE, HAIRLINE, INK, PAPER, QUIET,
-};
+use super::paint::Ground;
+use super::palette::Hue;
+use super::style::{BETWEEN_FACTS, FINE_DASH, FLUTTER_SHADE, HAIRLINE, PAPER, QUIET};
 use crate::report::{Verdict, WashboardReport};
+use crate::text::shown_to;
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 780;
@@ -24,6 +25,9 @@ const FREQUENCY: Frame = Frame {
     bottom: 680.0,
     ..LOBES
 };
+/// Diameters of the ring at the cut's own stiffness, and of the dots at frequencies.
+const OWN_SIZE: f64 = 12.0;
+const DOT_SIZE: f64 = 4.4;
 /// Decades shown at most above the cut's own stiffness, or the least at which a motion grows.
 const DECADES: f64 = 2.5;
 /// Room below and above what is shown, in decades.
@@ -31,24 +35,129 @@ const ROOM: f64 = 0.3;
 
 pub fn sheet(report: &WashboardReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let lobes = &report.lobes;
-    let ends = [lobes.rpm.first(), lobes.rpm.last()].map(|rpm| rpm.copied().unwrap_or(0.0));
-    let speed = Axis::new(ends, [LOBES.left, LOBES.right], Spread::Linear);
-    let decades = decades(report);
-    let stiffness = Axis::new(decades, [LOBES.bottom, LOBES.top], Spread::Logarithmic);
+    let data = chart(report);
+    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
+    let [lobes, frequencies] = &data.panels[..] else {
+        return sheet;
+    };
+    let speed = lobes.x.placed([LOBES.left, LOBES.right]);
+    let stiffness = lobes.y.placed([LOBES.bottom, LOBES.top]);
+    let upper = Ground {
+        x: &speed,
+        y: &stiffness,
+        frame: &LOBES,
+    };
     draw_unstable(&mut sheet, report, &speed, &stiffness);
-    let name = "lateral cutting stiffness\u{2003}[N/m]";
-    draw_vertical(&mut sheet, &stiffness, &LOBES, name);
-    draw_boundary(&mut sheet, report, &speed, &stiffness);
+    draw_vertical(&mut sheet, &stiffness, &LOBES, &lobes.y.title());
+    upper.draw_lines(&mut sheet, &lobes.items);
     draw_horizontal(&mut sheet, &speed, LOBES.bottom, false);
-    draw_frequencies(&mut sheet, report, &speed);
-    draw_own(&mut sheet, report, &speed, &stiffness);
+    let frequency = frequencies.y.placed([FREQUENCY.bottom, FREQUENCY.top]);
+    let lower = Ground {
+        x: &speed,
+        y: &frequency,
+        frame: &FREQUENCY,
+    };
+    draw_vertical(&mut sheet, &frequency, &FREQUENCY, &frequencies.y.title());
+    lower.draw_lines(&mut sheet, &frequencies.items);
+    lower.draw_points(&mut sheet, &frequencies.items);
+    draw_named(&mut sheet, &speed, FREQUENCY.bottom, &frequencies.x.title());
+    upper.draw_points(&mut sheet, &lobes.items);
     draw_key(&mut sheet, report);
     sheet
 }
 
-fn facts(report: &WashboardReport) -> String {
+/// The boundary, and the frequencies at it, as numbers.
+pub fn chart(report: &WashboardReport) -> ChartData {
+    let lobes = &report.lobes;
+    let ends = [lobes.rpm.first(), lobes.rpm.last()].map(|rpm| rpm.copied().unwrap_or(0.0));
+    let ends = proper_range(ends);
+    let speed = AxisData::speed().within(ends);
+    let decades = decades(report);
+    let per_rpm = report.tooth_passing_hz / report.rpm;
+    let shown = lobes.frequency_hz.iter().flatten().copied();
+    let top = 1.05 * shown.fold(per_rpm * ends[1], f64::max);
+    let own = Points {
+        hollow: true,
+        ..Points::new(
+            [[report.rpm, report.stiffness_n_per_m]],
+            own_hue(report),
+            OWN_SIZE,
+            "this cut",
+        )
+    };
+    let stiffness = AxisData::new("lateral cutting stiffness", "N/m").within(decades);
+    let boundary = vec![Item::Line(boundary(report, decades)), Item::Points(own)];
+    let teeth = [
+        (0.5, "half the tooth passing frequency"),
+        (1.0, "tooth passing frequency"),
+    ];
+    let teeth = teeth.map(|(share, name)| {
+        let line = Line::new(
+            ends.map(|rpm| [rpm, share * per_rpm * rpm]),
+            Hue::Quiet,
+            name,
+        );
+        Item::Line(Line {
+            width: HAIRLINE,
+            dashed: true,
+            ..line
+        })
+    });
+    let at = lobes.rpm.iter().zip(&lobes.frequency_hz);
+    let at = at.map(|(rpm, hz)| [*rpm, hz.unwrap_or(f64::NAN)]);
+    let dots = Points {
+        said: said(report),
+        ..Points::new(at, Hue::Flutter, DOT_SIZE, "frequency there")
+    };
+    let frequencies = teeth.into_iter().chain([Item::Points(dots)]).collect();
+    ChartData {
+        title: report.scene.name.clone(),
+        facts: facts(report),
+        panels: vec![
+            PanelData::new(
+                speed.clone(),
+                stiffness.spread(Spread::Logarithmic),
+                boundary,
+            ),
+            PanelData {
+                harmonics: true,
+                ..PanelData::new(
+                    speed,
+                    AxisData::new("frequency there", "Hz").within([0.0, top]),
+                    frequencies,
+                )
+            },
+        ],
+    }
+}
+
+/// Beyond the panel where there is none, below it where it is zero.
+fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
+    let lobes = &report.lobes;
+    let points = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
+    let points = points.map(|(rpm, k)| [*rpm, k.unwrap_or(10.0 * most).max(0.1 * least)]);
+    Line {
+        said: said(report),
+        ..Line::new(points, Hue::Flutter, "a motion grows above")
+    }
+}
+
+/// What is said at each speed.
+fn said(report: &WashboardReport) -> Vec<String> {
+    let lobes = &report.lobes;
+    let at = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
+    let at = at.zip(&lobes.frequency_hz);
+    let said = at.map(|((rpm, k), hz)| {
+        let k = k.map_or("no motion grows".to_owned(), |k| {
+            format!("{} N/m", shown_to(3, k))
+        });
+        let hz = hz.map_or(String::new(), |hz| format!("\n{hz:.1} Hz"));
+        format!("{rpm:.0} rpm\n{k}{hz}")
+    });
+    said.collect()
+}
+
+fn facts(report: &WashboardReport) -> Vec<String> {
     let verdict = match report.growing_mode() {
         Some(mode) => format!(
             "{:.0} rpm: unstable at {:.1} Hz, {:.2} 1/s",
@@ -61,10 +170,7 @@ fn facts(report: &WashboardReport) -> String {
     let pitch = pitch.map(|metres| format!("waves of {:.1} mm along the feed", 1e3 * metres));
     let teeth = format!("{:.0} teeth pass in a second", report.tooth_passing_hz);
     let all = [Some(verdict), pitch, Some(teeth)];
-    all.into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(BETWEEN_FACTS)
+    all.into_iter().flatten().collect()
 }
 
 /// Whole decades about the boundary and the stiffness of the cut.
@@ -102,73 +208,18 @@ fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stif
     }
 }
 
-fn draw_boundary(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
-    let lobes = &report.lobes;
-    let [least, most] = stiffness.values();
-    let points: Vec<[f64; 2]> = lobes
-        .rpm
-        .iter()
-        .zip(&lobes.critical_stiffness_n_per_m)
-        .map(|(rpm, critical)| {
-            // Beyond the frame where there is none, below it where it is zero.
-            let k = critical.unwrap_or(10.0 * most);
-            [speed.at(*rpm), stiffness.at(k.max(0.1 * least))]
-        })
-        .collect();
-    for part in clip(&points, &LOBES) {
-        sheet.line(part, Stroke::solid(FLUTTER, CURVE));
-    }
-}
-
-fn draw_frequencies(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis) {
-    let lobes = &report.lobes;
-    let per_rpm = report.tooth_passing_hz / report.rpm;
-    let shown = lobes.frequency_hz.iter().flatten().copied();
-    let top = shown.fold(per_rpm * speed.values()[1], f64::max);
-    let places = [FREQUENCY.bottom, FREQUENCY.top];
-    let frequency = Axis::new([0.0, 1.05 * top], places, Spread::Linear);
-    let name = "frequency there\u{2003}[Hz]";
-    draw_vertical(sheet, &frequency, &FREQUENCY, name);
-    let dashed = Stroke {
-        dash: Some(DASH),
-        ..Stroke::solid(QUIET, HAIRLINE)
-    };
-    for multiple in [0.5, 1.0] {
-        let line = speed.values().map(|rpm| {
-            let hz = multiple * per_rpm * rpm;
-            [speed.at(rpm), frequency.at(hz)]
-        });
-        for part in clip(&line, &FREQUENCY) {
-            sheet.line(part, dashed);
-        }
-    }
-    for (rpm, hz) in lobes.rpm.iter().zip(&lobes.frequency_hz) {
-        if let Some(hz) = hz.filter(|hz| frequency.shows(*hz)) {
-            sheet.disc([speed.at(*rpm), frequency.at(hz)], 2.2, FLUTTER);
-        }
-    }
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    draw_named(sheet, speed, FREQUENCY.bottom, name);
-}
-
-/// The saw at its speed with its cutting stiffness.
-fn draw_own(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
-    let at = [speed.at(report.rpm), stiffness.at(report.stiffness_n_per_m)];
-    sheet.ring(at, 6.0, Stroke::solid(own_colour(report), 2.5), PAPER);
-}
-
-fn own_colour(report: &WashboardReport) -> super::style::Colour {
+fn own_hue(report: &WashboardReport) -> Hue {
     match report.verdict {
-        Verdict::Stable => INK,
-        Verdict::Unstable => ALARM,
+        Verdict::Stable => Hue::Ink,
+        Verdict::Unstable => Hue::Alarm,
     }
 }
 
 fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
-    let colour = own_colour(report);
+    let colour = own_hue(report).colour();
     let dashes = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
         let dashed = Stroke {
-            dash: Some(DASH),
+            dash: Some(FINE_DASH),
             ..Stroke::solid(QUIET, HAIRLINE)
         };
         sheet.line([[x, y], [x + 26.0, y]], dashed);

@@ -65,11 +65,10 @@ def _items(of: dict[str, Any], x_range: tuple[float, float] | None) -> Iterator[
         yield Upright(of["x"], colours()[of["colour"]], of["dashed"], of["name"])
     else:
         x, y = (np.array(of[axis], float) for axis in "xy")
-        colour, name, said = colours()[of["colour"]], of["name"], of["said"]
+        colour, name, said = _tinted(colours()[of["colour"]], of["tint"]), of["name"], of["said"]
         if of["item"] == "points":
             yield Points(x, y, colour, name, of["hollow"], of["size"], said)
         else:
-            colour = _tinted(colour, of["tint"])
             yield Line(x, y, colour, name, of["width"], of["dashed"], said, of["end"])
 
 

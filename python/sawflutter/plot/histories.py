@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from .._report_types import CutReport, DeflectReport, RunUpReport
-from .campbell import colour_of
+from .._report_types import CutReport, RunUpReport
 from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
 
 
@@ -63,30 +62,6 @@ def run_up(r: RunUpReport, facts: str) -> Chart:
     return Chart(r.scene["name"], facts, (panel,))
 
 
-def deflection(r: DeflectReport, facts: str) -> Chart:
-    """Deflection at the probe over a speed that slowly rises and falls."""
-    items: list[Item] = []
-    for band in r.instabilities:
-        name = f"{band.kind} of the flat blade {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
-        items.append(Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name))
-    for curve in r.curves:
-        stable = np.where(np.asarray(curve.negative_eigenvalues) == 0, curve.deflection_m, np.nan)
-        other = np.where(np.isnan(stable), curve.deflection_m, np.nan)
-        grey = colours()["standing"]
-        items.append(Line(curve.rpm, 1e3 * stable, grey, "stable", width=1.0))
-        items.append(Line(curve.rpm, 1e3 * other, grey, "unstable", width=0.5))
-    sweeps = [(r.up, "forward", "the speed rises", 3.0), (r.down, "backward", "it falls", 1.5)]
-    for sweep, colour, name, width in sweeps:
-        for arc in sweep.arcs:
-            hover = [
-                f"{rpm:.1f} rpm<br>{1e3 * w:.4g} mm" for rpm, w in zip(arc.rpm, arc.deflection_m)
-            ]
-            line = 1e3 * arc.deflection_m
-            items.append(Line(arc.rpm, line, colours()[colour], name, width=width, hover=hover))
-    panel = Panel("rotation speed Ω [rpm]", "deflection [mm]", items)
-    return Chart(r.scene["name"], facts, (panel,))
-
-
 def response(r: RunUpReport) -> Chart:
     """Deflection per newton over speed and frequency, with the branches on top."""
     of = r.response
@@ -99,7 +74,7 @@ def response(r: RunUpReport) -> Chart:
     for branch in r.campbell.branches:
         shown = np.where(branch.frequency_hz <= limit, branch.frequency_hz, np.nan)
         items.append(
-            Line(branch.rpm, shown, colour_of(branch.direction[-1]), branch.name, width=1.0)
+            Line(branch.rpm, shown, colours()[branch.direction[-1]], branch.name, width=1.0)
         )
     measured = r.scene.get("measured")
     for row in measured["rows"] if measured else []:

@@ -1,7 +1,7 @@
 //! What the diagram shows, as numbers.
 
 use super::super::chart_data::{
-    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright,
+    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
 };
 use super::super::palette::Hue;
 use super::super::style::{CURVE, HAIRLINE, STRONG_CURVE};
@@ -93,24 +93,6 @@ fn safe_window(report: &Report) -> Option<Item> {
         said: vec![name.replace(": ", "\n"); 2],
         ..Line::new(ends.map(|rpm| [rpm, 0.0]), Hue::Ink, &name)
     }))
-}
-
-/// Lines through the samples of a branch that look alike, each interrupted where another look begins: between two
-/// samples as `look` says, not drawn where it says nothing.
-pub fn lines_by_look<L: PartialEq>(
-    samples: usize,
-    look: impl Fn(usize) -> Option<L>,
-) -> Vec<(L, Vec<Option<usize>>)> {
-    let mut lines: Vec<(L, Vec<Option<usize>>)> = Vec::new();
-    for i in 0..samples.saturating_sub(1) {
-        let Some(look) = look(i) else { continue };
-        match lines.iter_mut().find(|(other, _)| *other == look) {
-            Some((_, line)) if line.last() == Some(&Some(i)) => line.push(Some(i + 1)),
-            Some((_, line)) => line.extend([None, Some(i), Some(i + 1)]),
-            None => lines.push((look, vec![Some(i), Some(i + 1)])),
-        }
-    }
-    lines
 }
 
 /// A line of a branch through some of its samples, at the heights `values`.

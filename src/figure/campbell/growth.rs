@@ -2,13 +2,13 @@
 
 use super::super::axis::{Axis, Spread};
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
-use super::super::chart_data::{AxisData, Item, Line, PanelData, Points};
+use super::super::chart_data::{AxisData, Item, Line, PanelData, Points, lines_by_look};
 use super::super::is_damped;
 use super::super::meeting::Meeting;
 use super::super::paint::Ground;
 use super::super::palette::Hue;
 use super::super::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET};
-use super::describe::{line_through, lines_by_look};
+use super::describe::line_through;
 use super::waves::direction_at;
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
