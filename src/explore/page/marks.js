@@ -171,8 +171,8 @@ export class Painter {
       const [left, right] = [this.x(x) - half, this.x(x) + half];
       const isFree = (row) => !taken.some((other) => other.row === row && other.left < right && left < other.right);
       const row = [-8, 8].find(isFree);
-      if (row === undefined) continue;
-      taken.push({ row, left, right });
+      if (row === undefined || taken.some((other) => other.label === label)) continue;
+      taken.push({ row, left, right, label });
       const middle = this.box.top + row * scale;
       context.fillStyle = this.colours.paper;
       if (row > 0) context.fillRect(left, middle - 7 * scale, right - left, 14 * scale);
