@@ -151,6 +151,13 @@ def test_every_result_is_drawn_by_both(
     assert all(chart.plot().data for chart in drawn)
 
 
+def test_a_logarithmic_axis_of_plotly_ends_where_that_of_matplotlib_does(resaw: sf.Scene) -> None:
+    found = resaw.run_washboard()
+    figure, axes = found.plot(), found.plot_matplotlib()
+    assert figure.layout.yaxis.type == "log"
+    assert [10.0**end for end in figure.layout.yaxis.range] == pytest.approx(axes.get_ylim())
+
+
 def test_excitation_lines_are_those_of_the_report(draft: sf.Scene) -> None:
     saw = draft.replace({"excitation": {"orders": 2, "tooth_passing": 1}})
     r = saw.run_campbell()

@@ -164,7 +164,9 @@ def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
     )  # fmt: skip
     if panel.y_range is not None:
         low, high = panel.y_range
-        figure.update_yaxes(range=_scaled([low, high], panel).tolist(), **at)
+        # Plotly has the logarithms of the ends of a logarithmic axis.
+        ends = np.log10([low, high]) if panel.y_log else _scaled([low, high], panel)
+        figure.update_yaxes(range=ends.tolist(), **at)
         if panel.equal:
             figure.update_yaxes(scaleanchor="x", **at)
         if panel.y_names:
