@@ -195,7 +195,14 @@ export class Painter {
         && !taken.some((other) => other.row === row && other.left < right + gap && left < other.right + gap));
       if (!free) continue;
       taken.push(free);
-      this.context.fillText(band.label, free.left, this.box.top + height * (0.6 + free.row) * this.scale);
+      const middle = this.box.top + height * (0.6 + free.row) * this.scale;
+      // Thin bands of others pass behind it.
+      this.context.globalAlpha = 0.75;
+      this.context.fillStyle = this.colours.paper;
+      this.context.fillRect(free.left, middle - 6 * this.scale, width, 12 * this.scale);
+      this.context.globalAlpha = 1;
+      this.context.fillStyle = this.colours[band.colour];
+      this.context.fillText(band.label, free.left, middle);
     }
   }
 
