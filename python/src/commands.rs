@@ -12,7 +12,7 @@ use sawflutter::report::{
 };
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis};
+use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use sawflutter::transient::{Cutting, RunningUp};
 use sawflutter::washboarding::Washboard;
 use serde::Serialize;
@@ -38,13 +38,14 @@ pub fn analyze(
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
     compute(py, progress, move |meter| {
+        let say_if_long = |expected: ExpectedWork| {
+            if expected.is_long() {
+                meter.remark(expected.to_string());
+            }
+        };
         let options = AnalysisOptions {
             progress: &|done, of| meter.show(done, of),
-            expected: &|expected| {
-                if expected.is_long() {
-                    meter.remark(expected.to_string());
-                }
-            },
+            expected: Some(&say_if_long),
             ..AnalysisOptions::default()
         };
         let analysis = Analysis::with_options(&scene, options)?;

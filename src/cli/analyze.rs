@@ -178,7 +178,7 @@ fn watched_report(
         }
     };
     let options = AnalysisOptions {
-        expected: &say_if_long,
+        expected: Some(&say_if_long),
         ..AnalysisOptions::default()
     };
     let analysis = Analysis::with_options(scene, options)?;

@@ -36,8 +36,8 @@ pub struct AnalysisOptions<'a> {
     pub detail: Detail,
     /// Progress callback: speeds of the chart that are done, and all of them.
     pub progress: Progress<'a>,
-    /// Called with what a chart is expected to take, before its search for bands.
-    pub expected: &'a (dyn Fn(ExpectedWork) + Sync),
+    /// Called with what a long sweep is expected to take, before anything else.
+    pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
 }
 
 impl Default for AnalysisOptions<'_> {
@@ -45,7 +45,7 @@ impl Default for AnalysisOptions<'_> {
         AnalysisOptions {
             detail: Detail::Full,
             progress: &|_, _| (),
-            expected: &|_| (),
+            expected: None,
         }
     }
 }
@@ -153,6 +153,9 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
+        if let Some(tell) = options.expected {
+            ExpectedWork::of_sweep(scene).into_iter().for_each(tell);
+        }
         let chosen = ChosenBasis::new(scene, scene.tolerance())?;
         let least = chosen.saw.plate.resolution;
         let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
@@ -182,7 +185,6 @@ impl Analysis {
             estimated_resting_error,
             larger,
         } = chosen;
-        (options.expected)(ExpectedWork::new(&saw, &critical, range.1));
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let mut chart = charted(&model, range, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?

@@ -249,7 +249,7 @@ fn held_critical_speeds(
 
 /// Index of the last critical speed that a basis may hold below the end of a range. Stiff guides mix the waves beyond
 /// recognition; but there are two of each n ≥ 2, and the second of the most diameters is the last of them.
-fn last_of_all_pairs(plate: &Plate) -> usize {
+pub(super) fn last_of_all_pairs(plate: &Plate) -> usize {
     (2 * plate.max_diameters()).saturating_sub(3)
 }
 

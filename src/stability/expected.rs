@@ -1,22 +1,26 @@
-//! How long a chart may take, estimated before its search for bands begins.
+//! How long a chart may take, estimated before it begins.
 
 use std::fmt;
 
-use crate::scene::rpm;
-use crate::spectrum::{Assembled, NamedCriticalSpeed};
+use super::basis::last_of_all_pairs;
+use super::ladder::{LADDER, resolution};
+use crate::plate::Plate;
+use crate::scene::{Scene, rpm};
+use crate::spectrum::Assembled;
 
 /// Work that a user should hear of before it begins, in seconds of processor time.
 const LONG_S: f64 = 10.0;
-/// Seconds for ten critical speeds. Each pair of waves that are reflected within the sweep may couple, and the order of the
-/// reduced model that a pair is looked at in grows with their number, its eigenproblem with the cube of this order. The
-/// guided saw of the paper took 7 s for 22 of them and 198 s for 42, by this constant 8 s and 196 s.
-const SECONDS: f64 = 0.15;
+/// Processor time for ten critical speeds, and the power of their number by which it grows. Each pair of waves that are
+/// reflected within the sweep may couple, and the order of the reduced model that a pair is looked at in grows with their
+/// number, its eigenproblem with the cube of this order. The guided saw of the paper took 7 s for 22 of them and 198 s for 42, by these
+/// numbers 8 s and 196 s.
+const GUIDED: (f64, i32) = (0.15, 2 + 3);
 /// The same with damping, which took 67 s for 22.
-const DAMPED_SECONDS: f64 = 1.3;
-/// Pairs, times the cube of the order of a reduced model.
-const POWER: i32 = 2 + 3;
+const DAMPED: (f64, i32) = (1.3, 2 + 3);
+/// Waves of a free blade do not couple: that of the paper took 0.5 s for 26 of them, 2.5 s for 46 and 6.9 s for 68.
+const FREE: (f64, i32) = (0.022, 3);
 
-/// What a chart takes, as far as that is known before its search for bands.
+/// What a chart takes, as far as that is known before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedWork {
     /// Critical speeds within the sweep.
@@ -28,20 +32,41 @@ pub struct ExpectedWork {
 }
 
 impl ExpectedWork {
-    /// Of a saw with its critical speeds, up to a speed.
-    pub(super) fn new(saw: &Assembled, critical: &[NamedCriticalSpeed], to_rad_per_s: f64) -> Self {
-        let within = critical.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s);
-        let seconds = match (saw.plate.is_axisymmetric(), saw.plate.is_conservative()) {
-            // Waves of a free blade do not couple.
-            (true, _) => 0.0,
-            (false, true) => SECONDS,
-            (false, false) => DAMPED_SECONDS,
-        };
-        ExpectedWork {
-            critical_speeds: within,
-            to_rpm: rpm(to_rad_per_s),
-            seconds: seconds * (within as f64 / 10.0).powi(POWER),
+    /// Of the sweep that a scene names, from the number of critical speeds in the first size of basis that holds them. In
+    /// large bases the inertia of the stiffness tells it: finding hundreds of them takes minutes itself. `None` where the
+    /// smallest basis holds them all, which makes a short search, and where they cannot be computed.
+    pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
+        let to_rad_per_s = scene.sweep()?.to_rad_per_s;
+        let mut counted = None;
+        for (rung, size) in LADDER.into_iter().enumerate() {
+            let saw = Assembled::from(Plate::new(scene, resolution(size)));
+            let count = match saw.critical_speeds_below(to_rad_per_s) {
+                Some(count) => count,
+                None => {
+                    let found = saw.critical_speeds(Some(&|_| to_rad_per_s)).ok()?;
+                    found.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s)
+                }
+            };
+            let is_held = count <= last_of_all_pairs(&saw.plate);
+            if rung == 0 && is_held {
+                return None;
+            }
+            counted = Some((saw, count));
+            if is_held {
+                break;
+            }
         }
+        let (saw, critical_speeds) = counted?;
+        let (seconds, power) = match (saw.plate.is_axisymmetric(), saw.plate.is_conservative()) {
+            (true, _) => FREE,
+            (false, true) => GUIDED,
+            (false, false) => DAMPED,
+        };
+        Some(ExpectedWork {
+            critical_speeds,
+            to_rpm: rpm(to_rad_per_s),
+            seconds: seconds * (critical_speeds as f64 / 10.0).powi(power),
+        })
     }
 
     /// Whether a user should hear of it before it begins.
