@@ -10,8 +10,8 @@ use crate::system::GyroscopicSystem;
 use super::error::SpectrumError;
 use super::free_wave;
 use super::half_order;
+use super::interval::{Interval, interval_at};
 use super::projection::Projection;
-use super::reflected::KnownStates;
 use super::residual::MatrixNorms;
 use super::vectors::{Eigenpair, real_times};
 
@@ -34,24 +34,8 @@ pub(super) enum Solution {
     Whole(OnceLock<Projection>),
     /// Those of one harmonic of an undamped free blade, a symmetric problem.
     FreeWaves(Projection),
-    /// Those of projections on the low modes of a few speeds.
-    Projected {
-        /// For the chart, by speed.
-        chart: Vec<Projection>,
-        /// On the reflected waves and what they can meet, where there are any.
-        reflected: Option<ReflectedProjection>,
-    },
-}
-
-/// A projection for the whole range of speeds.
-#[derive(Debug)]
-pub(super) struct ReflectedProjection {
-    pub projection: Projection,
-    /// Frequency up to which it is complete.
-    pub height_rad_per_s: f64,
-    /// Modes of some ascending speeds, from the first at which waves are reflected to the last, in
-    /// the coordinates of the projection: what is between them follows from their states.
-    pub known: Vec<KnownStates>,
+    /// Those of projections on the low modes of a few speeds, by ascending speed.
+    Projected(Vec<Interval>),
 }
 
 impl Component {
@@ -94,10 +78,7 @@ impl Component {
         match &self.solution {
             Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
             Solution::FreeWaves(whole) => whole,
-            Solution::Projected { chart, .. } => {
-                let place = chart.partition_point(|p| p.to_rad_per_s < speed_rad_per_s);
-                &chart[place.min(chart.len() - 1)]
-            }
+            Solution::Projected(intervals) => &interval_at(intervals, speed_rad_per_s).projection,
         }
     }
 

@@ -106,7 +106,7 @@ fn certified(
         })
         .collect();
     let basis = orthonormal(full.order(), &vectors, 1e-9);
-    let projection = Projection::new(full, None, basis, speed_rad_per_s);
+    let projection = Projection::new(full, None, basis);
     let reduced = &projection.reduced;
     let pairs = companion_eigenpairs(reduced, speed_rad_per_s)?;
     let modes = classify(reduced, speed_rad_per_s, 0, pairs);

@@ -1,20 +1,19 @@
 //! Few vectors that span the low modes over a whole range of speeds.
 
-mod drawn;
 mod error;
-mod reflecting;
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use faer::{Col, Mat, Scale, c64};
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
-use super::component::ReflectedProjection;
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
-use super::half_order;
+use super::hamiltonian::HamiltonianReduction;
 use super::inertia::WholeBasis;
+use super::interval::{Interval, KnownModes, StandingWave, states_at, states_between};
 use super::mode::{ModeKind, classify, is_seen};
 use super::model::{CHART_MODES, chart_height};
 use super::projection::Projection;
@@ -35,93 +34,89 @@ const DRAWN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::DRAWN_TOLE
 const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
 /// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
 const SNAPSHOT_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::SNAPSHOT_MARGIN", 1.5);
+/// Largest estimated error of a frequency that is read off the states of an interval's ends, relative to the highest of
+/// these: what is drawn needs no more, and edges and peaks are followed from there on the projection.
+const STATES_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::STATES_TOLERANCE", 1e-5);
+/// How often the stretch between a snapshot and the middle to the next is halved for the sake of these states.
+const MOST_HALVINGS: usize = 3;
+/// Relative distance of the first speed of the search for bands from the lowest critical speed: more
+/// than the search itself keeps from it.
+const BELOW_CRITICAL: f64 = 1e-3;
 /// Length given to vectors of which no part may be left out.
 const KEPT_WHOLE: f64 = 1e6;
 /// Speeds at which modes of the whole basis are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
-/// Projections of a guided blade.
-pub struct GuidedReductions {
-    /// Every mode up to the height of the chart, one projection for each interval
-    /// between neighbouring snapshots, on the modes at its two ends.
-    pub chart: Vec<Projection>,
-    /// Every mode up to a little above the highest reflected wave, if there is one,
-    /// for the whole range: the search for bands needs no more, and so asks less.
-    pub low: Option<ReflectedProjection>,
-    /// Height of the chart.
-    pub chart_rad_per_s: f64,
+/// The reduced models of a guided blade.
+pub struct Reduction {
+    /// By ascending speed.
+    pub intervals: Vec<Interval>,
+    /// Frequency up to which every mode is right.
+    pub complete_to_rad_per_s: f64,
+    /// Frequency up to which instabilities are searched for: a little above the highest reflected wave. 0 without one.
+    pub reflected_to_rad_per_s: f64,
     /// Largest estimated error of a frequency above its tolerance, in rad/s: 0 unless the
     /// snapshots ran out.
     pub unsettled_rad_per_s: f64,
 }
 
+/// A guided blade, and what is known of it.
+pub struct Guided<'a> {
+    pub system: &'a GyroscopicSystem,
+    /// Blocks and columns of its matrices, where it has such.
+    pub structure: Option<&'a WholeBasis>,
+    /// Size of its frequencies.
+    pub scale: f64,
+    /// Every critical speed of the range.
+    pub critical: &'a [NamedCriticalSpeed],
+}
+
 /// Modes of the guided blade at a few speeds, more of them until every mode up to
 /// the chart's height, and every reflected one, is right in between too.
+///
+/// For bands alone the modes that only a chart shows are left out, and the speeds below the lowest critical one, where no
+/// wave is reflected: that costs a sixth.
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].
 pub fn of_guided(
-    system: &GyroscopicSystem,
-    structure: Option<&WholeBasis>,
+    guided: Guided<'_>,
     range: (f64, f64),
-    scale: f64,
-    critical: &[NamedCriticalSpeed],
+    are_bands_enough: bool,
     counters: &WorkCounters,
-) -> Result<GuidedReductions, SpectrumError> {
-    let mut builder = Builder::new(system, range, scale, critical, counters);
-    builder.structure = structure;
-    let (reflected, drawn) = rayon::join(
-        || builder.reflected_height(range.1),
-        || builder.chart_height(range.0),
-    );
-    let ((low_rad_per_s, last), (chart_rad_per_s, first)) = (reflected?, drawn?);
-    counters.cancellation.check()?;
-    builder.window = chart_rad_per_s.max(low_rad_per_s);
-    builder.add_first_snapshots([Some(first), last])?;
-    let low = match low_rad_per_s > 0.0 && system.is_conservative() {
-        true => Some(builder.whole_range(low_rad_per_s)?),
-        false => None,
+) -> Result<Reduction, SpectrumError> {
+    let mut builder = Builder::new(guided, range, counters);
+    let reflected = || builder.reflected_height(range.1);
+    let chart = || builder.chart_height(range.0);
+    let ((reflected, last), chart) = match are_bands_enough {
+        true => (reflected()?, None),
+        false => {
+            let (reflected, chart) = rayon::join(reflected, chart);
+            (reflected?, Some(chart?))
+        }
     };
-    Ok(GuidedReductions {
-        chart: builder.pieces()?,
-        low,
-        chart_rad_per_s: builder.window,
+    let chart = match chart {
+        None if reflected == 0.0 => Some(builder.chart_height(range.0)?),
+        chart => chart,
+    };
+    counters.cancellation.check()?;
+    builder.reflected = reflected;
+    builder.window = reflected;
+    let mut known: Vec<Snapshot> = last.into_iter().collect();
+    match chart {
+        Some((height, first)) => {
+            builder.window = height.max(reflected);
+            known.push(first);
+        }
+        None => builder.range.0 = builder.first_reflecting(),
+    }
+    builder.add_first_snapshots(known)?;
+    Ok(Reduction {
+        intervals: builder.intervals()?,
+        complete_to_rad_per_s: builder.window,
+        reflected_to_rad_per_s: reflected,
         unsettled_rad_per_s: builder.unsettled_rad_per_s,
     })
-}
-
-/// The projection on the modes that bands are made of alone.
-pub struct BandReduction {
-    /// The projection.
-    pub low: ReflectedProjection,
-    /// As in [`GuidedReductions`].
-    pub unsettled_rad_per_s: f64,
-}
-
-/// The projection on the modes that bands are made of alone; nothing where no wave is reflected.
-/// Without the modes above, that only a chart shows, and the speeds below the lowest critical one,
-/// where no wave is reflected, it costs a sixth.
-pub fn for_bands(
-    system: &GyroscopicSystem,
-    structure: Option<&WholeBasis>,
-    range: (f64, f64),
-    scale: f64,
-    critical: &[NamedCriticalSpeed],
-    counters: &WorkCounters,
-) -> Result<Option<BandReduction>, SpectrumError> {
-    let mut builder = Builder::new(system, range, scale, critical, counters);
-    builder.structure = structure;
-    let (height, last) = builder.reflected_height(range.1)?;
-    if height == 0.0 {
-        return Ok(None);
-    }
-    builder.window = height;
-    builder.range.0 = builder.first_reflecting();
-    builder.add_first_snapshots([None, last])?;
-    Ok(Some(BandReduction {
-        low: builder.whole_range(height)?,
-        unsettled_rad_per_s: builder.unsettled_rad_per_s,
-    }))
 }
 
 /// Low modes of the whole system at one speed.
@@ -131,52 +126,46 @@ struct Snapshot {
     pairs: Vec<Eigenpair>,
 }
 
-/// A projection between two snapshots, and what its middle says of it.
+/// What is tried between two snapshots.
 struct Tried {
-    piece: Projection,
+    intervals: Vec<Interval>,
     middle: f64,
     is_kept: bool,
     unsettled_rad_per_s: f64,
 }
 
 struct Builder<'a> {
-    system: &'a GyroscopicSystem,
-    /// Blocks and columns of its matrices, where it has such.
-    structure: Option<&'a WholeBasis>,
+    guided: Guided<'a>,
+    standing: Vec<StandingWave<'a>>,
     range: (f64, f64),
-    scale: f64,
-    critical: &'a [NamedCriticalSpeed],
     counters: &'a WorkCounters,
+    /// Frequency up to which modes are wanted.
     window: f64,
+    /// Frequency up to which they are wanted for the search.
+    reflected: f64,
     snapshots: Vec<Snapshot>,
     unsettled_rad_per_s: f64,
 }
 
 impl<'a> Builder<'a> {
-    fn new(
-        system: &'a GyroscopicSystem,
-        range: (f64, f64),
-        scale: f64,
-        critical: &'a [NamedCriticalSpeed],
-        counters: &'a WorkCounters,
-    ) -> Self {
+    fn new(guided: Guided<'a>, range: (f64, f64), counters: &'a WorkCounters) -> Self {
+        let critical = guided.critical.iter();
         Builder {
-            system,
-            structure: None,
+            standing: critical.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
+            guided,
             range,
-            scale,
-            critical,
             counters,
             window: 0.0,
+            reflected: 0.0,
             snapshots: Vec::new(),
             unsettled_rad_per_s: 0.0,
         }
     }
 
     /// The first snapshots, of which some may be known already.
-    fn add_first_snapshots(&mut self, known: [Option<Snapshot>; 2]) -> Result<(), SpectrumError> {
+    fn add_first_snapshots(&mut self, known: Vec<Snapshot>) -> Result<(), SpectrumError> {
         let mut speeds = first_speeds(self.range).to_vec();
-        for known in known.into_iter().flatten() {
+        for known in known {
             if self.covers(&known) {
                 speeds.retain(|speed| *speed != known.speed);
                 self.snapshots.push(known);
@@ -186,7 +175,7 @@ impl<'a> Builder<'a> {
     }
 
     fn lowest(&self, speed: f64, count: usize) -> Result<Vec<Eigenpair>, SpectrumError> {
-        self.lowest_of(self.system, speed, count)
+        self.lowest_of(self.guided.system, speed, count)
     }
 
     fn lowest_of(
@@ -196,8 +185,8 @@ impl<'a> Builder<'a> {
         count: usize,
     ) -> Result<Vec<Eigenpair>, SpectrumError> {
         self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
-        let shift = 0.5 * self.scale;
-        if let Some(basis) = self.structure
+        let shift = 0.5 * self.guided.scale;
+        if let Some(basis) = self.guided.structure
             && let Some(found) = nearly_lowest_eigenpairs(basis, system, speed, count, shift)?
         {
             let structured = &self.counters.structured_solves;
@@ -208,14 +197,15 @@ impl<'a> Builder<'a> {
     }
 
     fn chart_height(&self, speed: f64) -> Result<(f64, Snapshot), SpectrumError> {
-        let is_conservative = self.system.is_conservative();
+        let Guided { system, scale, .. } = self.guided;
+        let is_conservative = system.is_conservative();
         let mut count = CHART_MODES + 2;
         loop {
             let pairs = self.lowest(speed, count)?;
             let lambdas: Vec<c64> = pairs.iter().map(|(lambda, _)| *lambda).collect();
             let seen = lambdas.iter().filter(|lambda| is_seen(**lambda)).count();
-            if is_conservative || seen >= CHART_MODES || 2 * count >= self.system.order() {
-                let height = chart_height(&lambdas, is_conservative).unwrap_or(self.scale);
+            if is_conservative || seen >= CHART_MODES || 2 * count >= system.order() {
+                let height = chart_height(&lambdas, is_conservative).unwrap_or(scale);
                 return Ok((height, Snapshot { speed, pairs }));
             }
             // Those that decay without oscillating stand between.
@@ -232,13 +222,19 @@ impl<'a> Builder<'a> {
     /// Highest reflected wave at the top speed, with a margin for what it may meet; of a damped
     /// blade that of its undamped twin, for these are the waves that damping feeds.
     fn reflected_height(&self, speed: f64) -> Result<(f64, Option<Snapshot>), SpectrumError> {
-        let index = self.critical.partition_point(|c| c.speed_rad_per_s < speed);
+        let Guided {
+            system,
+            scale,
+            critical,
+            ..
+        } = self.guided;
+        let index = critical.partition_point(|c| c.speed_rad_per_s < speed);
         if index == 0 {
             return Ok((0.0, None));
         }
-        let is_damped = !self.system.is_conservative();
-        let twin = is_damped.then(|| self.system.conservative());
-        let system = twin.as_ref().unwrap_or(self.system);
+        let is_damped = !system.is_conservative();
+        let twin = is_damped.then(|| system.conservative());
+        let system = twin.as_ref().unwrap_or(system);
         let mut count = CHART_MODES + index;
         loop {
             let pairs = self.lowest_of(system, speed, count)?;
@@ -249,10 +245,10 @@ impl<'a> Builder<'a> {
                 _ => 0,
             };
             let found: usize = modes.iter().map(|mode| negative(mode.kind)).sum();
-            if found >= index || 2 * count >= self.system.order() {
+            if found >= index || 2 * count >= system.order() {
                 let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
                 let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
-                let height = REFLECTED_MARGIN.get() * height.max(0.1 * self.scale);
+                let height = REFLECTED_MARGIN.get() * height.max(0.1 * scale);
                 return Ok((height, (!is_damped).then_some(Snapshot { speed, pairs })));
             }
             count *= 2;
@@ -275,95 +271,171 @@ impl<'a> Builder<'a> {
         loop {
             let pairs = self.lowest(speed, count)?;
             let snapshot = Snapshot { speed, pairs };
-            if self.covers(&snapshot) || 2 * count >= self.system.order() {
+            if self.covers(&snapshot) || 2 * count >= self.guided.system.order() {
                 return Ok(snapshot);
             }
             count += count / 2;
         }
     }
 
-    /// The modes up to a height at some snapshots, and the standing waves of the critical
-    /// speeds between them: with these the projected K(Ω) is singular at the same speeds as
-    /// the whole one, to the last digit.
-    fn basis(&self, snapshots: &[Snapshot], height: f64) -> Mat<f64> {
-        let (from, to) = match (snapshots.first(), snapshots.last()) {
-            (Some(first), Some(last)) => (first.speed, last.speed),
-            _ => self.range,
-        };
-        let inside = |c: &&NamedCriticalSpeed| (from..=to).contains(&c.speed_rad_per_s);
-        let standing = self.critical.iter().filter(inside);
-        let kept = standing.map(|c| &c.shape).chain(&self.system.free_rigid);
-        let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
-        for (lambda, q) in snapshots.iter().flat_map(|s| &s.pairs) {
-            if lambda.norm() <= SNAPSHOT_MARGIN.get() * height {
-                let (re, im) = split(q);
-                vectors.push(re);
-                vectors.push(im);
-            }
+    /// Where waves are first reflected: a little below the lowest critical speed, as far as the
+    /// range goes.
+    fn first_reflecting(&self) -> f64 {
+        let (from, to) = self.range;
+        let lowest = self.guided.critical.first();
+        let lowest = lowest.map_or(from, |c| c.speed_rad_per_s);
+        match lowest * (1.0 + BELOW_CRITICAL) < to {
+            true => (lowest * (1.0 - BELOW_CRITICAL)).max(from),
+            false => from,
         }
-        orthonormal(self.system.order(), &vectors, SPAN_TOLERANCE.get())
     }
 
-    /// Projections between neighbouring snapshots, halved until right in their middle.
-    fn pieces(&mut self) -> Result<Vec<Projection>, SpectrumError> {
-        let mut finished: Vec<Projection> = Vec::new();
+    /// The modes at two snapshots; of the others those that the search follows; and the standing waves of the
+    /// critical speeds between the two: with these the projected K(Ω) is singular at the same speeds as
+    /// the whole one, to the last digit.
+    fn basis(&self, [from, to]: [&Snapshot; 2]) -> Mat<f64> {
+        let system = self.guided.system;
+        let between = from.speed..=to.speed;
+        let inside = |c: &&NamedCriticalSpeed| between.contains(&c.speed_rad_per_s);
+        let standing = self.guided.critical.iter().filter(inside);
+        let kept = standing.map(|c| &c.shape).chain(&system.free_rigid);
+        let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
+        let followed = match system.is_conservative() {
+            true => self.reflected,
+            false => 0.0,
+        };
+        for snapshot in &self.snapshots {
+            let height = match between.contains(&snapshot.speed) {
+                true => self.window,
+                false => followed,
+            };
+            for (lambda, q) in &snapshot.pairs {
+                if lambda.norm() <= SNAPSHOT_MARGIN.get() * height {
+                    let (re, im) = split(q);
+                    vectors.extend([re, im]);
+                }
+            }
+        }
+        orthonormal(system.order(), &vectors, SPAN_TOLERANCE.get())
+    }
+
+    /// The reduced models between neighbouring snapshots, more of which are added until each is right in its middle.
+    fn intervals(&mut self) -> Result<Vec<Interval>, SpectrumError> {
+        let mut finished: Vec<(f64, Vec<Interval>)> = Vec::new();
         loop {
             self.counters.cancellation.check()?;
-            let is_open = |pair: &&[Snapshot]| {
-                let to = pair[1].speed;
-                finished.iter().all(|piece| piece.to_rad_per_s != to)
-            };
+            let is_open = |pair: &&[Snapshot]| finished.iter().all(|(to, _)| *to != pair[1].speed);
             let open: Vec<&[Snapshot]> = self.snapshots.windows(2).filter(is_open).collect();
-            let last_round = self.snapshots.len() >= MAX_SNAPSHOTS;
-            let tried: Result<Vec<Tried>, SpectrumError> = open
-                .into_par_iter()
-                .map(|pair| {
-                    let basis = self.basis(pair, self.window);
-                    let mut piece =
-                        Projection::new(self.system, self.structure, basis, pair[1].speed);
-                    let middle = 0.5 * (pair[0].speed + pair[1].speed);
-                    let pairs = self.pairs(&piece, middle)?;
-                    let error = self.frequency_error(&piece, middle, self.window, &pairs);
-                    let is_wrong = error > DRAWN_TOLERANCE.get() * self.window;
-                    let is_kept = last_round || !is_wrong;
-                    if is_kept && self.system.is_conservative() && self.system.free_rigid.is_empty()
-                    {
-                        piece.drawn = self.drawn(&piece, pair, (middle, pairs));
-                    }
-                    Ok(Tried {
-                        piece,
-                        middle,
-                        is_kept,
-                        unsettled_rad_per_s: if is_wrong { error } else { 0.0 },
-                    })
-                })
-                .collect();
+            let tried = open.into_par_iter().map(|pair| {
+                let tried = self.tried([&pair[0], &pair[1]])?;
+                Ok((pair[1].speed, tried))
+            });
+            let tried: Vec<(f64, Tried)> = tried.collect::<Result<_, SpectrumError>>()?;
             let mut coarse = Vec::new();
-            for tried in tried? {
+            for (to, tried) in tried {
                 if !tried.is_kept {
                     coarse.push(tried.middle);
                     continue;
                 }
-                finished.push(tried.piece);
+                finished.push((to, tried.intervals));
                 self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(tried.unsettled_rad_per_s);
             }
             if coarse.is_empty() {
-                finished.sort_by(|x, y| x.to_rad_per_s.total_cmp(&y.to_rad_per_s));
-                return Ok(finished);
+                finished.sort_by(|x, y| x.0.total_cmp(&y.0));
+                return Ok(finished
+                    .into_iter()
+                    .flat_map(|(_, intervals)| intervals)
+                    .collect());
             }
             self.add_snapshots(&coarse)?;
         }
     }
 
-    fn pairs(&self, projection: &Projection, speed: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
-        half_order::eigenpairs(&projection.reduced, speed)
+    fn tried(&self, ends: [&Snapshot; 2]) -> Result<Tried, SpectrumError> {
+        let Guided {
+            system, structure, ..
+        } = self.guided;
+        let projection = Arc::new(Projection::new(system, structure, self.basis(ends)));
+        let [from, to] = ends.map(|end| end.speed);
+        let middle = KnownModes::of(&projection, 0.5 * (from + to), self.counters)?;
+        let excess = |height: f64, tolerance: Tuned| {
+            let speed = middle.speed_rad_per_s;
+            let error = self.frequency_error(&projection, speed, height, &middle.pairs);
+            match error > tolerance.get() * self.window {
+                true => error,
+                false => 0.0,
+            }
+        };
+        let mut unsettled_rad_per_s = excess(self.window, DRAWN_TOLERANCE);
+        if system.is_conservative() && self.reflected > 0.0 {
+            let searched = excess(self.reflected, FREQUENCY_TOLERANCE);
+            unsettled_rad_per_s = searched.max(unsettled_rad_per_s);
+        }
+        let is_kept = unsettled_rad_per_s == 0.0 || self.snapshots.len() >= MAX_SNAPSHOTS;
+        let mut intervals = Vec::new();
+        if is_kept {
+            let inward = |end: &Snapshot| {
+                let pairs = end.pairs.iter().map(|pair| projection.inward(pair));
+                KnownModes {
+                    speed_rad_per_s: end.speed,
+                    pairs: pairs.collect(),
+                }
+            };
+            let [first, last] = ends.map(inward);
+            for ends in [[&first, &middle], [&middle, &last]] {
+                intervals.extend(self.between(&projection, ends, MOST_HALVINGS)?);
+            }
+        }
+        Ok(Tried {
+            intervals,
+            middle: middle.speed_rad_per_s,
+            is_kept,
+            unsettled_rad_per_s,
+        })
     }
-}
 
-fn low_pairs(mut pairs: Vec<Eigenpair>, height: f64) -> Vec<Eigenpair> {
-    pairs.retain(|(lambda, _)| lambda.norm() <= height);
-    pairs
+    /// The intervals between two speeds, each so short that the states of its ends are good enough to draw from.
+    fn between(
+        &self,
+        projection: &Arc<Projection>,
+        ends: [&KnownModes; 2],
+        halvings: usize,
+    ) -> Result<Vec<Interval>, SpectrumError> {
+        let [from, to] = ends.map(|end| end.speed_rad_per_s);
+        let middle = 0.5 * (from + to);
+        let up_to = |height: f64| states_between(projection, ends, &self.standing, height);
+        let is_good = |states: &HamiltonianReduction, height: f64| {
+            // Where the eigenproblem of the states fails, that of the projection takes its place.
+            states_at(states, middle, self.counters).is_ok_and(|pairs| {
+                let error = self.frequency_error(projection, middle, height, &pairs);
+                error <= STATES_TOLERANCE.get() * height
+            })
+        };
+        let mut drawn = up_to(self.window);
+        let mut searched = match self.reflected > 0.0 {
+            true => up_to(self.reflected),
+            false => None,
+        };
+        let are_good = [(&drawn, self.window), (&searched, self.reflected)]
+            .map(|(states, height)| states.as_ref().is_none_or(|states| is_good(states, height)));
+        if are_good != [true; 2] && halvings > 0 {
+            let middle = KnownModes::of(projection, middle, self.counters)?;
+            let mut halves = self.between(projection, [ends[0], &middle], halvings - 1)?;
+            halves.extend(self.between(projection, [&middle, ends[1]], halvings - 1)?);
+            return Ok(halves);
+        }
+        for (states, is_good) in [&mut drawn, &mut searched].into_iter().zip(are_good) {
+            if !is_good {
+                *states = None;
+            }
+        }
+        Ok(vec![Interval {
+            to_rad_per_s: to,
+            projection: projection.clone(),
+            drawn,
+            searched,
+        }])
+    }
 }
 
 /// Speeds of the first snapshots.

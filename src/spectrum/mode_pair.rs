@@ -1,16 +1,20 @@
 //! Two modes next to each other, refined on the system that they are modes of.
 
+use std::sync::Arc;
+
 use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::{Col, Mat, Scale, c64};
 
 use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::hamiltonian::{HamiltonianReduction, State};
+use super::projection::Projection;
 use super::vectors::Eigenpair;
 
 /// The invariant subspace of two modes at one speed, and what it says next to that speed.
 #[derive(Debug)]
 pub struct ModePair {
+    projection: Arc<Projection>,
     model: HamiltonianReduction,
     subspace: Subspace,
 }
@@ -32,46 +36,52 @@ impl ModePair {
     /// The pair of two modes of a speed, refined there. `None` where block inverse iteration
     /// does not settle on two modes.
     pub(super) fn new(
-        system: &GyroscopicSystem,
+        projection: &Arc<Projection>,
         speed_rad_per_s: f64,
         scale: f64,
         pairs: [&Eigenpair; 2],
     ) -> Option<Self> {
-        let order = system.order();
+        let order = projection.reduced.order();
         let start = Subspace {
             q: Mat::from_fn(order, 2, |i, k| pairs[k].1[i]),
             v: Mat::from_fn(order, 2, |i, k| pairs[k].1[i] * pairs[k].0),
         };
         let lambdas = pairs.map(|pair| pair.0);
-        Self::iterated(system, speed_rad_per_s, scale, start, lambdas)
+        Self::iterated(projection, speed_rad_per_s, scale, start, lambdas)
     }
 
-    /// The same pair at another speed, from what it is here.
+    /// The same pair at another speed by the projection that is good there, from what it is here.
     pub(super) fn moved(
         &self,
-        system: &GyroscopicSystem,
+        projection: &Arc<Projection>,
         speed_rad_per_s: f64,
         scale: f64,
     ) -> Option<Self> {
         let lambdas = self.eigenvalues(speed_rad_per_s);
-        Self::iterated(
-            system,
-            speed_rad_per_s,
-            scale,
-            self.subspace.clone(),
-            lambdas,
-        )
+        let start = match Arc::ptr_eq(projection, &self.projection) {
+            true => self.subspace.clone(),
+            false => {
+                let turned = projection.basis.transpose() * &self.projection.basis;
+                let in_new = |part: &Mat<c64>| real_times_columns(&turned, part);
+                Subspace {
+                    q: in_new(&self.subspace.q),
+                    v: in_new(&self.subspace.v),
+                }
+            }
+        };
+        Self::iterated(projection, speed_rad_per_s, scale, start, lambdas)
     }
 
     /// Block inverse iteration, shifted to both eigenvalues in turn: next to one of them alone
     /// a foreign mode may be nearer than the other.
     fn iterated(
-        system: &GyroscopicSystem,
+        projection: &Arc<Projection>,
         speed_rad_per_s: f64,
         scale: f64,
         start: Subspace,
         lambdas: [c64; 2],
     ) -> Option<Self> {
+        let system = &projection.reduced;
         let order = system.order();
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
@@ -100,18 +110,19 @@ impl ModePair {
             }
             let settled = || residual(&stiffness, &damping, &q, &v) <= LARGEST_RESIDUAL;
             if step >= *STEPS.start() && settled() {
-                return Self::projected(system, speed_rad_per_s, scale, Subspace { q, v });
+                return Self::projected(projection, speed_rad_per_s, scale, Subspace { q, v });
             }
         }
         None
     }
 
     fn projected(
-        system: &GyroscopicSystem,
+        projection: &Arc<Projection>,
         speed_rad_per_s: f64,
         scale: f64,
         subspace: Subspace,
     ) -> Option<Self> {
+        let system = &projection.reduced;
         let Subspace { q, v } = &subspace;
         let states: Vec<State> = (0..2)
             .map(|k| {
@@ -122,7 +133,11 @@ impl ModePair {
             })
             .collect();
         let model = HamiltonianReduction::new(system, scale, &states)?;
-        (model.order() == 4).then_some(ModePair { model, subspace })
+        (model.order() == 4).then(|| ModePair {
+            projection: projection.clone(),
+            model,
+            subspace,
+        })
     }
 
     /// σ² and ω² of the quadruple ±σ ± iω, smooth through both ends of its band: of two waves
@@ -145,6 +160,15 @@ impl ModePair {
         let distance = half(growth, c64::new(1.0, 0.0), c64::new(0.0, 1.0));
         [mean + distance, mean - distance]
     }
+}
+
+/// A real matrix times complex columns.
+fn real_times_columns(matrix: &Mat<f64>, columns: &Mat<c64>) -> Mat<c64> {
+    Mat::from_fn(matrix.nrows(), columns.ncols(), |i, k| {
+        (0..matrix.ncols())
+            .map(|j| columns[(j, k)] * matrix[(i, j)])
+            .sum()
+    })
 }
 
 /// Makes two complex states orthonormal in (q, v/scale).
@@ -183,7 +207,7 @@ fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>
     left.norm_l2() / size + kinematic.norm_l2() / v.norm_l2().max(f64::MIN_POSITIVE)
 }
 
-/// Unit vector, for those who build states by hand.
+/// The two states of a wave that stands still at its critical speed: its deflection, and a momentum of the same shape.
 pub(super) fn standing_states(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,

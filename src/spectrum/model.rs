@@ -17,12 +17,12 @@ use super::component::{Component, Solution};
 use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::error::SpectrumError;
-use super::guided_reduction;
+use super::guided_reduction::{Guided, of_guided};
 use super::inertia::WholeBasis;
+use super::interval::{interval_at, states_at};
 use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
 use super::mode_name::ModeName;
 use super::projection::Projection;
-use super::reflected::ReflectedModel;
 use super::scale::frequency_scale;
 use super::work::{Cancellation, WorkCounters};
 
@@ -67,6 +67,8 @@ pub struct SpectralModel {
     pub critical: Vec<NamedCriticalSpeed>,
     /// Frequency up to which the modes are complete and accurate.
     pub complete_to_rad_per_s: f64,
+    /// Frequency up to which instabilities are searched for.
+    pub reflected_to_rad_per_s: f64,
     /// Largest estimated error of a frequency of the reduced models above their tolerance, in
     /// rad/s: 0 unless they would have needed more speeds than a reduction may take modes from.
     pub unsettled_rad_per_s: f64,
@@ -136,6 +138,7 @@ impl SpectralModel {
             plate,
             critical,
             complete_to_rad_per_s: f64::INFINITY,
+            reflected_to_rad_per_s: 0.0,
             unsettled_rad_per_s: 0.0,
             counters,
             structure: structure.map_or_else(OnceLock::new, OnceLock::from),
@@ -149,6 +152,9 @@ impl SpectralModel {
         }
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
+        }
+        if model.reflected_to_rad_per_s == 0.0 {
+            model.reflected_to_rad_per_s = model.complete_to_rad_per_s;
         }
         Ok(model)
     }
@@ -168,31 +174,18 @@ impl SpectralModel {
         let structure =
             is_large.then(|| self.structure.get_or_init(|| WholeBasis::new(&self.plate)));
         for component in &mut self.components {
-            let system = &component.full;
-            let bands_alone = match strategy == Strategy::Bands {
-                true => guided_reduction::for_bands(
-                    system, structure, range, scale, critical, counters,
-                )?,
-                false => None,
+            let guided = Guided {
+                system: &component.full,
+                structure,
+                scale,
+                critical,
             };
-            if let Some(found) = bands_alone {
-                self.complete_to_rad_per_s = found.low.height_rad_per_s;
-                component.solution = Solution::Projected {
-                    chart: vec![found.low.projection.clone()],
-                    reflected: Some(found.low),
-                };
-                self.unsettled_rad_per_s = found.unsettled_rad_per_s;
-            } else {
-                let found = guided_reduction::of_guided(
-                    system, structure, range, scale, critical, counters,
-                )?;
-                component.solution = Solution::Projected {
-                    chart: found.chart,
-                    reflected: found.low,
-                };
-                self.complete_to_rad_per_s = found.chart_rad_per_s;
-                self.unsettled_rad_per_s = found.unsettled_rad_per_s;
-            }
+            let are_bands_enough = strategy == Strategy::Bands;
+            let found = of_guided(guided, range, are_bands_enough, counters)?;
+            component.solution = Solution::Projected(found.intervals);
+            self.complete_to_rad_per_s = found.complete_to_rad_per_s;
+            self.reflected_to_rad_per_s = found.reflected_to_rad_per_s;
+            self.unsettled_rad_per_s = found.unsettled_rad_per_s;
         }
         Ok(())
     }
@@ -245,15 +238,16 @@ impl SpectralModel {
         let ([component], true) = (self.components.as_slice(), speed_rad_per_s > 0.0) else {
             return self.modes(speed_rad_per_s);
         };
-        let projection = component.at(speed_rad_per_s);
-        let Some(few) = projection.drawn_at(speed_rad_per_s) else {
+        let Solution::Projected(intervals) = &component.solution else {
             return self.modes(speed_rad_per_s);
         };
-        self.counters.cancellation.check()?;
-        self.counters.local_solves.fetch_add(1, Ordering::Relaxed);
-        let mut pairs = few.eigenpairs(speed)?;
+        let interval = interval_at(intervals, speed_rad_per_s);
+        let Some(states) = &interval.drawn else {
+            return self.modes(speed_rad_per_s);
+        };
+        let mut pairs = states_at(states, speed, &self.counters)?;
         pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
-        let mut modes = classify(&projection.reduced, speed, 0, pairs);
+        let mut modes = classify(&interval.projection.reduced, speed, 0, pairs);
         modes.retain(|m| m.kind != ModeKind::Rigid);
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
@@ -391,60 +385,6 @@ impl SpectralModel {
         }
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         Ok(modes)
-    }
-
-    /// The modes that instabilities are made of, from the smallest sound projection. `None`
-    /// where there are no bands: for an undamped plate whose harmonics nothing couples, and below
-    /// its lowest critical speed.
-    pub fn reflected_model(&self) -> Option<ReflectedModel<'_>> {
-        let [component] = self.components.as_slice() else {
-            return None;
-        };
-        let Solution::Projected { reflected, .. } = &component.solution else {
-            return self.whole_reflected_model();
-        };
-        let reflected = reflected.as_ref()?;
-        let basis = &reflected.projection.basis;
-        let inward = |(speed, x)| (speed, basis.transpose() * x);
-        Some(ReflectedModel::new(
-            &reflected.projection.reduced,
-            self.standing(component).map(inward).collect(),
-            reflected.height_rad_per_s,
-            &reflected.known,
-            &self.counters,
-        ))
-    }
-
-    /// The same on the whole basis, by which a projection that lacks something is made good.
-    pub(crate) fn whole_reflected_model(&self) -> Option<ReflectedModel<'_>> {
-        let [component] = self.components.as_slice() else {
-            return None;
-        };
-        let own = self
-            .standing(component)
-            .map(|(speed, x)| (speed, x.clone()));
-        let height = match &component.solution {
-            Solution::Projected {
-                reflected: Some(reflected),
-                ..
-            } => reflected.height_rad_per_s,
-            _ => self.complete_to_rad_per_s,
-        };
-        Some(ReflectedModel::new(
-            &component.full,
-            own.collect(),
-            height,
-            &[],
-            &self.counters,
-        ))
-    }
-
-    /// Critical speeds that the projections cover, and their standing waves.
-    fn standing(&self, component: &Component) -> impl Iterator<Item = (f64, &Col<f64>)> {
-        let last = component.at(f64::INFINITY).to_rad_per_s;
-        let within = self.critical.iter();
-        let within = within.filter(move |c| c.speed_rad_per_s <= last);
-        within.map(|c| (c.speed_rad_per_s, &c.shape))
     }
 
     /// Negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite

@@ -4,54 +4,40 @@ use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::hamiltonian::{HamiltonianReduction, State};
 use super::inertia::WholeBasis;
 use super::residual::Lifted;
 use super::structured;
-use super::vectors::{Eigenpair, real_times, split};
+use super::vectors::{Eigenpair, split};
 
 /// A component projected on few orthonormal vectors.
 #[derive(Debug, Clone)]
 pub struct Projection {
-    /// Last speed that it is good for.
-    pub to_rad_per_s: f64,
     /// V, N × r.
     pub basis: Mat<f64>,
     /// The projected matrices.
     pub reduced: GyroscopicSystem,
     /// The matrices times V, for residuals on the whole component.
     products: GyroscopicSystem,
-    /// The same on few states, each with the last speed that it is good for: for drawing.
-    pub(super) drawn: Vec<(f64, Option<HamiltonianReduction>)>,
 }
 
 impl Projection {
-    /// Projects a component, for speeds up to `to_rad_per_s`; by its structure where that is known.
-    pub fn new(
-        system: &GyroscopicSystem,
-        structure: Option<&WholeBasis>,
-        basis: Mat<f64>,
-        to_rad_per_s: f64,
-    ) -> Self {
+    /// Projects a component; by its structure where that is known.
+    pub fn new(system: &GyroscopicSystem, structure: Option<&WholeBasis>, basis: Mat<f64>) -> Self {
         let products = structured::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());
         Projection {
-            to_rad_per_s,
             basis,
             reduced,
             products,
-            drawn: Vec::new(),
         }
     }
 
     /// The component itself.
     pub fn whole(system: &GyroscopicSystem) -> Self {
         Projection {
-            to_rad_per_s: f64::INFINITY,
             basis: Mat::identity(system.order(), system.order()),
             reduced: system.clone(),
             products: system.clone(),
-            drawn: Vec::new(),
         }
     }
 
@@ -63,26 +49,6 @@ impl Projection {
             *lambda,
             Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])),
         )
-    }
-
-    /// Pairs of the projection as pairs of the whole component.
-    pub fn outward(&self, pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
-        let lift = |(lambda, q): Eigenpair| (lambda, real_times(&self.basis, &q));
-        pairs.into_iter().map(lift).collect()
-    }
-
-    /// The states of pairs of the projection at a speed.
-    pub fn states(&self, speed_rad_per_s: f64, pairs: Vec<Eigenpair>) -> Vec<State> {
-        pairs
-            .into_iter()
-            .map(|pair| State::new(&self.reduced, speed_rad_per_s, pair))
-            .collect()
-    }
-
-    /// The few states for a speed, where there are such.
-    pub fn drawn_at(&self, speed_rad_per_s: f64) -> Option<&HamiltonianReduction> {
-        let place = self.drawn.partition_point(|(to, _)| *to < speed_rad_per_s);
-        self.drawn.get(place).and_then(|(_, model)| model.as_ref())
     }
 
     /// Vq and L(λ)Vq of pairs (λ, q) at one speed, all in one product of matrices.

@@ -12,8 +12,7 @@ use super::partition::Sample;
 use super::seen::Seen;
 use super::signature::{Signature, SignedMode};
 use crate::spectrum::{
-    KnownStates, Mode, ModeKind, ModePair, ReflectedModel, SpectralModel, SpectrumError,
-    krein_index,
+    Mode, ModeKind, ModePair, SearchModel, SpectralModel, SpectrumError, krein_index,
 };
 use crate::tuned::Tuned;
 
@@ -47,11 +46,8 @@ const LEAST_FOR_A_SEARCH: usize = 25;
 /// highest differ by so little within 1e-9 of it (a pad of 100 N/m, bands of 2e-6 of the speed).
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// Speeds at which the search solves the whole projected system; between two of them it goes
-/// by their modes.
-const ANCHORS: Tuned = Tuned::new("stability/evaluator::ANCHORS", 13.0);
-/// Speeds of which the modes are known may be so many times further apart.
-const LARGEST_GAP: f64 = 1.7;
+/// Speeds at which a search on the whole basis solves it; between two of them it goes by their modes.
+const ANCHORS: usize = 13;
 
 /// Where the Krein index was compared, and where it did not match.
 #[derive(Debug, Default)]
@@ -67,13 +63,9 @@ const BESIDES: usize = 8;
 /// Evaluates signatures, checks the Krein index of each, and counts.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
-    low: Option<ReflectedModel<'a>>,
-    /// The same between neighbouring anchors, with the upper of both.
-    intervals: Vec<(f64, ReflectedModel<'a>)>,
+    low: Option<SearchModel<'a>>,
     tally: Tally,
     seen: Seen,
-    /// Whether `low` is the whole basis.
-    is_whole: bool,
 }
 
 impl<'a> SignatureEvaluator<'a> {
@@ -82,7 +74,10 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        Self::of(model, model.reflected_model(), speeds, false)
+        match SearchModel::new(model) {
+            Some(low) => Ok(Self::of(model, Some(low))),
+            None => Self::on_whole_basis(model, speeds),
+        }
     }
 
     /// Whether the whole basis of a model is small enough to be solved at every speed of a search.
@@ -95,38 +90,25 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn on_whole_basis(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        Self::of(model, model.whole_reflected_model(), speeds, true)
+        let low = SearchModel::of_whole_basis(model, &anchors(speeds))?;
+        Ok(Self::of(model, low))
     }
 
-    fn of(
-        model: &'a SpectralModel,
-        low: Option<ReflectedModel<'a>>,
-        speeds: &[f64],
-        is_whole: bool,
-    ) -> Result<Self, SpectrumError> {
-        let mut intervals = Vec::new();
-        if let Some(low) = &low {
-            intervals = anchor_states(low, speeds)?
-                .par_windows(2)
-                .map(|ends| (ends[1].0, low.between([&ends[0], &ends[1]])))
-                .collect();
-        }
-        Ok(SignatureEvaluator {
+    fn of(model: &'a SpectralModel, low: Option<SearchModel<'a>>) -> Self {
+        SignatureEvaluator {
             model,
             low,
-            intervals,
             tally: Tally::default(),
             seen: Seen::default(),
-            is_whole,
-        })
+        }
     }
 
     /// Some ascending speeds, and those at which one interval ends and the next begins.
     pub fn with_ends_of_intervals(&self, speeds: &[f64]) -> Vec<f64> {
         let mut all = speeds.to_vec();
         if let [first, .., last] = speeds {
-            let inner = self.intervals.iter().map(|(to, _)| *to);
-            all.extend(inner.filter(|speed| first < speed && speed < last));
+            let ends = self.low.iter().flat_map(SearchModel::ends_rad_per_s);
+            all.extend(ends.filter(|speed| first < speed && speed < last));
         }
         all.sort_by(f64::total_cmp);
         all.dedup();
@@ -166,16 +148,13 @@ impl<'a> SignatureEvaluator<'a> {
     /// The modes of that signature.
     fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        if let Some(interval) = self.near(speed_rad_per_s) {
-            let modes = interval.modes(speed_rad_per_s)?;
+        if let Some(low) = &self.low {
+            let modes = low.modes(speed_rad_per_s)?;
             if self.match_index(speed_rad_per_s, &modes) {
                 return Ok(modes);
             }
         }
-        if self.is_whole {
-            self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        }
-        let reduced = self.reduced_modes(speed_rad_per_s)?;
+        let reduced = self.projected_modes(speed_rad_per_s)?;
         if self.match_index(speed_rad_per_s, &reduced) {
             return Ok(reduced);
         }
@@ -189,7 +168,7 @@ impl<'a> SignatureEvaluator<'a> {
         }
         for share in [1.0 - BESIDE_COALESCENCE, 1.0 + BESIDE_COALESCENCE] {
             let beside = share * speed_rad_per_s;
-            if self.match_index(beside, &self.reduced_modes(beside)?) {
+            if self.match_index(beside, &self.projected_modes(beside)?) {
                 return Ok(modes);
             }
         }
@@ -199,20 +178,12 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(modes)
     }
 
-    /// Those of the reduced model.
-    fn reduced_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+    /// Those of the projections.
+    fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         match &self.low {
-            Some(low) => low.modes(speed_rad_per_s),
+            Some(low) => low.projected_modes(speed_rad_per_s),
             None => self.model.all_modes(speed_rad_per_s),
         }
-    }
-
-    /// The smallest model for a speed.
-    fn near(&self, speed_rad_per_s: f64) -> Option<&ReflectedModel<'a>> {
-        let place = self
-            .intervals
-            .partition_point(|(to, _)| *to < speed_rad_per_s);
-        self.intervals.get(place).map(|(_, interval)| interval)
     }
 
     /// The signature by the smallest model, counted and checked nowhere: for a guess that is proven
@@ -221,9 +192,9 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = match self.near(speed_rad_per_s) {
-            Some(interval) => interval.modes(speed_rad_per_s)?,
-            None => self.reduced_modes(speed_rad_per_s)?,
+        let modes = match &self.low {
+            Some(low) => low.modes(speed_rad_per_s)?,
+            None => self.model.all_modes(speed_rad_per_s)?,
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
     }
@@ -302,7 +273,7 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn height_rad_per_s(&self) -> f64 {
         self.low.as_ref().map_or(
             self.model.complete_to_rad_per_s,
-            ReflectedModel::height_rad_per_s,
+            SearchModel::height_rad_per_s,
         )
     }
 
@@ -319,12 +290,10 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(None);
         };
         let lambdas = [growing, -growing.conj()];
-        match self.seen.nearest(speed_rad_per_s, lambdas) {
-            Some(modes) if low.has(&modes) => Ok(low.pair_of(speed_rad_per_s, &modes)),
-            _ => {
-                let near = self.near(speed_rad_per_s);
-                near.unwrap_or(low).pair(speed_rad_per_s, lambdas)
-            }
+        let seen = self.seen.nearest(speed_rad_per_s, lambdas);
+        match seen.filter(|modes| low.has(speed_rad_per_s, modes)) {
+            Some(modes) => Ok(low.pair_of(speed_rad_per_s, &modes)),
+            None => low.pair(speed_rad_per_s, lambdas),
         }
     }
 
@@ -340,7 +309,7 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
         let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
+            Some(low) => low.projected_modes(speed_rad_per_s)?,
             None => return Ok(0.0),
         };
         Ok(Signature::new(speed_rad_per_s, modes.iter())
@@ -370,48 +339,12 @@ impl<'a> SignatureEvaluator<'a> {
     }
 }
 
-/// States at ascending speeds from the first to the last of some: those that come with the
-/// projection, and more where these are far apart.
-fn anchor_states(
-    low: &ReflectedModel<'_>,
-    speeds: &[f64],
-) -> Result<Vec<KnownStates>, SpectrumError> {
-    let known = low.known();
-    let (missing, mut states) = match (known, speeds) {
-        ([(from, _), .., (to, _)], [first, .., last]) if from <= first && last <= to => {
-            let apart = LARGEST_GAP * (last - first) / ANCHORS.count() as f64;
-            let above = known.partition_point(|(speed, _)| speed <= first);
-            let known = &known[above.saturating_sub(1)..];
-            (between(known, apart), known.to_vec())
-        }
-        _ => (anchors(speeds), Vec::new()),
-    };
-    let computed: Vec<_> = missing
-        .into_par_iter()
-        .map(|speed| low.states(speed))
-        .collect();
-    let computed: Vec<KnownStates> = computed.into_iter().collect::<Result<_, _>>()?;
-    states.extend(computed);
-    states.sort_by(|x, y| x.0.total_cmp(&y.0));
-    Ok(states)
-}
-
-/// Evenly spread speeds between those that are known, so that none are further apart than said.
-fn between(known: &[KnownStates], apart: f64) -> Vec<f64> {
-    let within = |ends: &[KnownStates]| {
-        let (from, to) = (ends[0].0, ends[1].0);
-        let parts = ((to - from) / apart).ceil().max(1.0) as usize;
-        (1..parts).map(move |k| from + (to - from) * k as f64 / parts as f64)
-    };
-    known.windows(2).flat_map(within).collect()
-}
-
 /// Of ascending speeds the first, the last, and some about evenly spread between.
 fn anchors(speeds: &[f64]) -> Vec<f64> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Vec::new();
     };
-    let spacing = (last - first) / ANCHORS.count() as f64;
+    let spacing = (last - first) / ANCHORS as f64;
     let mut chosen = vec![first];
     for &speed in speeds {
         let latest = chosen[chosen.len() - 1];

@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::band::Instability;
 use crate::campbell::{Sighted, match_modes};
-use crate::spectrum::{Mode, ModeKind, ReflectedModel, SpectralModel, SpectrumError};
+use crate::spectrum::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError};
 
 /// Two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ impl RootLoci {
         band: &Instability,
         range: (f64, f64),
     ) -> Result<Option<Self>, SpectrumError> {
-        let Some(low) = model.reflected_model() else {
+        let Some(low) = SearchModel::new(model) else {
             return Ok(None);
         };
         let width = band.to_rad_per_s - band.from_rad_per_s;
@@ -39,12 +39,16 @@ impl RootLoci {
             (band.from_rad_per_s - width).max(range.0),
             (band.to_rad_per_s + width).min(range.1),
         );
-        let low = if to - from <= NARROW * to {
-            low.between([&low.states(from)?, &low.states(to)?])
-        } else {
-            low
+        let is_narrow = to - from <= NARROW * to;
+        let low = match is_narrow {
+            true => low.narrowed(from, to)?,
+            false => low,
         };
-        let Some(peak) = Pair::at_peak(&low, band)? else {
+        let modes = |speed: f64| match is_narrow {
+            true => low.modes(speed),
+            false => low.lifted_modes(speed),
+        };
+        let Some(peak) = Pair::at_peak(&modes, band)? else {
             return Ok(None);
         };
         let outwards = |edge: f64, end: f64| {
@@ -53,10 +57,10 @@ impl RootLoci {
             let last = (end != band.peak_rad_per_s).then_some(end);
             inside.chain(denser_at_ends(edge, end)).chain(last)
         };
-        let mut rows = peak.followed(&low, band, outwards(band.from_rad_per_s, from))?;
+        let mut rows = peak.followed(&modes, band, outwards(band.from_rad_per_s, from))?;
         rows.reverse();
         rows.push(peak.row());
-        rows.extend(peak.followed(&low, band, outwards(band.to_rad_per_s, to))?);
+        rows.extend(peak.followed(&modes, band, outwards(band.to_rad_per_s, to))?);
         let path = |k: usize| rows.iter().map(|row| row.1[k]).collect();
         Ok(Some(RootLoci {
             speeds: rows.iter().map(|row| row.0).collect(),
@@ -77,12 +81,15 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
     })
 }
 
+/// The modes of any speed.
+type ModesAt<'a> = &'a dyn Fn(f64) -> Result<Vec<Mode>, SpectrumError>;
+
 /// Modes among which a pair is followed.
 const NEIGHBOURS: usize = 32;
 
 /// The lowest modes of a speed, ascending.
-fn lowest_modes(low: &ReflectedModel<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
-    let mut modes = low.modes(speed)?;
+fn lowest_modes(modes_at: ModesAt<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
+    let mut modes = modes_at(speed)?;
     modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
     modes.truncate(NEIGHBOURS);
     Ok(modes)
@@ -97,11 +104,8 @@ struct Pair {
 
 impl Pair {
     /// The growing and the decaying mode of a band where it grows fastest.
-    fn at_peak(
-        low: &ReflectedModel<'_>,
-        band: &Instability,
-    ) -> Result<Option<Self>, SpectrumError> {
-        let modes = lowest_modes(low, band.peak_rad_per_s)?;
+    fn at_peak(modes_at: ModesAt<'_>, band: &Instability) -> Result<Option<Self>, SpectrumError> {
+        let modes = lowest_modes(modes_at, band.peak_rad_per_s)?;
         let nearest = |kind: ModeKind, growth: f64| {
             let wanted = c64::new(growth, band.frequency_rad_per_s);
             let off = |i: &usize| (modes[*i].lambda - wanted).norm();
@@ -127,7 +131,7 @@ impl Pair {
     /// the band, two waves beside it, that of sign +1 first.
     fn followed(
         &self,
-        low: &ReflectedModel<'_>,
+        modes_at: ModesAt<'_>,
         band: &Instability,
         speeds: impl Iterator<Item = f64>,
     ) -> Result<Vec<Row>, SpectrumError> {
@@ -135,7 +139,7 @@ impl Pair {
         let mut known: Option<Pair> = None;
         for speed in speeds {
             let last = known.as_ref().unwrap_or(self);
-            let Some(mut next) = last.to(low, speed)? else {
+            let Some(mut next) = last.to(modes_at, speed)? else {
                 break;
             };
             if next.row().1[0].1 < 0 {
@@ -153,8 +157,8 @@ impl Pair {
     }
 
     /// The same two modes at another speed.
-    fn to(&self, low: &ReflectedModel<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
-        let modes = lowest_modes(low, speed)?;
+    fn to(&self, modes_at: ModesAt<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
+        let modes = lowest_modes(modes_at, speed)?;
         let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
         let height = highest(&self.modes).max(highest(&modes));
         let seen = [&self.modes, &modes].map(|modes| Sighted::of_modes(modes));

@@ -139,10 +139,9 @@ impl<'a> PairContinuation<'a> {
         }
     }
 
-    /// The speed next to which σ² or ω² is zero, on the way to `end`: that of the cubic through the
+    /// The speed next to which σ² or ω² is zero, on the way upwards or downwards: that of the cubic through the
     /// speed looked at before and this one, or of the tangent.
-    fn root(here: &Looked, before: Option<&Looked>, end: f64) -> Option<Edge> {
-        let direction = (end - here.speed).signum();
+    fn root(here: &Looked, before: Option<&Looked>, direction: f64) -> Option<Edge> {
         let of = |k: usize, coalescence| {
             let left = before
                 .and_then(|before| here.root_of_cubic(before, k, direction))
@@ -165,8 +164,10 @@ impl<'a> PairContinuation<'a> {
     /// Where the quadruple ends on the way from here to `end`, a speed at which it is not any
     /// more. `None` where it is lost on the way.
     pub fn edge(&self, end: f64) -> Option<Edge> {
-        let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, end));
-        by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, end)))
+        // From the start: the edge may lie a little beyond `end`.
+        let direction = (end - self.speed).signum();
+        let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, direction));
+        by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, direction)))
     }
 
     /// The same by a guess of the edge from what is known here and at the speed looked at before.

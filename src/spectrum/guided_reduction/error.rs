@@ -28,7 +28,7 @@ impl Builder<'_> {
             .filter(|(lambda, _)| lambda.im <= height && lambda.re >= -1e-6 * height)
             .map(|(lambda, q)| (*lambda, q))
             .collect();
-        let stiffness = &self.system.stiffness;
+        let stiffness = &self.guided.system.stiffness;
         let lifted = projection.lifted(speed, &low);
         let errors = low.iter().zip(&lifted).map(|((lambda, q), lifted)| {
             let Lifted { residual, .. } = lifted;
@@ -55,6 +55,7 @@ fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Guided, KnownModes};
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Scene, rad_per_s};
@@ -74,15 +75,23 @@ mod tests {
         let counters = WorkCounters::default();
         let scale = frequency_scale(&plate);
         let range = (0.0, rad_per_s(1200.0));
-        let mut builder = Builder::new(&system, range, scale, &[], &counters);
+        let guided = Guided {
+            system: &system,
+            structure: None,
+            scale,
+            critical: &[],
+        };
+        let mut builder = Builder::new(guided, range, &counters);
         let (height, _) = builder.chart_height(0.0).unwrap();
         builder.window = height;
         let snapshots = [400.0, 1200.0].map(|rpm| builder.snapshot(rad_per_s(rpm)).unwrap());
-        let projection = Projection::new(&system, None, builder.basis(&snapshots, height), range.1);
+        builder.snapshots = snapshots.to_vec();
+        let basis = builder.basis(snapshots.each_ref());
+        let projection = Projection::new(&system, None, basis);
         let mut estimated = 0;
         for speed in [1e-6, 700.0].map(rad_per_s) {
             let exact = companion_eigenpairs(&system, speed).unwrap();
-            let found = builder.pairs(&projection, speed).unwrap();
+            let found = KnownModes::of(&projection, speed, &counters).unwrap().pairs;
             for ((found, q), (exact, _)) in found.into_iter().zip(exact).take(8) {
                 let error = (found - exact).norm();
                 let estimate = builder.frequency_error(&projection, speed, height, &[(found, q)]);

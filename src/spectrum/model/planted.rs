@@ -1,4 +1,6 @@
-//! Faults that tests plant in the projection of the search, for the certificate to find.
+//! Faults that tests plant in the projections, for the certificate to find.
+
+use std::sync::Arc;
 
 use faer::{Col, Mat};
 
@@ -13,13 +15,13 @@ const MARGIN: f64 = 1.5;
 const STANDING: usize = 12;
 
 impl SpectralModel {
-    /// Takes the k-th oscillation of a speed out of the projection of the search.
+    /// Takes the k-th oscillation of a speed out of the projections.
     pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
         let modes = self.full_modes(speed_rad_per_s).unwrap();
         let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
         let (re, im) = split(&waves.nth(place).unwrap().coordinates);
         self.project_again(|basis, _| {
-            let lost = [re, im].map(|part| basis.transpose() * part);
+            let lost = [&re, &im].map(|part| basis.transpose() * part);
             let lost = orthonormal(basis.ncols(), &lost, SPAN_TOLERANCE);
             let whole = lost.qr().compute_Q();
             let kept = whole.subcols(lost.ncols(), basis.ncols() - lost.ncols());
@@ -27,15 +29,16 @@ impl SpectralModel {
         });
     }
 
-    /// Projects for the search on the modes of few speeds.
+    /// Projects on the modes of few speeds.
     pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
         let standing = self.critical.iter().take(STANDING);
-        let mut vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
+        let vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
         let modes: Vec<Mode> = speeds_rad_per_s
             .iter()
             .flat_map(|speed| self.full_modes(*speed).unwrap())
             .collect();
         self.project_again(|basis, height_rad_per_s| {
+            let mut vectors = vectors.clone();
             let low = modes
                 .iter()
                 .filter(|mode| mode.lambda.norm() <= MARGIN * height_rad_per_s);
@@ -47,20 +50,17 @@ impl SpectralModel {
         });
     }
 
-    /// Replaces the projection of the search by one on another basis, made of it and its height.
-    fn project_again(&mut self, basis: impl FnOnce(&Mat<f64>, f64) -> Mat<f64>) {
+    /// Replaces the projections by others on another basis, made of each and of the height of the search.
+    fn project_again(&mut self, mut basis: impl FnMut(&Mat<f64>, f64) -> Mat<f64>) {
+        let height_rad_per_s = self.reflected_to_rad_per_s;
         let component = &mut self.components[0];
-        let Solution::Projected {
-            reflected: Some(reflected),
-            ..
-        } = &mut component.solution
-        else {
+        let Solution::Projected(intervals) = &mut component.solution else {
             panic!("no projection");
         };
-        let sound = &reflected.projection;
-        let basis = basis(&sound.basis, reflected.height_rad_per_s);
-        let to = sound.to_rad_per_s;
-        reflected.projection = Projection::new(&component.full, None, basis, to);
-        reflected.known.clear();
+        for interval in intervals {
+            let basis = basis(&interval.projection.basis, height_rad_per_s);
+            interval.projection = Arc::new(Projection::new(&component.full, None, basis));
+            (interval.drawn, interval.searched) = (None, None);
+        }
     }
 }

@@ -1,0 +1,346 @@
+//! The reduced models of a guided blade, one for each interval of speeds.
+//!
+//! Within an interval a blade is projected on real vectors: its low modes at both ends, and what the search for bands
+//! follows at all speeds. Of an undamped blade the states of the modes at both ends, projected once more, give every mode
+//! between them from half as many unknowns; what is read off these is corrected on the real vectors.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use faer::{Col, c64};
+use rayon::prelude::*;
+
+use super::component::{Component, Solution};
+use super::error::SpectrumError;
+use super::half_order;
+use super::hamiltonian::{HamiltonianReduction, State};
+use super::mode::{Mode, classify};
+use super::mode_pair::{ModePair, standing_states};
+use super::model::SpectralModel;
+use super::projection::Projection;
+use super::vectors::{Eigenpair, real_times};
+use super::work::WorkCounters;
+use crate::tuned::Tuned;
+
+/// Modes up to this multiple of the window help to span those within it.
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.2);
+
+/// The low modes of a speed, in the coordinates of a projection.
+#[derive(Debug, Clone)]
+pub struct KnownModes {
+    pub speed_rad_per_s: f64,
+    pub pairs: Vec<Eigenpair>,
+}
+
+impl KnownModes {
+    /// Those of a projection.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub(super) fn of(
+        projection: &Projection,
+        speed_rad_per_s: f64,
+        counters: &WorkCounters,
+    ) -> Result<Self, SpectrumError> {
+        counters.cancellation.check()?;
+        counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        Ok(KnownModes {
+            speed_rad_per_s,
+            pairs: half_order::eigenpairs(&projection.reduced, speed_rad_per_s)?,
+        })
+    }
+}
+
+/// A wave that stands still at its critical speed: q of the whole component.
+pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
+
+/// The reduced model of an interval of speeds.
+#[derive(Debug, Clone)]
+pub struct Interval {
+    pub(super) to_rad_per_s: f64,
+    pub(super) projection: Arc<Projection>,
+    /// The same on the states of the modes at both ends, where these span what is between: of those of the chart, and of
+    /// those that instabilities are made of.
+    pub(super) drawn: Option<HamiltonianReduction>,
+    pub(super) searched: Option<HamiltonianReduction>,
+}
+
+/// A system on the states of the modes of two speeds up to a little above a frequency, and of the waves that stand still
+/// between the two. The error falls with the fourth power of the distance, and vanishes at both and where a wave stands.
+/// `None` where the states do not span what is between.
+pub(super) fn states_between(
+    projection: &Projection,
+    ends: [&KnownModes; 2],
+    standing: &[StandingWave<'_>],
+    window_rad_per_s: f64,
+) -> Option<HamiltonianReduction> {
+    let system = &projection.reduced;
+    // Without the momentum of free rigid motions, which depends on the speed, two ends do not span what is between.
+    if !system.is_conservative() || !system.free_rigid.is_empty() {
+        return None;
+    }
+    let [from, to] = ends.map(|end| end.speed_rad_per_s);
+    let mut states: Vec<State> = Vec::new();
+    let inside = |(speed, _): &&StandingWave<'_>| (from..=to).contains(speed);
+    for (speed, shape) in standing.iter().filter(inside) {
+        let shape = projection.basis.transpose() * *shape;
+        states.extend(standing_states(system, *speed, &shape, window_rad_per_s));
+    }
+    let height = SPAN_MARGIN.get() * window_rad_per_s;
+    let low = |pair: &&Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
+    for end in ends {
+        let low = end.pairs.iter().filter(low).cloned();
+        states.extend(low.map(|pair| State::new(system, end.speed_rad_per_s, pair)));
+    }
+    HamiltonianReduction::new(system, window_rad_per_s, &states)
+}
+
+impl Interval {
+    /// Eigenpairs of its projection.
+    pub(super) fn projected_pairs(
+        &self,
+        speed_rad_per_s: f64,
+        counters: &WorkCounters,
+    ) -> Result<Vec<Eigenpair>, SpectrumError> {
+        KnownModes::of(&self.projection, speed_rad_per_s, counters).map(|known| known.pairs)
+    }
+}
+
+/// Eigenpairs from few states.
+pub(super) fn states_at(
+    states: &HamiltonianReduction,
+    speed_rad_per_s: f64,
+    counters: &WorkCounters,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    counters.cancellation.check()?;
+    counters.local_solves.fetch_add(1, Ordering::Relaxed);
+    states.eigenpairs(speed_rad_per_s)
+}
+
+/// The interval of a speed; the last one also beyond its end.
+pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Interval {
+    let place = intervals.partition_point(|interval| interval.to_rad_per_s < speed_rad_per_s);
+    &intervals[place.min(intervals.len() - 1)]
+}
+
+/// The intervals by which a search for the bands of an undamped blade goes.
+#[derive(Debug, Clone)]
+pub struct SearchModel<'a> {
+    intervals: Cow<'a, [Interval]>,
+    standing: Vec<StandingWave<'a>>,
+    height_rad_per_s: f64,
+    counters: &'a WorkCounters,
+}
+
+impl<'a> SearchModel<'a> {
+    /// That of an undamped blade's reduced model. `None` for a blade whose harmonics nothing couples.
+    pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
+        let (component, standing) = guided(model)?;
+        let Solution::Projected(intervals) = &component.solution else {
+            return None;
+        };
+        Some(SearchModel {
+            intervals: Cow::Borrowed(intervals),
+            standing,
+            height_rad_per_s: model.reflected_to_rad_per_s,
+            counters: &model.counters,
+        })
+    }
+
+    /// The same on the whole basis, with the modes of some ascending speeds as ends of the intervals.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(crate) fn of_whole_basis(
+        model: &'a SpectralModel,
+        speeds: &[f64],
+    ) -> Result<Option<Self>, SpectrumError> {
+        let Some((component, standing)) = guided(model) else {
+            return Ok(None);
+        };
+        let counters = &model.counters;
+        let whole = Arc::new(Projection::whole(&component.full));
+        let known = speeds.par_iter();
+        let known = known.map(|speed| KnownModes::of(&whole, *speed, counters));
+        let mut known: Vec<KnownModes> = known.collect::<Result<_, _>>()?;
+        if let [only] = known.as_slice() {
+            known.push(only.clone());
+        }
+        let height_rad_per_s = model.reflected_to_rad_per_s;
+        let between = known.windows(2).map(|ends| {
+            let ends = [&ends[0], &ends[1]];
+            Interval {
+                to_rad_per_s: ends[1].speed_rad_per_s,
+                projection: whole.clone(),
+                drawn: None,
+                searched: states_between(&whole, ends, &standing, height_rad_per_s),
+            }
+        });
+        let intervals: Vec<Interval> = between.collect();
+        Ok((!intervals.is_empty()).then_some(SearchModel {
+            intervals: Cow::Owned(intervals),
+            standing,
+            height_rad_per_s,
+            counters,
+        }))
+    }
+
+    /// The same with one interval, between two speeds that are near each other.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn narrowed(self, from_rad_per_s: f64, to_rad_per_s: f64) -> Result<Self, SpectrumError> {
+        let interval = self.at(0.5 * (from_rad_per_s + to_rad_per_s));
+        let projection = &interval.projection;
+        let known = |speed| KnownModes::of(projection, speed, self.counters);
+        let ends = [known(from_rad_per_s)?, known(to_rad_per_s)?];
+        let height = self.height_rad_per_s;
+        let narrowed = Interval {
+            searched: states_between(projection, ends.each_ref(), &self.standing, height),
+            ..interval.clone()
+        };
+        Ok(SearchModel {
+            intervals: Cow::Owned(vec![narrowed]),
+            ..self
+        })
+    }
+
+    /// Frequency up to which its modes are complete.
+    pub fn height_rad_per_s(&self) -> f64 {
+        self.height_rad_per_s
+    }
+
+    /// Last speeds of the intervals.
+    pub fn ends_rad_per_s(&self) -> impl Iterator<Item = f64> {
+        self.intervals.iter().map(|interval| interval.to_rad_per_s)
+    }
+
+    fn at(&self, speed_rad_per_s: f64) -> &Interval {
+        interval_at(&self.intervals, speed_rad_per_s)
+    }
+
+    fn pairs(&self, interval: &Interval, speed: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
+        match &interval.searched {
+            Some(states) => states_at(states, speed, self.counters),
+            None => interval.projected_pairs(speed, self.counters),
+        }
+    }
+
+    /// Its modes at a speed. Those above the height are there to tell what comes next, and not to
+    /// be trusted to many digits.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let pairs = self.pairs(interval, speed_rad_per_s)?;
+        Ok(classify(
+            &interval.projection.reduced,
+            speed_rad_per_s,
+            0,
+            pairs,
+        ))
+    }
+
+    /// The same without the error of few states.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let pairs = interval.projected_pairs(speed_rad_per_s, self.counters)?;
+        Ok(classify(
+            &interval.projection.reduced,
+            speed_rad_per_s,
+            0,
+            pairs,
+        ))
+    }
+
+    /// The same in the coordinates of the whole component, which all speeds share.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn lifted_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let basis = &self.at(speed_rad_per_s).projection.basis;
+        let mut modes = self.modes(speed_rad_per_s)?;
+        for mode in &mut modes {
+            mode.coordinates = real_times(basis, &mode.coordinates);
+        }
+        Ok(modes)
+    }
+
+    /// Whether modes are given in the coordinates of the projection for a speed.
+    pub fn has(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
+        let order = self.at(speed_rad_per_s).projection.reduced.order();
+        modes.iter().all(|mode| mode.coordinates.nrows() == order)
+    }
+
+    /// Two such modes of a speed, refined on the projection.
+    pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
+        let projection = &self.at(speed_rad_per_s).projection;
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let pairs = modes
+            .each_ref()
+            .map(|mode| (mode.lambda, mode.coordinates.clone()));
+        ModePair::new(
+            projection,
+            speed_rad_per_s,
+            self.height_rad_per_s,
+            pairs.each_ref(),
+        )
+    }
+
+    /// The two modes of a speed next to two eigenvalues, refined on the projection.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn pair(
+        &self,
+        speed_rad_per_s: f64,
+        lambdas: [c64; 2],
+    ) -> Result<Option<ModePair>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let mut pairs = self.pairs(interval, speed_rad_per_s)?;
+        let mut chosen = Vec::new();
+        for lambda in lambdas {
+            let distance = |pair: &Eigenpair| (pair.0 - lambda).norm();
+            let nearest = (0..pairs.len())
+                .min_by(|&i, &k| distance(&pairs[i]).total_cmp(&distance(&pairs[k])));
+            let Some(nearest) = nearest else {
+                return Ok(None);
+            };
+            chosen.push(pairs.swap_remove(nearest));
+        }
+        let [first, second] = chosen.as_slice() else {
+            return Ok(None);
+        };
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        Ok(ModePair::new(
+            &interval.projection,
+            speed_rad_per_s,
+            self.height_rad_per_s,
+            [first, second],
+        ))
+    }
+
+    /// A pair at another speed, by a factorization in place of an eigenproblem.
+    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let projection = &self.at(speed_rad_per_s).projection;
+        pair.moved(projection, speed_rad_per_s, self.height_rad_per_s)
+    }
+}
+
+/// The one component of a guided blade, and the standing waves of its critical speeds.
+fn guided(model: &SpectralModel) -> Option<(&Component, Vec<StandingWave<'_>>)> {
+    let ([component], true) = (model.components.as_slice(), model.is_conservative()) else {
+        return None;
+    };
+    let standing = model.critical.iter();
+    Some((
+        component,
+        standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
+    ))
+}
