@@ -202,14 +202,22 @@ impl<'a> PairContinuation<'a> {
                 (guess - inside) * direction > 0.0 && (outside - guess) * direction > 0.0
             };
             let next = guess.filter(between).unwrap_or(0.5 * (inside + outside));
-            before = Some(here);
-            let moved = current.to(next)?;
+            let Some(moved) = current.to(next) else {
+                outside = next;
+                continue;
+            };
             let [growth, frequency] = moved.squares();
             if growth > 0.0 && frequency > 0.0 {
                 inside = next;
             } else {
                 outside = next;
             }
+            if frequency <= 0.0 {
+                // Two real λ have no complex states to be followed by: the way goes on from here.
+                before = Some(moved.looked());
+                continue;
+            }
+            before = Some(here);
             followed = Some(moved);
         }
         None
