@@ -28,11 +28,6 @@ impl Tuned {
     pub(crate) fn get(&self) -> f64 {
         self.value * trial::factor(self.name)
     }
-
-    /// Its value as a number of things.
-    pub(crate) fn count(&self) -> usize {
-        self.get().round() as usize
-    }
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ const TOLERANCE: Tuned = Tuned::new("spectrum/arnoldi::TOLERANCE", 1e-10);
 const MORE_STEPS: usize = 16;
 /// Steps for each eigenvalue wanted, at most. A soft blade on a stiff bed has a cluster of
 /// modes next to its lowest one, where four are not enough.
-const STEPS_EACH: Tuned = Tuned::new("spectrum/arnoldi::STEPS_EACH", 12.0);
+const STEPS_EACH: usize = 12;
 
 /// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,
 /// ordered by |λ|. Fewer come back when the iteration stalls.
@@ -107,7 +107,7 @@ fn nearest<O: Operator>(
     let order = O::most_vectors(operator.order());
     let wanted = wanted.min(order);
     let beyond = O::steps_beyond();
-    let most = (STEPS_EACH.count() * wanted + 2 * beyond).min(order);
+    let most = (STEPS_EACH * wanted + 2 * beyond).min(order);
     let mut krylov = Krylov::new(operator.order(), most);
     let mut steps = (wanted + beyond).min(most);
     loop {

@@ -6,7 +6,6 @@ use faer::{Col, Mat, Scale, Side};
 use super::component::Component;
 use super::error::SpectrumError;
 use crate::system::GyroscopicSystem;
-use crate::tuned::Tuned;
 
 /// A natural frequency at rest.
 #[derive(Debug, Clone)]
@@ -23,7 +22,7 @@ pub struct RestingMode {
 const SMALL: usize = 64;
 /// Vectors iterated beyond the number of modes wanted: the error of a frequency falls by the
 /// fourth power of its ratio to the first one left out, each time.
-const MORE: Tuned = Tuned::new("spectrum/at_rest::MORE", 10.0);
+const MORE: usize = 10;
 /// Residual ‖K₀⁻¹q − q/ω²‖ω² up to which the iteration goes: of the frequency the error is half its square, over
 /// the relative distance to the squares that the vectors do not span.
 const RESIDUAL: f64 = 1e-5;
@@ -64,7 +63,7 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
     }
     let unstable = |_| SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(unstable)?;
-    let width = count + MORE.count();
+    let width = count + MORE;
     let iterated = match order <= SMALL.max(2 * width) {
         true => None,
         false => iterated(system, &factor, [count, width])?,

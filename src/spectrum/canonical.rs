@@ -2,12 +2,10 @@
 
 use faer::Mat;
 
-use crate::tuned::Tuned;
-
 /// Smallest pivot of the form between states of unit length. Canonical states are longer by the root of what it
 /// falls short of 1, and the square of their matrix loses the square of that. Of 23 projections of the paper's saw
 /// the smallest pivots are 0.018 to 0.7.
-const WELL_PAIRED: Tuned = Tuned::new("spectrum/canonical::WELL_PAIRED", 5e-3);
+const WELL_PAIRED: f64 = 5e-3;
 
 /// T with TᵀFT = [0 −I; I 0] for a skew F, by Gram and Schmidt's method with the largest entry of F as
 /// each pivot. `None` where states have no partner, or hardly one.
@@ -20,7 +18,7 @@ pub fn canonical_basis(mut form: Mat<f64>) -> Option<Mat<f64>> {
         let entries = left.iter().flat_map(|&i| left.iter().map(move |&k| (i, k)));
         let (e, f) = entries.min_by(|&x, &y| form[x].total_cmp(&form[y]))?;
         let pivot = -form[(e, f)];
-        if pivot.is_nan() || pivot < WELL_PAIRED.get() {
+        if pivot.is_nan() || pivot < WELL_PAIRED {
             return None;
         }
         left.retain(|&i| i != e && i != f);

@@ -13,7 +13,7 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::hamiltonian::HamiltonianReduction;
 use super::inertia::WholeBasis;
-use super::interval::{Interval, KnownModes, StandingWave, states_at, states_between};
+use super::interval::{Interval, KnownModes, SPAN_MARGIN, StandingWave, states_at, states_between};
 use super::mode::{ModeKind, classify, is_seen};
 use super::model::{CHART_MODES, chart_height};
 use super::projection::Projection;
@@ -28,12 +28,8 @@ const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERA
 /// Largest estimated error of a projected frequency, relative to the chart's height.
 const FREQUENCY_TOLERANCE: Tuned =
     Tuned::new("spectrum/guided_reduction::FREQUENCY_TOLERANCE", 1e-8);
-/// The same for modes that are only drawn: a chart has three digits, its numbers six.
-const DRAWN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::DRAWN_TOLERANCE", 1e-7);
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
 const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
-/// Modes up to this multiple of the window go into the basis: those that dip into it between snapshots.
-const SNAPSHOT_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::SNAPSHOT_MARGIN", 1.5);
 /// Largest estimated error of a frequency that is read off the states of an interval's ends, relative to the highest of
 /// these: what is drawn needs no more, and edges and peaks are followed from there on the projection.
 const STATES_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::STATES_TOLERANCE", 1e-5);
@@ -310,7 +306,7 @@ impl<'a> Builder<'a> {
                 false => followed,
             };
             for (lambda, q) in &snapshot.pairs {
-                if lambda.norm() <= SNAPSHOT_MARGIN.get() * height {
+                if lambda.norm() <= SPAN_MARGIN.get() * height {
                     let (re, im) = split(q);
                     vectors.extend([re, im]);
                 }
@@ -358,19 +354,12 @@ impl<'a> Builder<'a> {
         let projection = Arc::new(Projection::new(system, structure, self.basis(ends)));
         let [from, to] = ends.map(|end| end.speed);
         let middle = KnownModes::of(&projection, 0.5 * (from + to), self.counters)?;
-        let excess = |height: f64, tolerance: Tuned| {
-            let speed = middle.speed_rad_per_s;
-            let error = self.frequency_error(&projection, speed, height, &middle.pairs);
-            match error > tolerance.get() * self.window {
-                true => error,
-                false => 0.0,
-            }
+        let speed = middle.speed_rad_per_s;
+        let error = self.frequency_error(&projection, speed, self.window, &middle.pairs);
+        let unsettled_rad_per_s = match error > FREQUENCY_TOLERANCE.get() * self.window {
+            true => error,
+            false => 0.0,
         };
-        let mut unsettled_rad_per_s = excess(self.window, DRAWN_TOLERANCE);
-        if system.is_conservative() && self.reflected > 0.0 {
-            let searched = excess(self.reflected, FREQUENCY_TOLERANCE);
-            unsettled_rad_per_s = searched.max(unsettled_rad_per_s);
-        }
         let is_kept = unsettled_rad_per_s == 0.0 || self.snapshots.len() >= MAX_SNAPSHOTS;
         let mut intervals = Vec::new();
         if is_kept {

@@ -16,7 +16,6 @@ use super::vectors::{Eigenpair, by_magnitude, joined, unit};
 use super::work::Cancellation;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
-use crate::tuned::Tuned;
 
 /// Share of a vector that is left beside the span of the others, below which it is rounding.
 const BREAKDOWN: f64 = 1e-14;
@@ -68,7 +67,7 @@ fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f
 
 /// Share of the square's norm from which it tells squares from zero and from one another. Rounding takes
 /// 1e-15 of the norm, and its root where two coalesce.
-const LEAST_APART: Tuned = Tuned::new("spectrum/half_order::LEAST_APART", 1e-8);
+const LEAST_APART: f64 = 1e-8;
 
 /// λ with Im λ ≥ 0, and the real and imaginary parts of their vectors side by side, two columns each.
 pub struct UpperPairs {
@@ -89,7 +88,7 @@ pub fn hamiltonian_eigenpairs(
         return Ok(None);
     };
     let eigen = RealEigen::new(compressed.as_ref())?;
-    if !are_apart(&eigen.values, LEAST_APART.get() * square.norm_l2()) {
+    if !are_apart(&eigen.values, LEAST_APART * square.norm_l2()) {
         return Ok(None);
     }
     let all: Vec<usize> = (0..compressed.nrows()).collect();

@@ -23,8 +23,8 @@ use super::vectors::{Eigenpair, real_times};
 use super::work::WorkCounters;
 use crate::tuned::Tuned;
 
-/// Modes up to this multiple of the window help to span those within it.
-pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.2);
+/// Modes up to this multiple of the window help to span those within it: some of them dip into it between two speeds.
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
 
 /// The low modes of a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]

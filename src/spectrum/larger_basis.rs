@@ -16,7 +16,6 @@ use super::mode::{Mode, ModeKind};
 use super::model::DescribedMode;
 use super::vectors::real_times;
 use crate::plate::Plate;
-use crate::tuned::Tuned;
 
 mod added;
 
@@ -30,7 +29,7 @@ pub struct LargerBasis {
 }
 
 /// Least slope of a mode whose frequency is told, relative to its frequency seen from the blade.
-const LEAST_SLOPE: Tuned = Tuned::new("spectrum/larger_basis::LEAST_SLOPE", 0.3);
+const LEAST_SLOPE: f64 = 0.3;
 
 impl LargerBasis {
     /// The functions that `larger` has beyond those of `plate`, the same saw on fewer.
@@ -99,7 +98,7 @@ impl LargerBasis {
                 // (ω + Ωγ)‖q‖, γ = −i qᴴGq/qᴴq.
                 let drift: c64 = q.adjoint() * &turned;
                 let slope = (lambda.im * q.norm_l2() + drift.im / q.norm_l2()).abs();
-                if slope > LEAST_SLOPE.get() * on_blade {
+                if slope > LEAST_SLOPE * on_blade {
                     errors[place] = Some(0.5 * softening / (slope * on_blade));
                 }
             }

@@ -21,9 +21,9 @@ pub(super) const REMAINDER: Tuned = Tuned::new("stability/basis::REMAINDER", 2.5
 pub(super) const MODES_AT_REST: usize = 12;
 /// One step of the ladder took more than this factor off the error in a quarter of all cases: sizes that it says are too
 /// small are not tried.
-const FALL: Tuned = Tuned::new("stability/basis::FALL", 4.0);
+const FALL: f64 = 4.0;
 /// Ten times the strain at which the strongest steel yields.
-const LARGEST_STRETCH: Tuned = Tuned::new("stability/basis::LARGEST_STRETCH", 0.1);
+const LARGEST_STRETCH: f64 = 0.1;
 /// Critical speeds up to this multiple of the end of the range are found: what is searched near its end is
 /// kept away from those just above it.
 pub(super) const PAST_THE_RANGE: f64 = 1.05;
@@ -137,7 +137,7 @@ impl ChosenBasis {
 /// The first size at which an error so many times too large may be small enough. What is within reach beyond the sizes of
 /// dense eigenproblems shows at the largest of these.
 fn next(rung: usize, excess: f64) -> usize {
-    let steps = (excess.ln() / FALL.get().ln()).ceil().max(1.0) as usize;
+    let steps = (excess.ln() / FALL.ln()).ceil().max(1.0) as usize;
     let dense = DENSE_LADDER.len() - 1;
     let last = if rung < dense {
         dense
@@ -262,7 +262,7 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
         density_kg_per_m3,
         ..
     } = blade.material;
-    (LARGEST_STRETCH.get() * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
+    (LARGEST_STRETCH * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
 }
 
 /// Where the sweep of a scene ends, as typed or as the program chooses it, in rad/s.

@@ -16,6 +16,7 @@ pub(super) fn divergence(
     coalescences: &[f64],
     range: (f64, f64),
 ) -> Result<Vec<Found>, SpectrumError> {
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     let is_unstable = |index: usize| !signatures[index].real.is_empty();
     let mut bands = Vec::new();
     let mut start = None;
@@ -25,12 +26,8 @@ pub(super) fn divergence(
         if next == signatures.len() || !is_unstable(next) {
             let edge = |stable: Option<usize>, unstable: usize| {
                 let stable = stable.map(|stable| signatures[stable].speed_rad_per_s);
-                edge(
-                    model,
-                    coalescences,
-                    stable,
-                    signatures[unstable].speed_rad_per_s,
-                )
+                let unstable = signatures[unstable].speed_rad_per_s;
+                edge(&critical, coalescences, stable, unstable)
             };
             let begins = edge(first.checked_sub(1), first);
             let ends = edge((next < signatures.len()).then_some(next), index);
@@ -167,24 +164,48 @@ enum Edge {
 
 /// Where divergence begins or ends between a stable and an unstable speed: at the
 /// critical speed or the coalescence of two real λ between them, or at the end of the range.
-fn edge(
-    model: &SpectralModel,
-    coalescences: &[f64],
-    stable: Option<f64>,
-    unstable: f64,
-) -> (f64, Edge) {
+fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f64) -> (f64, Edge) {
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
+    // Of several coalescences between two speeds the one that is next to what diverges.
+    let coalescence = |from: f64, to: f64| {
+        let between = |speed: &&f64| (from.min(to)..=from.max(to)).contains(*speed);
+        let away = |x: &&f64| (*x - to).abs();
+        let nearest = coalescences.iter().filter(between);
+        nearest.min_by(|x, y| away(x).total_cmp(&away(y))).copied()
+    };
     let (low, high) = (unstable.min(stable), unstable.max(stable));
-    let is_between = |speed: &f64| (low..=high).contains(speed);
-    let mut critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    if let Some(speed) = critical.find(is_between) {
-        return (speed, Edge::Critical);
+    let critical = critical
+        .iter()
+        .copied()
+        .find(|speed| (low..=high).contains(speed));
+    // Beside a critical speed at which one of two real λ turns stable, both go on to where they coalesce.
+    let (to, otherwise) = match critical {
+        Some(speed) => (speed, (speed, Edge::Critical)),
+        None => (unstable, (unstable, Edge::Coalescence)),
+    };
+    coalescence(stable, to).map_or(otherwise, |speed| (speed, Edge::Coalescence))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Flutter turns into two real λ at 3, of which one passes zero at 4: divergence lasts from 3 on, not from 4.
+    #[test]
+    fn divergence_begins_where_two_real_eigenvalues_part() {
+        let begin =
+            |critical: &[f64], coalescences: &[f64]| edge(critical, coalescences, Some(2.0), 5.0);
+        assert_eq!(begin(&[1.0, 4.0], &[3.0]), (3.0, Edge::Coalescence));
+        assert_eq!(begin(&[4.0], &[]), (4.0, Edge::Critical));
+        assert_eq!(begin(&[3.0], &[4.0]), (3.0, Edge::Critical));
+        assert_eq!(begin(&[], &[3.0, 4.0]), (4.0, Edge::Coalescence));
+        // The same on the way down, and without a speed at which nothing diverges.
+        assert_eq!(
+            edge(&[3.0], &[4.0], Some(5.0), 2.0),
+            (4.0, Edge::Coalescence)
+        );
+        assert_eq!(edge(&[3.0], &[4.0], None, 2.0), (2.0, Edge::Range));
     }
-    // Of several between the two speeds the one that is next to what diverges.
-    let away = |x: &&f64| (*x - unstable).abs();
-    let between = coalescences.iter().filter(|speed| is_between(speed));
-    let nearest = between.min_by(|x, y| away(x).total_cmp(&away(y)));
-    (nearest.copied().unwrap_or(unstable), Edge::Coalescence)
 }

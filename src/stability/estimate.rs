@@ -18,7 +18,6 @@ use crate::spectrum::{
     companion_eigenpairs, critical_speeds, orthonormal, split,
 };
 use crate::system::GyroscopicSystem;
-use crate::tuned::Tuned;
 
 /// Estimated errors, from what a larger basis would change.
 #[derive(Debug)]
@@ -51,12 +50,12 @@ impl BandError {
         // A band may begin at rest, never end there.
         let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
         let of_width = match band.kind {
-            InstabilityKind::Divergence => WIDTH_REMAINDER.get() * critical / width,
+            InstabilityKind::Divergence => WIDTH_REMAINDER * critical / width,
             InstabilityKind::Flutter => 0.0,
         };
         let growth = self
             .growth
-            .map(|difference| GROWTH_REMAINDER.get() * difference + 2.0 * critical + of_width);
+            .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical + of_width);
         let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
         BandError {
             speed: Some(REMAINDER.get() * self.speed.unwrap_or(0.0) + critical + by_growth),
@@ -67,10 +66,10 @@ impl BandError {
 
 /// What the larger basis in its turn leaves out of a growth rate, which converges less evenly than
 /// speeds do: on twelve drawn saws the true error was up to 2.9 times what it tells.
-const GROWTH_REMAINDER: Tuned = Tuned::new("stability/estimate::GROWTH_REMAINDER", 3.0);
+const GROWTH_REMAINDER: f64 = 3.0;
 /// Share of the error of a critical speed that the difference of two of them keeps where what a larger basis tells of both cancels:
 /// of 176 bands of drawn saws the growth of two, less than a hundredth of their speed wide, was off by 0.07 of it.
-const WIDTH_REMAINDER: Tuned = Tuned::new("stability/estimate::WIDTH_REMAINDER", 0.1);
+const WIDTH_REMAINDER: f64 = 0.1;
 /// Where the drawn frequencies are looked at, as shares of the range: speeds that a chart has
 /// however closely it is drawn.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];

@@ -12,10 +12,9 @@ use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
 use super::signature::SignedMode;
 use crate::spectrum::SpectrumError;
-use crate::tuned::Tuned;
 
 /// Share of a band's width from its end at which a peak at the end is said to be.
-const BESIDE_END: Tuned = Tuned::new("stability/flutter::BESIDE_END", 1e-3);
+const BESIDE_END: f64 = 1e-3;
 /// Share of a stretch from its expected end at which a quadruple is asked for, to be followed to its end.
 const INSIDE: f64 = 0.02;
 /// An end that is found further than this share of the way from what the pieces say is another's.
@@ -150,20 +149,21 @@ impl Quadruple {
                     .map(|mode| (speed, mode)),
             );
         }
-        let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+        if points.is_empty() {
             return Ok(None);
-        };
-        let begin = Self::end(evaluator, stretch, stretch.begin, first)?;
-        let end = Self::end(evaluator, stretch, stretch.end, last)?;
+        }
+        let begin = Self::end(evaluator, stretch, stretch.begin, &points)?;
+        let inwards: Vec<(f64, SignedMode)> = points.iter().rev().copied().collect();
+        let end = Self::end(evaluator, stretch, stretch.end, &inwards)?;
         Ok(Some(Quadruple { begin, end, points }))
     }
 
-    /// An end of a stretch, of which the quadruple is known at a speed inside.
+    /// An end of a stretch, of which the quadruple is known at speeds inside, the nearest to the end first.
     fn end(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
         bound: Bound,
-        (inside, mode): (f64, SignedMode),
+        inwards: &[(f64, SignedMode)],
     ) -> Result<End, SpectrumError> {
         let (expected, outside) = match bound {
             Bound::Coalescence {
@@ -173,16 +173,22 @@ impl Quadruple {
             Bound::Range(speed) => return Ok(End::Range(speed)),
             Bound::Height(speed) => return Ok(End::Unknown(speed)),
         };
-        let way = (expected - inside).abs();
         let off = |edge: &Edge| (edge.speed_rad_per_s - expected).abs();
         let followed = |start: f64, mode: &SignedMode| -> Result<Option<Edge>, SpectrumError> {
             let pair = PairContinuation::of_quadruple(evaluator, start, mode)?;
             let edge = pair.and_then(|pair| pair.edge(outside));
-            Ok(edge.filter(|edge| off(edge) <= SAME_END * way + VICINITY.get() * expected))
+            let way = (expected - start).abs();
+            Ok(edge.filter(|edge| off(edge) <= SAME_END * way + VICINITY * expected))
         };
-        let from_inside = followed(inside, &mode)?;
-        if let Some(edge) = from_inside.filter(|edge| off(edge) <= CERTAIN_END * way) {
+        let (inside, mode) = inwards[0];
+        let mut from_inside = followed(inside, &mode)?;
+        let is_certain = |edge: &Edge| off(edge) <= CERTAIN_END * (expected - inside).abs();
+        if let Some(edge) = from_inside.filter(is_certain) {
             return Ok(End::Edge(edge));
+        }
+        // The nearest speed may be nearer to the end than the states that it is known from are right.
+        if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
+            from_inside = followed(*speed, mode)?;
         }
         // On a long way the pair may be taken for another that ends next to it.
         let beside = expected + INSIDE * (inside - expected);
@@ -291,7 +297,7 @@ impl Quadruple {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at
             {
-                let inside = at + BESIDE_END.get() * (other - at);
+                let inside = at + BESIDE_END * (other - at);
                 return Ok((
                     inside,
                     (edge.growth_square.sqrt(), edge.frequency_rad_per_s),

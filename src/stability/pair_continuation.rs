@@ -12,7 +12,6 @@ use super::evaluator::SignatureEvaluator;
 use super::maximum::Sample;
 use super::signature::SignedMode;
 use crate::spectrum::{ModePair, SpectrumError};
-use crate::tuned::Tuned;
 
 /// Relative difference of speed for the slope of σ²: its rounding is 1e-15 of ω², and the pair is exact to the square of the
 /// distance.
@@ -26,8 +25,8 @@ const MAX_STEPS: usize = 40;
 const SHORT_OF_REAL: f64 = 0.999;
 /// Share of σ² and, of the speed, the shift of an edge by which the coarser models between the
 /// anchors of the search may be off.
-const LIKENESS: Tuned = Tuned::new("stability/pair_continuation::LIKENESS", 0.05);
-pub const VICINITY: Tuned = Tuned::new("stability/pair_continuation::VICINITY", 3e-5);
+const LIKENESS: f64 = 0.05;
+pub const VICINITY: f64 = 3e-5;
 
 /// How a quadruple begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,10 +113,9 @@ impl<'a> PairContinuation<'a> {
     fn is_mode(&self, mode: &SignedMode) -> bool {
         let [growth, frequency] = self.squares();
         let (sigma, omega) = (mode.lambda.re, mode.lambda.im);
-        let shift = VICINITY.get() * self.speed;
+        let shift = VICINITY * self.speed;
         let off = |square: f64, part: f64, slope: f64| {
-            let allowed =
-                LIKENESS.get() * sigma * sigma.max(part) + 2.0 * part * slope.abs() * shift;
+            let allowed = LIKENESS * sigma * sigma.max(part) + 2.0 * part * slope.abs() * shift;
             (square - part * part).abs() <= allowed
         };
         off(growth, sigma, mode.slope.re) && off(frequency, omega, mode.slope.im)
@@ -179,7 +177,7 @@ impl<'a> PairContinuation<'a> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
         // The last speed known inside, and the first known outside. Where the edge is next to
         // an end, a coarser model may have seen it on the other side.
-        let margin = direction * VICINITY.get() * start;
+        let margin = direction * VICINITY * start;
         let (mut inside, mut outside) = (start - margin, end + margin);
         let mut followed: Option<Self> = None;
         let mut before: Option<Looked> = None;

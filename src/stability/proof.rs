@@ -21,7 +21,6 @@ use super::evaluator::SignatureEvaluator;
 use super::full_basis::{FullBasis, Gap, gaps};
 use super::signature::Signature;
 use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
-use crate::tuned::Tuned;
 
 /// Stretches below this share of the highest speed are not halved any more.
 const LEAST_WIDTH: f64 = 1e-4;
@@ -37,7 +36,7 @@ const CLOSING: f64 = 0.1;
 
 /// A line so many times longer than its gap is wide is not tried: of 605 that the paper's saw asks for, none
 /// longer than 0.45 gaps was free.
-const LONGEST: Tuned = Tuned::new("stability/proof::LONGEST", 0.5);
+const LONGEST: f64 = 0.5;
 
 impl Proof<'_> {
     /// Stretches between ascending signatures that are not proven.
@@ -155,7 +154,7 @@ impl Proof<'_> {
         let [x, y] = gap.map(Gap::width_rad_per_s);
         let [from, to] = ends.map(|end| end.speed);
         let is_closing = x.min(y) < CLOSING * x.max(y);
-        let is_long = to - from > LONGEST.get() * x.min(y);
+        let is_long = to - from > LONGEST * x.min(y);
         let count = negative.checked_add_signed(gap[0].net)?;
         let frequencies = gap.map(Gap::middle_rad_per_s);
         if is_closing || is_long {

@@ -9,13 +9,12 @@ use super::inverse::Inverse;
 use crate::spectrum::inertia::WholeBasis;
 use crate::spectrum::vectors::Eigenpair;
 use crate::system::GyroscopicSystem;
-use crate::tuned::Tuned;
 
 /// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
 /// all steps before it: most saws need no second one.
-const STEPS_BEYOND: Tuned = Tuned::new("spectrum/arnoldi::STEPS_BEYOND", 44.0);
+const STEPS_BEYOND: usize = 44;
 /// The same where every step solves twice.
-const SQUARED_STEPS_BEYOND: Tuned = Tuned::new("spectrum/arnoldi::SQUARED_STEPS_BEYOND", 20.0);
+const SQUARED_STEPS_BEYOND: usize = 20;
 
 /// What Arnoldi's iteration multiplies with, in units of σ, and what its eigenvalues say of A.
 pub(super) trait Operator {
@@ -121,7 +120,7 @@ impl Operator for ShiftedInverse {
     }
 
     fn steps_beyond() -> usize {
-        STEPS_BEYOND.count()
+        STEPS_BEYOND
     }
 
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
@@ -177,7 +176,7 @@ impl Operator for SquaredInverse {
     }
 
     fn steps_beyond() -> usize {
-        SQUARED_STEPS_BEYOND.count()
+        SQUARED_STEPS_BEYOND
     }
 
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {

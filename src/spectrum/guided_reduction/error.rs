@@ -6,10 +6,9 @@ use super::Builder;
 use crate::spectrum::projection::Projection;
 use crate::spectrum::residual::Lifted;
 use crate::spectrum::vectors::{Eigenpair, quadratic_form};
-use crate::tuned::Tuned;
 
 /// Least slope, relative to the height, that a frequency's error is estimated with.
-const LEAST_SLOPE: Tuned = Tuned::new("spectrum/guided_reduction/error::LEAST_SLOPE", 0.02);
+const LEAST_SLOPE: f64 = 0.02;
 
 impl Builder<'_> {
     /// Largest estimated error of a frequency among the modes below the window. With r the
@@ -50,7 +49,7 @@ impl Builder<'_> {
 /// slope above the height counts as the height: onsets of weak bands ask for more than their
 /// frequencies do.
 fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
-    shift / slope_per_s.clamp(LEAST_SLOPE.get() * height_rad_per_s, height_rad_per_s)
+    shift / slope_per_s.clamp(LEAST_SLOPE * height_rad_per_s, height_rad_per_s)
 }
 
 #[cfg(test)]
