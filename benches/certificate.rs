@@ -1,7 +1,7 @@
 //! Cost of the Krein certificate, beside the sweep that it certifies: `cargo bench`.
 //!
 //! What the certificate adds is the symmetric eigenproblem of the critical speeds on the
-//! whole basis; comparing two counts at each speed is free.
+//! full model; comparing two counts at each speed is free.
 
 mod timing;
 

@@ -388,7 +388,7 @@ class Work(Entry):
     """Eigenproblems solved, largest first."""
 
     full_solves: int
-    """Of the whole basis: Krylov iterations with a factorization each, or dense ones."""
+    """Of the full model: Krylov iterations with a factorization each, or dense ones."""
 
     structured_solves: int
     """Those among them that used the block structure of the blade and the few columns of its
@@ -406,12 +406,12 @@ class Work(Entry):
     factorizations each."""
 
     heat_solves: int
-    """Symmetric, of the whole basis under other temperatures: limits of heat."""
+    """Symmetric, of the full model under other temperatures: limits of heat."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Miscount(Entry):
-    """Modes of a speed that a count on the whole basis does not find, or finds besides."""
+    """Modes of a speed that a count on the full model does not find, or finds besides."""
 
     rpm: float
     """The speed."""
@@ -453,7 +453,7 @@ class Mismatch(Entry):
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Entry):
     """Checks of the list of bands against the spectrum, by the Krein index, by counts of
-    eigenvalues on the whole basis and by the growth found at single speeds; and how much of the
+    eigenvalues on the full model and by the growth found at single speeds; and how much of the
     sweep is proven to have no other band. See [crate::stability]."""
 
     statement: str
@@ -464,13 +464,13 @@ class Certificate(Entry):
     none, of speeds at which the number of growing modes was compared with that of the bands."""
 
     krein_violations: int
-    """Number of speeds at which it did not match, not even on the whole basis; expected 0."""
+    """Number of speeds at which it did not match, not even on the full model; expected 0."""
 
     violating_rpm: FloatArray
     """These speeds."""
 
     full_basis_counts: int
-    """Number of counts of eigenvalues on the whole basis, independent of the reduced model,
+    """Number of counts of eigenvalues on the full model, independent of the reduced model,
     that the modes were compared with."""
 
     uncertain_counts: int
@@ -499,7 +499,7 @@ class Certificate(Entry):
     to."""
 
     max_backward_error: float
-    """Largest backward error, on the whole basis, of any mode of the chart."""
+    """Largest backward error, on the full model, of any mode of the chart."""
 
     proven_share: float | None = field(default=None)
     """Share of the sweep that is proven to have no instability which is not listed, rounded
@@ -510,9 +510,9 @@ class Certificate(Entry):
     absent where no proof was tried."""
 
     max_listed_backward_error: float | None = field(default=None)
-    """Largest backward error, on the whole basis, of the eigenvalues listed: those of the modes
+    """Largest backward error, on the full model, of the eigenvalues listed: those of the modes
     at rest, at the peaks of the bands and at the operating speed. At reference accuracy these
-    are refined on the whole basis; absent otherwise, and where one could not be, as with loads
+    are refined on the full model; absent otherwise, and where one could not be, as with loads
     at the rim."""
 
 
@@ -933,7 +933,7 @@ class CutCriterionEntry(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutCertificate(Entry):
-    """How many modes grow in the cut and without its forces, and what counts on the whole basis
+    """How many modes grow in the cut and without its forces, and what counts on the full model
     say of that."""
 
     statement: str
@@ -946,7 +946,7 @@ class CutCertificate(Entry):
     """Modes that grow without the forces."""
 
     full_basis_counts: int
-    """Counts on the whole basis that the modes were held against, in the cut and without the
+    """Counts on the full model that the modes were held against, in the cut and without the
     forces."""
 
     krein_violations: int
@@ -1137,7 +1137,7 @@ class CutRun(Entry):
     """Largest Re λ without the forces."""
 
     certificate: CutCertificate
-    """Growing modes held against counts on the whole basis."""
+    """Growing modes held against counts on the full model."""
 
     by_power: ByPower | None
     """The same cut with the tangential force that the power allows, when it is given."""
@@ -1662,7 +1662,7 @@ class PlaceCertificate(Entry):
     the number of growing modes with that of the bands."""
 
     full_basis_counts: int
-    """Number of counts of eigenvalues on the whole basis that the modes were compared with."""
+    """Number of counts of eigenvalues on the full model that the modes were compared with."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

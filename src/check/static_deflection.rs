@@ -11,8 +11,8 @@ use crate::spectrum::orthonormal;
 use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
 
-/// Shares of the square of the lowest critical speed at which the response is solved on the whole
-/// basis. Between them it is a rational function of that square, which the projection on these
+/// Shares of the square of the lowest critical speed at which the response is solved on the full
+/// model. Between them it is a rational function of that square, which the projection on these
 /// responses follows.
 const SOLVED_AT: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 /// Speeds of the curve, evenly spread.

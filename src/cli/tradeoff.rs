@@ -88,7 +88,7 @@ fn table(text: &mut String, settings: &[Setting]) -> std::fmt::Result {
 fn name(method: Method) -> &'static str {
     match method {
         Method::Reduced => "chart, projected",
-        Method::Dense => "chart, whole basis",
+        Method::Dense => "chart, full model",
         Method::CriticalSpeeds => "critical speeds, f64",
         Method::CriticalSpeedsSingle => "critical speeds, f32",
     }

@@ -68,7 +68,7 @@ fn place(setting: &Setting, error: &Axis, time: &Axis) -> [f64; 2] {
 fn look(method: Method) -> (Colour, &'static str) {
     match method {
         Method::Reduced => (FORWARD, "chart, projected"),
-        Method::Dense => (BACKWARD, "chart, whole basis"),
+        Method::Dense => (BACKWARD, "chart, full model"),
         Method::CriticalSpeeds => (DIVERGENCE, "critical speeds, f64"),
         Method::CriticalSpeedsSingle => (STANDING, "critical speeds, f32"),
     }
@@ -182,7 +182,7 @@ mod tests {
     use super::super::canvas::Mark;
     use super::*;
 
-    /// Eight sizes of a chart and of the critical speeds, two charts on the whole basis.
+    /// Eight sizes of a chart and of the critical speeds, two charts on the full model.
     #[test]
     fn no_label_lies_on_another() {
         let setting = |method, k: u32, seconds: f64| Setting {

@@ -9,7 +9,7 @@ use crate::scene::rpm;
 use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, StabilityChart};
 
 /// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on
-/// the whole basis and by the growth found at single speeds; and how much of the sweep is proven to
+/// the full model and by the growth found at single speeds; and how much of the sweep is proven to
 /// have no other band. See [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -19,18 +19,18 @@ pub struct CertificateEntry {
     /// Number of speeds at which the Krein index was compared; for damped scenes, which have none,
     /// of speeds at which the number of growing modes was compared with that of the bands.
     pub speeds_checked: usize,
-    /// Number of speeds at which it did not match, not even on the whole basis; expected 0.
+    /// Number of speeds at which it did not match, not even on the full model; expected 0.
     pub krein_violations: usize,
     /// These speeds.
     pub violating_rpm: Vec<f64>,
-    /// Number of counts of eigenvalues on the whole basis, independent of the reduced model, that
+    /// Number of counts of eigenvalues on the full model, independent of the reduced model, that
     /// the modes were compared with.
     pub full_basis_counts: usize,
     /// Counts that were tried besides and were not certain, for an eigenvalue lies on their path.
     pub uncertain_counts: usize,
     /// Modes that these counts say are missing, or too many; expected none.
     pub miscounted_modes: Vec<MiscountEntry>,
-    /// Whether modes were missing at first, so that the bands were searched again on the whole basis.
+    /// Whether modes were missing at first, so that the bands were searched again on the full model.
     pub searched_again: bool,
     /// Where the list of bands contradicts the eigenvalues that the search or the chart found;
     /// expected none.
@@ -49,16 +49,16 @@ pub struct CertificateEntry {
     pub unproven_growth_per_s: Option<f64>,
     /// Parts of the rest in which, by the same estimate, a band could hide that counts: from and to.
     pub unproven_counting_rpm: Vec<[f64; 2]>,
-    /// Largest backward error, on the whole basis, of any mode of the chart.
+    /// Largest backward error, on the full model, of any mode of the chart.
     pub max_backward_error: f64,
-    /// Largest backward error, on the whole basis, of the eigenvalues listed: those of the modes at rest, at the peaks
-    /// of the bands and at the operating speed. At reference accuracy these are refined on the whole basis; absent
+    /// Largest backward error, on the full model, of the eigenvalues listed: those of the modes at rest, at the peaks
+    /// of the bands and at the operating speed. At reference accuracy these are refined on the full model; absent
     /// otherwise, and where one could not be, as with loads at the rim.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_listed_backward_error: Option<f64>,
 }
 
-/// Modes of a speed that a count on the whole basis does not find, or finds besides.
+/// Modes of a speed that a count on the full model does not find, or finds besides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MiscountEntry {
@@ -203,11 +203,11 @@ pub(super) fn statement(
     match (certain, uncertain) {
         (0, 0) => (),
         (0, _) => agree.push(format!(
-            "none of {tried} counts on the whole basis was certain"
+            "none of {tried} counts on the full model was certain"
         )),
-        (_, 0) => agree.push(format!("{certain} counts on the whole basis agree")),
+        (_, 0) => agree.push(format!("{certain} counts on the full model agree")),
         _ => agree.push(format!(
-            "{certain} of {tried} counts on the whole basis were certain and agree"
+            "{certain} of {tried} counts on the full model were certain and agree"
         )),
     }
     if let Some(share) = proven_share {
@@ -220,7 +220,7 @@ pub(super) fn statement(
         });
     }
     if certificate.searched_again {
-        agree.push("after a second search on the whole basis".to_owned());
+        agree.push("after a second search on the full model".to_owned());
     }
     match agree.is_empty() {
         true => "no speed was checked".to_owned(),
@@ -260,7 +260,7 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
             .collect();
         let first = MiscountEntry::from(first);
         wrong.push(format!(
-            "modes are miscounted on the whole basis at {}: {} at {:.1} rpm",
+            "modes are miscounted on the full model at {}: {} at {:.1} rpm",
             span(&speeds),
             first.in_words(),
             first.rpm
@@ -336,7 +336,7 @@ mod tests {
         assert_eq!(share, Some(0.9962));
         assert_eq!(
             statement(&counted, true, share),
-            "Krein index matches at 567 of 567 speeds, 143 counts on the whole basis agree, \
+            "Krein index matches at 567 of 567 speeds, 143 counts on the full model agree, \
              99.6 % of the sweep proven free of unlisted bands"
         );
         let whole = proven_share(
@@ -360,18 +360,18 @@ mod tests {
         };
         assert_eq!(
             with_counts(0, 4),
-            "none of 4 counts on the whole basis was certain"
+            "none of 4 counts on the full model was certain"
         );
         assert_eq!(
             with_counts(3, 1),
-            "3 of 4 counts on the whole basis were certain and agree"
+            "3 of 4 counts on the full model were certain and agree"
         );
         let wrong = contradicted(clean);
         assert_eq!(
             says(&wrong),
             "Krein index does not match at 2 of 567 speeds, 1200.0 to 1300.0 rpm; \
              the list of bands contradicts the eigenvalues at 1 of 567 speeds, 1400.0 rpm; \
-             modes are miscounted on the whole basis at 1500.0 rpm: 1 missing between 10.0 and 12.0 Hz at 1500.0 rpm; \
+             modes are miscounted on the full model at 1500.0 rpm: 1 missing between 10.0 and 12.0 Hz at 1500.0 rpm; \
              the search for bands ended at its limit of work, 567 speeds"
         );
         assert_eq!(says(&Certificate::default()), "no speed was checked");

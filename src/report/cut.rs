@@ -80,7 +80,7 @@ pub struct CutRunEntry {
     pub idle_verdict: Verdict,
     /// Largest Re λ without the forces.
     pub idle_growth_per_s: f64,
-    /// Growing modes held against counts on the whole basis.
+    /// Growing modes held against counts on the full model.
     pub certificate: CutCertificateEntry,
     /// The same cut with the tangential force that the power allows, when it is given.
     pub by_power: Option<ByPowerEntry>,

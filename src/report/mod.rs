@@ -256,7 +256,7 @@ pub struct AccuracyEntry {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkEntry {
-    /// Of the whole basis: Krylov iterations with a factorization each, or dense ones.
+    /// Of the full model: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
     /// Those among them that used the block structure of the blade and the few columns of its
     /// guides, in a time linear in the number of functions; scenes with edge loads or dampers have
@@ -268,7 +268,7 @@ pub struct WorkEntry {
     pub local_solves: usize,
     /// Pairs of modes, of a damped blade single modes, refined by inverse iteration with a few factorizations each.
     pub refined_pairs: usize,
-    /// Symmetric, of the whole basis under other temperatures: limits of heat.
+    /// Symmetric, of the full model under other temperatures: limits of heat.
     pub heat_solves: usize,
 }
 

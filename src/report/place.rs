@@ -139,7 +139,7 @@ pub struct PlaceCertificateEntry {
     /// Number of speeds at which the Krein index was compared with the modes, or of a damped saw the number of growing
     /// modes with that of the bands.
     pub speeds_checked: usize,
-    /// Number of counts of eigenvalues on the whole basis that the modes were compared with.
+    /// Number of counts of eigenvalues on the full model that the modes were compared with.
     pub full_basis_counts: usize,
 }
 

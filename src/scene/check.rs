@@ -11,7 +11,7 @@ pub const SPAN: (f64, f64) = (1e-12, 1e15);
 const FAR: f64 = 1e9;
 /// A pad stiffer than this is, to all digits of a double, a rigid one.
 pub const MAX_GUIDE: f64 = 1e18;
-/// Each pad costs an integral over the whole basis; no saw has a hundredth of these.
+/// Each pad costs an integral over every function of the basis; no saw has a hundredth of these.
 pub const MAX_GUIDES: usize = 256;
 /// A rim at this speed would long have burst.
 pub const MAX_RPM: f64 = 1e9;

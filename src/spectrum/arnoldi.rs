@@ -23,7 +23,7 @@ use crate::system::GyroscopicSystem;
 pub use self::inverse::Inverse;
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
-use super::inertia::WholeBasis;
+use super::inertia::UndampedFullModel;
 use super::mode::rigid_noise;
 use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, unit};
@@ -67,7 +67,7 @@ pub fn lowest_eigenpairs(
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
 pub(super) fn nearly_lowest_eigenpairs(
-    basis: &WholeBasis,
+    basis: &UndampedFullModel,
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     count: usize,

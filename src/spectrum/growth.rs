@@ -51,7 +51,7 @@ pub fn fastest_growing(
     Ok(counts.max_by(|x, y| x.re.total_cmp(&y.re)))
 }
 
-/// The same for a plate, on its whole basis.
+/// The same for a plate, on its full model.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -82,7 +82,7 @@ const LOOKED_AT: usize = 16;
 const CONVERGED: f64 = 1e-9;
 
 /// The fastest growing of the lowest modes, when the Krein index proves that no other
-/// grows: the negative eigenvalues of K(Ω) on the whole basis are all accounted for by
+/// grows: the negative eigenvalues of K(Ω) on the full model are all accounted for by
 /// divergent, flutter and reflected modes among the lowest. A tenth of the work of every
 /// eigenvalue. `None` where there is no such proof.
 fn certified(

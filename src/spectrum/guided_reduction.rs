@@ -12,7 +12,7 @@ use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::hamiltonian::HamiltonianReduction;
-use super::inertia::WholeBasis;
+use super::inertia::UndampedFullModel;
 use super::interval::{Interval, KnownModes, SPAN_MARGIN, StandingWave, states_at, states_between};
 use super::mode::{ModeKind, classify, is_seen};
 use super::model::{CHART_MODES, chart_height};
@@ -40,7 +40,7 @@ const MOST_HALVINGS: usize = 3;
 const BELOW_CRITICAL: f64 = 1e-3;
 /// Length given to vectors of which no part may be left out.
 const KEPT_WHOLE: f64 = 1e6;
-/// Speeds at which modes of the whole basis are computed, at most.
+/// Speeds at which modes of the full model are computed, at most.
 const MAX_SNAPSHOTS: usize = 33;
 
 /// The reduced models of a guided blade.
@@ -60,7 +60,7 @@ pub struct Reduction {
 pub struct Guided<'a> {
     pub system: &'a GyroscopicSystem,
     /// Blocks and columns of its matrices, where it has such.
-    pub structure: Option<&'a WholeBasis>,
+    pub structure: Option<&'a UndampedFullModel>,
     /// Size of its frequencies.
     pub scale: f64,
     /// Every critical speed of the range.

@@ -1,4 +1,4 @@
-//! How many eigenvalues of L(iω) are negative, on the whole basis and without its modes.
+//! How many eigenvalues of L(iω) are negative, on the full model and without its modes.
 //!
 //! Seen from the blade, a wave of n nodal diameters that turns at frequency ω in space has frequency
 //! ω + nΩ, and −n for the opposite one. Without guides
@@ -31,7 +31,7 @@ use std::sync::OnceLock;
 
 use faer::{Mat, c64};
 
-pub use self::damped::DampedBasis;
+pub use self::damped::DampedFullModel;
 pub use self::harmonic::Harmonic;
 pub use self::matrices::{ShiftedBlock, ShiftedBlocks};
 
@@ -45,7 +45,7 @@ use crate::plate::{HarmonicBlock, Plate};
 
 /// The blade and what couples its harmonics, without damping.
 #[derive(Debug)]
-pub struct WholeBasis {
+pub struct UndampedFullModel {
     harmonics: Vec<Harmonic>,
     coupling: Coupling,
 }
@@ -57,7 +57,7 @@ const STIFF: [f64; LOOKS] = [1e2, 1e4];
 /// Share of the speed beyond which a line is so long that more columns do not help.
 const LONG: f64 = 1e-3;
 
-impl WholeBasis {
+impl UndampedFullModel {
     /// Of a plate; its damping is left aside.
     pub fn new(plate: &Plate) -> Self {
         Self::with_columns(plate, Kept::All)
@@ -90,7 +90,7 @@ impl WholeBasis {
             },
             |columns| Coupling::Columns(Box::new(columns)),
         );
-        WholeBasis {
+        UndampedFullModel {
             harmonics,
             coupling,
         }

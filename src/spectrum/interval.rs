@@ -148,11 +148,11 @@ impl<'a> SearchModel<'a> {
         })
     }
 
-    /// The same on the whole basis, with the modes of some ascending speeds as ends of the intervals.
+    /// The same on the full model, with the modes of some ascending speeds as ends of the intervals.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub(crate) fn of_whole_basis(
+    pub(crate) fn of_full_model(
         model: &'a SpectralModel,
         speeds: &[f64],
     ) -> Result<Option<Self>, SpectrumError> {

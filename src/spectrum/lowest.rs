@@ -1,4 +1,4 @@
-//! The few lowest modes of one speed on the whole basis, where no range of speeds is worth
+//! The few lowest modes of one speed on the full model, where no range of speeds is worth
 //! preparing: a handful of speeds of many slightly different saws.
 
 use crate::plate::Plate;

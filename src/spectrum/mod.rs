@@ -5,7 +5,7 @@
 //! L(λ) q = (λ² + λ D(Ω) + K(Ω)) q = 0
 //!
 //! at any speed Ω of its range: λ in 1/s, q in the plate's basis with ‖q‖ = 1, the [`ModeKind`] with
-//! its Krein sign, the [`ModeName`] and the backward error on the whole basis. An undamped blade has
+//! its Krein sign, the [`ModeName`] and the backward error on the full model. An undamped blade has
 //! D skew and K symmetric, so λ come in quadruples ±σ ± iω, and L(iω) is Hermitian.
 //!
 //! References: F. Tisseur & K. Meerbergen, *The quadratic eigenvalue problem*, SIAM Review 43 (2001),
@@ -76,7 +76,7 @@ pub(crate) use growth::fastest_growing;
 pub use growth::fastest_growing_of;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
 pub(crate) use hermitian::negative_eigenvalues;
-pub(crate) use inertia::{AtSpeed, DampedBasis, WholeBasis};
+pub(crate) use inertia::{AtSpeed, DampedFullModel, UndampedFullModel};
 pub(crate) use interval::SearchModel;
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]

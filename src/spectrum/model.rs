@@ -1,7 +1,7 @@
 //! The spectrum of a saw as a function of speed, by the cheapest sound way.
 //!
 //! Components that nothing couples are solved apart. Each component is projected on the
-//! lowest modes of a few speeds, chosen until the residuals on the whole basis say
+//! lowest modes of a few speeds, chosen until the residuals on the full model say
 //! that every mode up to `complete_to` is right at every speed.
 
 use std::sync::OnceLock;
@@ -18,7 +18,7 @@ use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::error::SpectrumError;
 use super::guided_reduction::{Guided, of_guided};
-use super::inertia::WholeBasis;
+use super::inertia::UndampedFullModel;
 use super::interval::{interval_at, states_at};
 use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
 use super::mode_name::ModeName;
@@ -38,7 +38,7 @@ pub enum Strategy {
     Reduced,
     /// The same for the modes that bands are made of alone: no chart can be drawn.
     Bands,
-    /// Every eigenvalue of the whole basis at every speed: slow, the test oracle.
+    /// Every eigenvalue of the full model at every speed: slow, the test oracle.
     Dense,
 }
 
@@ -74,7 +74,7 @@ pub struct SpectralModel {
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
-    structure: OnceLock<WholeBasis>,
+    structure: OnceLock<UndampedFullModel>,
 }
 
 /// Modes a chart shows at the lowest speed.
@@ -171,8 +171,10 @@ impl SpectralModel {
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
         let is_large = self.plate.degrees_of_freedom() >= STRUCTURED;
-        let structure =
-            is_large.then(|| self.structure.get_or_init(|| WholeBasis::new(&self.plate)));
+        let structure = is_large.then(|| {
+            self.structure
+                .get_or_init(|| UndampedFullModel::new(&self.plate))
+        });
         for component in &mut self.components {
             let guided = Guided {
                 system: &component.full,
@@ -253,7 +255,7 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// Every mode of the whole basis, by brute force.
+    /// Every mode of the full model, by brute force.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -269,8 +271,9 @@ impl SpectralModel {
     }
 
     /// The blade and what couples its harmonics, without damping.
-    pub(crate) fn whole_basis(&self) -> &WholeBasis {
-        self.structure.get_or_init(|| WholeBasis::new(&self.plate))
+    pub(crate) fn undamped_full_model(&self) -> &UndampedFullModel {
+        self.structure
+            .get_or_init(|| UndampedFullModel::new(&self.plate))
     }
 
     /// Whether the scene is undamped: then modes have Krein signs.

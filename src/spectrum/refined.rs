@@ -1,14 +1,14 @@
-//! Eigenpairs of a reduced model, made right on the whole basis.
+//! Eigenpairs of a reduced model, made right on the full model.
 //!
 //! Newton's method on L(λ)q = 0, qᴴδq = 0: δq = −L⁻¹r − δλ L⁻¹L′q, r = L(λ)q being the residual with the matrices of the
-//! whole basis. The solves by blocks and columns leave out what the guides' columns leave out, which slows the
+//! full model. The solves by blocks and columns leave out what the guides' columns leave out, which slows the
 //! convergence and does not limit it.
 
 use faer::{Col, Mat, c64};
 
 use super::derivative::with_lambda;
 use super::error::SpectrumError;
-use super::inertia::DampedBasis;
+use super::inertia::DampedFullModel;
 use super::mode::Mode;
 use super::model::SpectralModel;
 use super::residual::Lifted;
@@ -19,7 +19,7 @@ use super::vectors::{real_times, unit};
 pub struct RefinedPair {
     /// λ, in 1/s.
     pub lambda: c64,
-    /// Backward error on the whole basis.
+    /// Backward error on the full model.
     pub backward_error: f64,
 }
 
@@ -31,14 +31,14 @@ const ROUNDING: f64 = 1e-15;
 const SAME: f64 = 0.1;
 
 impl SpectralModel {
-    /// The eigenvalue next to an expected one, refined on the whole basis. `None` where the reduced model has none
+    /// The eigenvalue next to an expected one, refined on the full model. `None` where the reduced model has none
     /// there, and where the iteration leaves it.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn refined(
         &self,
-        basis: &DampedBasis,
+        basis: &DampedFullModel,
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Result<Option<RefinedPair>, SpectrumError> {
@@ -101,7 +101,7 @@ fn residual([stiffness, velocity]: &[Mat<f64>; 2], lambda: c64, q: &Col<c64>) ->
 /// One step.
 fn corrected(
     [_, velocity]: &[Mat<f64>; 2],
-    basis: &DampedBasis,
+    basis: &DampedFullModel,
     speed: f64,
     lambda: c64,
     Lifted { shape, residual }: &Lifted,

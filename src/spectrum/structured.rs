@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::arnoldi::Inverse;
-use super::inertia::WholeBasis;
+use super::inertia::UndampedFullModel;
 use super::work::Cancellation;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
@@ -15,7 +15,7 @@ pub const LARGE: usize = 200;
 #[derive(Debug)]
 pub struct StructuredStiffness {
     /// Blocks and columns.
-    pub basis: WholeBasis,
+    pub basis: UndampedFullModel,
     /// Nearly K₀⁻¹.
     pub inverse: Inverse,
 }
@@ -25,15 +25,15 @@ impl StructuredStiffness {
     /// couple every wave with every other, where K₀ is singular, and once the computation was asked to end.
     pub fn of(plate: &Plate) -> Option<Self> {
         Cancellation::current().check().ok()?;
-        Self::by(WholeBasis::new(plate))
+        Self::by(UndampedFullModel::new(plate))
     }
 
     /// The same to a millionth.
     pub fn nearly(plate: &Plate) -> Option<Self> {
-        Self::by(WholeBasis::nearly(plate))
+        Self::by(UndampedFullModel::nearly(plate))
     }
 
-    fn by(basis: WholeBasis) -> Option<Self> {
+    fn by(basis: UndampedFullModel) -> Option<Self> {
         Cancellation::current().check().ok()?;
         let inverse = Inverse::by_blocks(&basis.at_rest()?)?;
         Some(StructuredStiffness { basis, inverse })
@@ -54,7 +54,7 @@ impl StructuredStiffness {
 /// The matrices of a system times the columns of V, by the structure of an undamped blade where that is exact.
 pub fn times(
     system: &GyroscopicSystem,
-    structure: Option<&WholeBasis>,
+    structure: Option<&UndampedFullModel>,
     basis: MatRef<'_, f64>,
 ) -> GyroscopicSystem {
     let is_sum = system.is_conservative() && system.free_rigid.is_empty();

@@ -16,11 +16,11 @@ pub struct WorkCounters {
     pub local_solves: AtomicUsize,
     /// Pairs of modes, of a damped blade single modes, refined by inverse iteration on the projected matrices.
     pub refined_pairs: AtomicUsize,
-    /// Eigenproblems of the whole basis: shifted Krylov iterations, or dense ones.
+    /// Eigenproblems of the full model: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
     /// Those among them that went by blocks and columns.
     pub structured_solves: AtomicUsize,
-    /// Symmetric eigenproblems of the whole basis under other temperatures.
+    /// Symmetric eigenproblems of the full model under other temperatures.
     pub heat_solves: AtomicUsize,
     /// Looked at where work is counted.
     pub cancellation: Cancellation,

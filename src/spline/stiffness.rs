@@ -39,7 +39,7 @@ pub fn reaction_effect(
 impl ReactionEffect {
     /// ‖K_simulated − K_assumed‖ / ‖K_assumed‖ in the Frobenius norm; 0 without any load.
     ///
-    /// In the whole basis steep functions, which feel the forces at the bore most, rule
+    /// In the full model steep functions, which feel the forces at the bore most, rule
     /// this norm: it grows with the basis. See [`ReactionEffect::relative_change_on`].
     pub fn relative_change(&self) -> f64 {
         relative(&(&self.simulated - &self.assumed), &self.assumed)

@@ -1,11 +1,11 @@
 //! What was checked of a list of bands, and what did not agree.
 
 use super::band::{Instability, InstabilityKind};
-use super::full_basis::Miscount;
+use super::mode_counts::Miscount;
 use super::signature::Signature;
 
-/// Checks of a list of bands: the Krein index against the spectrum, counts of modes on the whole
-/// basis, and what of the range is proven free of bands that are not listed.
+/// Checks of a list of bands: the Krein index against the spectrum, counts of modes on the full
+/// model, and what of the range is proven free of bands that are not listed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.
@@ -16,13 +16,13 @@ pub struct Certificate {
     pub(crate) mismatches: Vec<Mismatch>,
     /// Whether the search ran out of its allowance of speeds.
     pub gave_up: bool,
-    /// Counts of modes on the whole basis that were certain.
+    /// Counts of modes on the full model that were certain.
     pub full_basis_counts: usize,
     /// Counts that were not, for an eigenvalue lies on their path.
     pub uncertain_counts: usize,
     /// Where they contradict the spectra.
     pub(crate) miscounts: Vec<Miscount>,
-    /// Whether they did so at first, and the bands were searched again on the whole basis.
+    /// Whether they did so at first, and the bands were searched again on the full model.
     pub searched_again: bool,
     /// Stretches of speed, in rad/s, that were searched and not proven to be free of bands that are
     /// not listed; `None` where no proof was tried.

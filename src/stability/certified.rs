@@ -6,7 +6,7 @@ use super::divergence::{close_pairs, divergence};
 use super::evaluator::SignatureEvaluator;
 use super::flutter::{Quadruple, flutter, quadruples};
 use super::found::Found;
-use super::full_basis::{FullBasis, Miscount};
+use super::mode_counts::{Miscount, ModeCounts};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::proof::Proof;
@@ -16,7 +16,7 @@ use crate::spectrum::{SpectralModel, SpectrumError};
 /// How much a list of bands is held against.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Depth {
-    /// Krein index and list at every speed, and counts on the whole basis at a few: for many saws.
+    /// Krein index and list at every speed, and counts on the full model at a few: for many saws.
     Counts,
     /// The same with counts beside and within every band, and a proof for the speeds between.
     Proof,
@@ -28,7 +28,7 @@ const SQUARE_TOLERANCE: f64 = 1e-3;
 const GROWTH_TOLERANCE: f64 = 0.05;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_NOISE: f64 = 1e-7;
-/// Even speeds at which modes are counted on the whole basis.
+/// Even speeds at which modes are counted on the full model.
 const ANCHORS: usize = 12;
 /// The same, drawn at random from a fixed seed: speeds that no rule of the search prefers.
 const DRAWN: u64 = 8;
@@ -42,14 +42,14 @@ const LEAST_BESIDE: f64 = 6e-5;
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
 /// Every band within a range, searched for between the first and the last of some speeds, which begin no later than
-/// the range or the lowest critical speed. Where modes are miscounted the bands are searched again on the whole basis.
+/// the range or the lowest critical speed. Where modes are miscounted the bands are searched again on the full model.
 pub(super) fn bands(
     model: &SpectralModel,
     range: (f64, f64),
     speeds: &[f64],
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let full = FullBasis::new(model);
+    let full = ModeCounts::new(model);
     let mut found = searched(
         model,
         SignatureEvaluator::new(model, speeds)?,
@@ -60,11 +60,11 @@ pub(super) fn bands(
     if found.1.miscounts.is_empty() {
         return Ok(found);
     }
-    if !SignatureEvaluator::has_whole_basis_within_reach(model) {
+    if !SignatureEvaluator::has_full_model_within_reach(model) {
         found.1.gave_up = true;
         return Ok(found);
     }
-    let whole = SignatureEvaluator::on_whole_basis(model, speeds)?;
+    let whole = SignatureEvaluator::on_full_model(model, speeds)?;
     let (instabilities, mut certificate) = searched(model, whole, &full, (range, speeds), depth)?;
     certificate.searched_again = true;
     Ok((instabilities, certificate))
@@ -73,7 +73,7 @@ pub(super) fn bands(
 fn searched(
     model: &SpectralModel,
     evaluator: SignatureEvaluator<'_>,
-    full: &Option<FullBasis<'_>>,
+    full: &Option<ModeCounts<'_>>,
     (range, speeds): ((f64, f64), &[f64]),
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
@@ -175,7 +175,7 @@ fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
 /// A list of bands, and what it is held against.
 pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
-    pub full: &'a FullBasis<'a>,
+    pub full: &'a ModeCounts<'a>,
     pub bands: &'a [Instability],
     pub signatures: &'a [Signature],
 }

@@ -26,27 +26,27 @@ pub const CRITICAL_GROUP: f64 = 2e-5;
 /// where modes cannot be told apart.
 const MOST_SPEEDS: usize = 20_000;
 
-/// Speeds that may be solved on a whole basis of at most [`USUAL_ORDER`] functions, each in the time of a whole sweep on
+/// Speeds that may be solved on a full model of at most [`USUAL_ORDER`] functions, each in the time of a whole sweep on
 /// a reduced model: more than any saw of the tests needs by ten times.
 const MOST_FULL_SOLVES: f64 = 200.0;
 /// The time of one grows with the cube of the order: beyond this fewer may be solved, and none of the largest basis, where one
 /// would take minutes.
 const USUAL_ORDER: f64 = 300.0;
 
-/// Speeds that may be solved on the whole basis of a model.
+/// Speeds that may be solved on the full model.
 fn most_full_solves(model: &SpectralModel) -> usize {
     let smaller = (USUAL_ORDER / model.plate.degrees_of_freedom() as f64).min(1.0);
     (MOST_FULL_SOLVES * smaller.powi(3)) as usize
 }
 
-/// A search on the whole basis begins with so many.
+/// A search on the full model begins with so many.
 const LEAST_FOR_A_SEARCH: usize = 25;
 /// Relative distance from a speed at which the Krein index contradicts the modes, to the speeds at which it is asked again.
 /// At a coalescence the Krein signs of the two modes are rounding: squares of frequencies that are known to 1e-15 of the
 /// highest differ by so little within 1e-9 of it (a pad of 100 N/m, bands of 2e-6 of the speed).
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// Speeds at which a search on the whole basis solves it; between two of them it goes by their modes.
+/// Speeds at which a search on the full model solves it; between two of them it goes by their modes.
 const ANCHORS: usize = 13;
 
 /// Where the Krein index was compared, and where it did not match.
@@ -76,21 +76,21 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
         match SearchModel::new(model) {
             Some(low) => Ok(Self::of(model, Some(low))),
-            None => Self::on_whole_basis(model, speeds),
+            None => Self::on_full_model(model, speeds),
         }
     }
 
-    /// Whether the whole basis of a model is small enough to be solved at every speed of a search.
-    pub fn has_whole_basis_within_reach(model: &SpectralModel) -> bool {
+    /// Whether the full model is small enough to be solved at every speed of a search.
+    pub fn has_full_model_within_reach(model: &SpectralModel) -> bool {
         most_full_solves(model) > LEAST_FOR_A_SEARCH
     }
 
-    /// The same by modes of the whole basis, whatever the projections of the model lack: slow.
+    /// The same by modes of the full model, whatever the projections of the model lack: slow.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn on_whole_basis(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        let low = SearchModel::of_whole_basis(model, &anchors(speeds))?;
+    pub fn on_full_model(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
+        let low = SearchModel::of_full_model(model, &anchors(speeds))?;
         Ok(Self::of(model, low))
     }
 
@@ -136,7 +136,7 @@ impl<'a> SignatureEvaluator<'a> {
     }
 
     /// The signature at a speed. Where it contradicts the Krein index it is read
-    /// again off the whole basis, and the index is asked beside it; what contradicts even then is a violation.
+    /// again off the full model, and the index is asked beside it; what contradicts even then is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -324,7 +324,7 @@ impl<'a> SignatureEvaluator<'a> {
     }
 
     /// Holds the spectrum against the inertia of the stiffness, which comes from
-    /// another, symmetric eigenproblem on the whole basis.
+    /// another, symmetric eigenproblem on the full model.
     fn match_index(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
         krein_index(modes) == self.model.negative_stiffness_directions(speed_rad_per_s)
     }

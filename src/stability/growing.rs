@@ -1,4 +1,4 @@
-//! Growing modes of one speed, held against counts on the whole basis: for a saw that is looked at once, as in a cut.
+//! Growing modes of one speed, held against counts on the full model: for a saw that is looked at once, as in a cut.
 //!
 //! The lowest modes come from an iteration, which might pass over one. Of an undamped saw the Krein index, n₋(K) by a
 //! factorization, and the counts between modes of opposite sign tell; of a damped one the argument principle.
@@ -6,11 +6,12 @@
 use faer::c64;
 
 use super::damped::counted_in_window;
-use super::full_basis::{Miscount, claims, of_claims};
+use super::mode_counts::{Miscount, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
-    DampedBasis, LowestModes, Mode, SpectrumError, WholeBasis, krein_index, negative_eigenvalues,
+    DampedFullModel, LowestModes, Mode, SpectrumError, UndampedFullModel, krein_index,
+    negative_eigenvalues,
 };
 
 /// Growing modes of a plate at a speed, and what was checked of them.
@@ -22,7 +23,7 @@ pub(crate) struct GrowingModes {
     pub growth_per_s: Option<f64>,
     /// n₋(K) and the Krein index of the modes, of an undamped saw.
     pub krein: Option<[usize; 2]>,
-    /// Counts of modes on the whole basis that were certain.
+    /// Counts of modes on the full model that were certain.
     pub full_basis_counts: usize,
     /// Where they contradict the modes.
     pub miscounts: Vec<Miscount>,
@@ -94,7 +95,7 @@ impl GrowingModes {
                 .fold(0.0, |top: f64, mode| top.max(mode.lambda.im));
             let claims = claims(&signature, highest);
             let counted = of_claims(
-                &WholeBasis::new(plate),
+                &UndampedFullModel::new(plate),
                 speed,
                 &claims,
                 Some(negative as isize),
@@ -107,7 +108,7 @@ impl GrowingModes {
 
     fn damped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
         let mut found = Self::of_modes(modes);
-        let basis = DampedBasis::new(plate);
+        let basis = DampedFullModel::new(plate);
         let Some(basis) = basis.filter(|_| !plate.is_axisymmetric() && !has_free_motions(lowest))
         else {
             return found;
@@ -148,7 +149,7 @@ mod tests {
         [pushed, idle, Plate::new(&damped.unwrap(), resolution)]
     }
 
-    /// Against every eigenvalue of the whole basis.
+    /// Against every eigenvalue of the full model.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn growing_modes_of_a_speed_are_those_of_all_eigenvalues() {

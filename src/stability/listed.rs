@@ -1,26 +1,28 @@
-//! The eigenvalues that a report lists besides those at rest, refined on the whole basis: peaks of bands, and the
+//! The eigenvalues that a report lists besides those at rest, refined on the full model: peaks of bands, and the
 //! fastest growing or slowest decaying mode at the operating speed.
 
 use faer::c64;
 use rayon::prelude::*;
 
 use super::band::Instability;
-use crate::spectrum::{DampedBasis, DescribedMode, RefinedPair, SpectralModel, SpectrumError};
+use crate::spectrum::{DampedFullModel, DescribedMode, RefinedPair, SpectralModel, SpectrumError};
 
-/// Eigenvalues refined on the whole basis, and the largest backward error among them.
+/// Eigenvalues refined on the full model, and the largest backward error among them.
 pub(super) struct Listed {
-    basis: Option<DampedBasis>,
+    basis: Option<DampedFullModel>,
     /// `None` where one could not be refined.
     largest_error: Option<f64>,
 }
 
 impl Listed {
-    /// Begins with the modes at rest, which are those of the whole basis.
+    /// Begins with the modes at rest, which are those of the full model.
     pub fn new(model: &SpectralModel, modes_at_rest: &[DescribedMode]) -> Self {
         let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
         let is_guided = !model.plate.is_axisymmetric();
         Listed {
-            basis: is_guided.then(|| DampedBasis::new(&model.plate)).flatten(),
+            basis: is_guided
+                .then(|| DampedFullModel::new(&model.plate))
+                .flatten(),
             largest_error: Some(errors.fold(0.0, f64::max)),
         }
     }
@@ -134,7 +136,7 @@ mod tests {
     /// solves with the whole matrix.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
-    fn listed_eigenvalues_are_those_of_the_whole_basis() {
+    fn listed_eigenvalues_are_those_of_the_undamped_full_model() {
         let damped = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
         for (scene, least) in [(Scene::paper(), 6), (damped.unwrap(), 2)] {
             let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));

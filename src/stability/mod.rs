@@ -22,7 +22,6 @@ mod excitation;
 mod expected;
 mod flutter;
 mod found;
-mod full_basis;
 mod group;
 mod growing;
 mod heat;
@@ -32,6 +31,7 @@ mod ladder;
 mod listed;
 mod loci;
 mod maximum;
+mod mode_counts;
 mod onsets;
 mod out_of_reach;
 mod pair_continuation;
@@ -65,10 +65,10 @@ pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
 pub use expected::ExpectedWork;
-pub(crate) use full_basis::Miscount;
 pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub(crate) use ladder::DENSE_LADDER;
+pub(crate) use mode_counts::Miscount;
 pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;

@@ -7,7 +7,7 @@
 //! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
 //!
 //! so many − modes there are at least. Where the counts are the same all along lines ωᵢ(Ω), which
-//! [`WholeBasis`](crate::spectrum::WholeBasis) settles by two factorizations, and no critical speed
+//! [`UndampedFullModel`](crate::spectrum::UndampedFullModel) settles by two factorizations, and no critical speed
 //! changes n₋(K), this holds at every speed of the stretch. The spectra only propose the lines. Next to
 //! a crossing or the edge of a band the gap closes and stretches are halved, down to a least width: what
 //! is left is named, and was only searched.
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
-use super::full_basis::{FullBasis, Gap, gaps};
+use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::signature::Signature;
 use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
 
@@ -26,7 +26,7 @@ use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
 const LEAST_WIDTH: f64 = 1e-4;
 /// What a proof needs.
 pub(super) struct Proof<'a> {
-    pub full: &'a FullBasis<'a>,
+    pub full: &'a ModeCounts<'a>,
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub bands: &'a [Instability],
 }

@@ -23,7 +23,7 @@ use crate::system::GyroscopicSystem;
 pub enum Method {
     /// The whole chart from a projection: what `analyze` does.
     Reduced,
-    /// The whole chart from every eigenvalue of the whole basis at every speed.
+    /// The whole chart from every eigenvalue of the full model at every speed.
     Dense,
     /// Critical speeds alone, in double precision.
     CriticalSpeeds,
@@ -58,7 +58,7 @@ pub struct Setting {
 const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0;
 /// Those of them that a dense eigenproblem of the order of the basis is asked of.
 const SINGLE_SIZES: &[(usize, usize)] = DENSE_LADDER;
-/// The whole basis at every speed takes a hundred times as long: two sizes show it.
+/// The full model at every speed takes a hundred times as long: two sizes show it.
 const DENSE_SIZES: usize = 2;
 /// What counts as the truth: the largest basis.
 const TRUTH: (usize, usize) = LADDER[LADDER.len() - 1];

@@ -118,7 +118,7 @@ impl StretchedBlade {
     }
 
     /// The lowest `modes` modes at a speed, each with its two phases: their eigenvalues there are those
-    /// of the whole basis, as narrow bands of flutter need.
+    /// of the full model, as narrow bands of flutter need.
     ///
     /// # Errors
     /// As [`StretchedBlade::new`], and [`StretchedError::Value`].

@@ -1,7 +1,7 @@
 //! How far flutter of a band rises, from the two waves that make it.
 //!
 //! The normal form of [`Saturation`] needs the growing wave and the decaying one alone. Both are found on the
-//! whole basis, by Newton's method on L(λ)x = 0, L(λ) = λ² + λ 2ΩG + K(Ω), from an eigenvalue that is known nearly:
+//! full model, by Newton's method on L(λ)x = 0, L(λ) = λ² + λ 2ΩG + K(Ω), from an eigenvalue that is known nearly:
 //! u = L(λ)⁻¹L′(λ)x, λ⁺ = λ − xᴴx/xᴴu (A. Ruhe, *Algorithms for the nonlinear eigenvalue problem*, SIAM J. Numer. Anal. 10
 //! (1973), 674–689). Their real and imaginary parts are the shapes.
 

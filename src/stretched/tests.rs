@@ -17,7 +17,7 @@ fn paper() -> Plate {
     Plate::new(&Scene::paper(), RESOLUTION)
 }
 
-/// The critical speeds of the whole basis, and those of thirty of its 85 shapes.
+/// The critical speeds of the full model, and those of thirty of its 85 shapes.
 #[test]
 fn pitchforks_are_at_the_critical_speeds() {
     let plate = paper();
@@ -390,7 +390,7 @@ fn simulated(blade: &StretchedBlade, predicted: &Saturation) -> f64 {
     largest
 }
 
-/// The two waves of a band on the whole basis say the same as the lowest modes do, from an eigenvalue known to three
+/// The two waves of a band on the full model say the same as the lowest modes do, from an eigenvalue known to three
 /// digits only, and of a blade with damping as of the one without.
 #[test]
 fn two_waves_are_enough() {

@@ -25,7 +25,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// From the eigenvalues of the whole basis.
+    /// From the eigenvalues of the full model.
     ///
     /// # Errors
     /// [`TransientError::Spectrum`].
@@ -59,7 +59,7 @@ pub(crate) struct CutHistory {
     pub idle: Growth,
     /// Eigenvalues in the cut.
     pub in_cut: Growth,
-    /// What counts on the whole basis say of the growing modes without the forces, and in the cut.
+    /// What counts on the full model say of the growing modes without the forces, and in the cut.
     pub growing: [GrowingModes; 2],
     /// Eigenvalues in a cut with the tangential force that the power allows.
     pub in_cut_by_power: Option<Growth>,

@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 /// A system at a speed, whose lowest modes join the basis.
 #[derive(Debug, Clone, Copy)]
 pub struct Snapshot<'a> {
-    /// On the whole basis.
+    /// On the full model.
     pub system: &'a GyroscopicSystem,
     /// Ω.
     pub speed_rad_per_s: f64,
@@ -111,7 +111,7 @@ impl ReducedBlade {
         }
     }
 
-    /// The whole basis, for comparison.
+    /// The full model, for comparison.
     pub fn whole(plate: &Plate) -> Self {
         let order = plate.degrees_of_freedom();
         ReducedBlade {

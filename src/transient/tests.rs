@@ -161,9 +161,9 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
 }
 
 /// The probe's record on the few motions of the time history against the same on the
-/// whole basis.
+/// full model.
 #[test]
-fn few_motions_make_the_record_of_the_whole_basis() {
+fn few_motions_make_the_record_of_the_undamped_full_model() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
     let probe = *Scene::paper().probe();
@@ -230,7 +230,7 @@ fn passing_teeth_act_like_their_mean() {
 }
 
 /// A point of the map between those whose modes it is made of, against a saw with its
-/// guides really moved and its loads really scaled, on the whole basis.
+/// guides really moved and its loads really scaled, on the full model.
 #[test]
 fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     let (cut, run) = (paper_cut(), run_at(2800.0));

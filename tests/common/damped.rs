@@ -1,4 +1,4 @@
-//! Bands of damped saws against every eigenvalue of the whole basis.
+//! Bands of damped saws against every eigenvalue of the full model.
 #![allow(dead_code)]
 
 use faer::c64;

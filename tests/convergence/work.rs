@@ -62,7 +62,7 @@ fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
     assert!(damped.structured_solves < damped.full_solves, "{damped:?}");
 }
 
-/// More functions, the same eigenproblems: only the few of the whole basis grow.
+/// More functions, the same eigenproblems: only the few of the full model grow.
 #[test]
 fn work_hardly_depends_on_the_accuracy() {
     let [draft, reference] = [Accuracy::Draft, Accuracy::Reference].map(|a| report(a).work);

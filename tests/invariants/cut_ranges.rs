@@ -89,7 +89,7 @@ impl Saw {
         events
     }
 
-    /// Growing eigenvalues of the whole basis.
+    /// Growing eigenvalues of the full model.
     fn growing(&self, speed: f64) -> Vec<c64> {
         let all = companion_eigenpairs(&self.system, speed).unwrap();
         let all = all.into_iter().map(|(lambda, _)| lambda);
@@ -132,7 +132,7 @@ fn assert_cut(saw: &Saw, range: (f64, f64), way: Way) {
     }
 }
 
-/// The largest growth within a band is that of an eigenvalue of the whole basis, and nothing of its kind that grows
+/// The largest growth within a band is that of an eigenvalue of the full model, and nothing of its kind that grows
 /// faster is covered by it alone.
 fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
     let (from, to, peak) = (

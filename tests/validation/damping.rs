@@ -202,7 +202,7 @@ static DAMPED_PAD: LazyLock<Analysis> = LazyLock::new(|| {
 
 /// A damped pad feeds reflected waves from their critical speeds on, with 1e-5 1/s over hundreds
 /// of rpm, and hardly changes the flutter of modes that meet. Growth is held against every
-/// eigenvalue of the whole basis, the flutter speed against the saw without damping.
+/// eigenvalue of the full model, the flutter speed against the saw without damping.
 #[test]
 fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     let analysis = &*DAMPED_PAD;

@@ -46,7 +46,7 @@ fn guided_modes_at_rest() {
     worst.assert_at_most("paper's saw, modes at rest", 1e-3);
 }
 
-/// At reference accuracy what the report lists is right to rounding on the whole basis.
+/// At reference accuracy what the report lists is right to rounding on the full model.
 #[test]
 fn listed_eigenvalues_have_a_backward_error_of_rounding() {
     let certificate = guided().report().certificate;

@@ -9,7 +9,7 @@ use sawflutter::transient::RunningUp;
 const SPEEDS_RPM: [f64; 2] = [2540.0, 2630.0];
 const DURATION_S: f64 = 1.35;
 
-/// ∫ Σ Re λ dt over all growing modes of the whole basis, by the rectangle rule.
+/// ∫ Σ Re λ dt over all growing modes of the full model, by the rectangle rule.
 fn growth_of_all_modes(plate: &Plate) -> f64 {
     const SAMPLES: usize = 300;
     let lowest = LowestModes::new(plate);

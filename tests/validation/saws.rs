@@ -52,7 +52,7 @@ pub fn fastest(plate: &Plate, edge: &Mat<f64>, rpm: f64) -> (f64, f64) {
     (lambda.re, lambda.im.abs() / TAU)
 }
 
-/// On the whole basis, so that no projection differs between two scenes.
+/// On the full model, so that no projection differs between two scenes.
 pub fn dense_analysis(
     scene: &Scene,
     resolution: Resolution,

@@ -5,7 +5,7 @@
 //! system faster than any power of the number of points. Source: D. Breda, S. Maset & R. Vermiglio,
 //! *Pseudospectral differencing methods for characteristic roots of delay differential equations*, SIAM J.
 //! Sci. Comput. 27 (2005), 482–495. The arc is integrated by Gauss's rule over point forces, and the
-//! whole basis is taken.
+//! full model is taken.
 
 use std::f64::consts::{PI, TAU};
 
@@ -69,7 +69,7 @@ fn gauss(count: usize) -> Vec<[f64; 2]> {
     (0..count).map(node).collect()
 }
 
-/// Eigenvalues of the collocated delay, of the whole basis that a report was made with.
+/// Eigenvalues of the collocated delay, of the full model that a report was made with.
 fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c64> {
     let cut = scene.cut().unwrap();
     let typed = scene.file().cut.as_ref().unwrap();

@@ -63,7 +63,7 @@ pub enum StretchingError {
     },
 }
 
-/// Potential of stretching U₄ of a plate, on its whole basis of N functions:
+/// Potential of stretching U₄ of a plate, on its full model of N functions:
 ///
 /// U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ, ℂ of plane stress.
 ///

@@ -1,4 +1,4 @@
-//! Growing modes of a cut held against counts on the whole basis.
+//! Growing modes of a cut held against counts on the full model.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::report::MiscountEntry;
 use crate::stability::GrowingModes;
 use crate::transient::CutHistory;
 
-/// How many modes grow in the cut and without its forces, and what counts on the whole basis say of that.
+/// How many modes grow in the cut and without its forces, and what counts on the full model say of that.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutCertificateEntry {
@@ -17,7 +17,7 @@ pub struct CutCertificateEntry {
     pub growing_modes: usize,
     /// Modes that grow without the forces.
     pub idle_growing_modes: usize,
-    /// Counts on the whole basis that the modes were held against, in the cut and without the forces.
+    /// Counts on the full model that the modes were held against, in the cut and without the forces.
     pub full_basis_counts: usize,
     /// In how many of the two the Krein index of an undamped saw does not match; expected 0.
     pub krein_violations: usize,
@@ -102,7 +102,7 @@ impl State<'_> {
         }
         for miscount in self.found.miscounts.iter().map(MiscountEntry::from) {
             checks.push(format!(
-                "miscounted on the whole basis: {}",
+                "miscounted on the full model: {}",
                 miscount.in_words()
             ));
         }
@@ -114,10 +114,10 @@ impl State<'_> {
         }
         match self.found.full_basis_counts {
             _ if !self.found.miscounts.is_empty() => (),
-            0 if checks.is_empty() => checks.push("not counted on the whole basis".to_owned()),
+            0 if checks.is_empty() => checks.push("not counted on the full model".to_owned()),
             0 => (),
-            1 => checks.push("1 count on the whole basis agrees".to_owned()),
-            many => checks.push(format!("{many} counts on the whole basis agree")),
+            1 => checks.push("1 count on the full model agrees".to_owned()),
+            many => checks.push(format!("{many} counts on the full model agree")),
         }
         checks
     }
@@ -149,7 +149,7 @@ mod tests {
         };
         assert_eq!(
             says(&found, 3.0),
-            "in the cut 1 mode grows (Krein index matches, 5 counts on the whole basis agree)"
+            "in the cut 1 mode grows (Krein index matches, 5 counts on the full model agree)"
         );
         let wrong = GrowingModes {
             krein: Some([4, 2]),
@@ -164,12 +164,12 @@ mod tests {
         assert_eq!(
             says(&wrong, 4.0),
             "in the cut 1 mode grows (Krein index 2 does not match 4 of the stiffness, \
-             miscounted on the whole basis: 2 too many between 10.0 and 12.0 Hz, \
+             miscounted on the full model: 2 too many between 10.0 and 12.0 Hz, \
              the fastest grows by 3.0000 1/s, the criteria go by 4.0000 1/s)"
         );
         assert_eq!(
             says(&GrowingModes::default(), -0.5),
-            "in the cut no mode grows (not counted on the whole basis)"
+            "in the cut no mode grows (not counted on the full model)"
         );
     }
 }

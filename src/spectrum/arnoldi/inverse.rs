@@ -204,7 +204,7 @@ mod tests {
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Scene, rad_per_s};
-    use crate::spectrum::WholeBasis;
+    use crate::spectrum::UndampedFullModel;
     use crate::system::GyroscopicSystem;
 
     /// Against a solve with the whole matrix of L(σ), of one pad and of two.
@@ -224,7 +224,9 @@ mod tests {
             let plate = Plate::new(&scene, resolution);
             let system = GyroscopicSystem::of_plate(&plate);
             let (speed, shift) = (rad_per_s(2000.0), 120.0);
-            let structure = WholeBasis::new(&plate).shifted(speed, shift).unwrap();
+            let structure = UndampedFullModel::new(&plate)
+                .shifted(speed, shift)
+                .unwrap();
             let inverse = Inverse::by_blocks(&structure).unwrap();
             let mut whole = Scale(shift.powi(-2)) * system.stiffness_at(speed)
                 + Scale(1.0 / shift) * system.velocity_at(speed);

@@ -6,7 +6,7 @@
 use faer::{Col, ColRef, Mat, MatRef, Scale, c64};
 
 use super::inverse::Inverse;
-use crate::spectrum::inertia::WholeBasis;
+use crate::spectrum::inertia::UndampedFullModel;
 use crate::spectrum::vectors::Eigenpair;
 use crate::system::GyroscopicSystem;
 
@@ -98,7 +98,7 @@ impl ShiftedInverse {
     /// The same of an undamped blade by the structure of its matrices, but for what its guides'
     /// columns leave out. `None` where they have none.
     pub fn by_structure(
-        basis: &WholeBasis,
+        basis: &UndampedFullModel,
         speed_rad_per_s: f64,
         shift_per_s: f64,
     ) -> Option<Self> {

@@ -12,7 +12,7 @@ const LEAST_SLOPE: f64 = 0.02;
 
 impl Builder<'_> {
     /// Largest estimated error of a frequency among the modes below the window. With r the
-    /// residual on the whole basis, rᴴP⁻¹r is what the functions that were left out take off
+    /// residual on the full model, rᴴP⁻¹r is what the functions that were left out take off
     /// qᴴL(ω)q; P, the diagonal of K₀, stands for L, for r lives in the high functions, which
     /// stiffness rules. The frequency follows by [`frequency_shift`].
     pub(super) fn frequency_error(

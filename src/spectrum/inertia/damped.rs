@@ -1,4 +1,4 @@
-//! How many modes of a damped saw grow, on the whole basis: the argument principle.
+//! How many modes of a damped saw grow, on the full model: the argument principle.
 //!
 //! det L(λ) is a polynomial, and its argument turns once about every eigenvalue that a closed path goes
 //! around. In the frame of the blade L is block diagonal, A_±n = B_n + μ² + ηK_b μ + c(λ ± ins Ω) with μ = λ ± inΩ,
@@ -15,12 +15,12 @@ use nalgebra::{DMatrix, Dyn, LU};
 
 use super::super::argument::turn_along;
 use super::coupling::{Columns, Kept};
-use super::{Harmonic, WholeBasis};
+use super::{Harmonic, UndampedFullModel};
 use crate::plate::Plate;
 
 /// The determinant of L(λ) of a damped saw.
 #[derive(Debug)]
-pub struct DampedBasis {
+pub struct DampedFullModel {
     harmonics: Vec<Harmonic>,
     /// K_b, and what air acts on, of every harmonic.
     bending: Vec<DMatrix<f64>>,
@@ -40,13 +40,13 @@ const PLACES: usize = 16;
 /// Share of the window's frequency at which the path ends: at zero the block of a rigid motion is singular.
 const NEXT_TO_ZERO: f64 = 1e-5;
 
-impl DampedBasis {
+impl DampedFullModel {
     /// Of a guided plate. `None` where forces couple all waves, or have no potential.
     pub fn new(plate: &Plate) -> Option<Self> {
         if plate.edge_stiffness.is_some() || plate.contact.nonconservative_stiffness().is_some() {
             return None;
         }
-        let harmonics = WholeBasis::harmonics(plate);
+        let harmonics = UndampedFullModel::harmonics(plate);
         let columns = |matrix: Option<&Mat<f64>>| match matrix {
             Some(matrix) => Columns::new(matrix, &harmonics, Kept::All).map(Some),
             None => Some(None),
@@ -61,7 +61,7 @@ impl DampedBasis {
         let unit =
             |k: usize| DMatrix::identity(blocks[k].bending.nrows(), blocks[k].bending.nrows());
         let damping = plate.damping;
-        Some(DampedBasis {
+        Some(DampedFullModel {
             bending: blocks.iter().map(|b| b.bending.clone()).collect(),
             area: (0..blocks.len())
                 .map(|k| blocks[k].area.clone().unwrap_or_else(|| unit(k)))
@@ -312,7 +312,7 @@ mod tests {
     fn eigenvalues_that_a_list_lacks_or_invents_are_counted() {
         let plate = damped(1);
         let (basis, system) = (
-            DampedBasis::new(&plate).unwrap(),
+            DampedFullModel::new(&plate).unwrap(),
             GyroscopicSystem::of_plate(&plate),
         );
         let mut growing = 0;
@@ -349,7 +349,7 @@ mod tests {
         for guides in [1, 2] {
             let plate = damped(guides);
             assert_eq!(
-                DampedBasis::new(&plate).unwrap().dampers.is_some(),
+                DampedFullModel::new(&plate).unwrap().dampers.is_some(),
                 guides == 2
             );
             angle_is_right(&plate);
@@ -358,7 +358,7 @@ mod tests {
 
     fn angle_is_right(plate: &Plate) {
         let (basis, system) = (
-            DampedBasis::new(plate).unwrap(),
+            DampedFullModel::new(plate).unwrap(),
             GyroscopicSystem::of_plate(plate),
         );
         let speed = rad_per_s(2000.0);

@@ -6,7 +6,7 @@ use faer::{Accum, Mat, MatRef, Par, Scale};
 use nalgebra::DMatrix;
 
 use super::coupling::Coupling;
-use super::{Harmonic, WholeBasis};
+use super::{Harmonic, UndampedFullModel};
 use crate::system::GyroscopicSystem;
 
 /// Blocks and columns of a matrix, blocks + P diag(1 … 1, −1 … −1) Pᵀ.
@@ -27,7 +27,7 @@ pub struct ShiftedBlock {
     pub turning: f64,
 }
 
-impl WholeBasis {
+impl UndampedFullModel {
     /// L(σ) = K(Ω) + σ² + σ 2ΩG at a real σ, in units of σ², with what is left out of PPᵀ left out.
     /// `None` where edge loads couple every wave with every other.
     pub fn shifted(&self, speed_rad_per_s: f64, shift_per_s: f64) -> Option<ShiftedBlocks> {

@@ -1,4 +1,4 @@
-//! Solves with L(λ) on the whole basis, by the structure that the determinant has.
+//! Solves with L(λ) on the full model, by the structure that the determinant has.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::Harmonic;
-use super::damped::{DampedBasis, weigh};
+use super::damped::{DampedFullModel, weigh};
 
 /// One of the waves e^{±inθ} of a harmonic, (c ∓ is)/√2 of its unknowns.
 struct Wave {
@@ -53,8 +53,8 @@ impl Wave {
     }
 }
 
-impl DampedBasis {
-    /// L(λ)⁻¹ times vectors of the whole basis, but for what the columns of the guides leave out. `None` where L(λ) is
+impl DampedFullModel {
+    /// L(λ)⁻¹ times vectors of the full model, but for what the columns of the guides leave out. `None` where L(λ) is
     /// singular.
     pub fn solved<const N: usize>(
         &self,
@@ -127,7 +127,7 @@ mod tests {
                 c64::new((0.7 * i as f64 + 0.3).sin(), (1.3 * i as f64).cos())
             });
             let exact = whole.partial_piv_lu().solve(&load);
-            let basis = DampedBasis::new(&plate).unwrap();
+            let basis = DampedFullModel::new(&plate).unwrap();
             let [found] = basis
                 .solved(speed, lambda, [&load.col(0).to_owned()])
                 .unwrap();

@@ -48,7 +48,7 @@ fn held_against(
     searched_pieces(&evaluator, &sound.speeds).unwrap();
     let mut signatures = evaluator.signatures();
     signatures.iter_mut().for_each(change);
-    let full = FullBasis::new(&sound.model).unwrap();
+    let full = ModeCounts::new(&sound.model).unwrap();
     let checks = Checks {
         evaluator: &evaluator,
         full: &full,
@@ -119,7 +119,7 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.lose_wave(rad_per_s(speed), place);
         let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
-        let full = FullBasis::new(&model);
+        let full = ModeCounts::new(&model);
         let (_, certificate) = searched(
             &model,
             evaluator,
@@ -166,7 +166,7 @@ fn a_projection_on_too_few_speeds_is_found_out() {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.keep_modes_of(&kept);
         let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
-        let full = FullBasis::new(&model);
+        let full = ModeCounts::new(&model);
         let (without, _) = searched(
             &model,
             evaluator,
@@ -259,7 +259,7 @@ fn cost_of_the_proof() {
 
 /// What each step of the proof takes by itself.
 fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
-    let full = timed("prepared", || FullBasis::new(model).unwrap());
+    let full = timed("prepared", || ModeCounts::new(model).unwrap());
     let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
     timed("pieces", || searched_pieces(&evaluator, speeds).unwrap());
     let signatures = evaluator.signatures();

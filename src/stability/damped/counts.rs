@@ -1,14 +1,14 @@
-//! Growing modes of a damped saw counted on the whole basis, by the argument principle.
+//! Growing modes of a damped saw counted on the full model, by the argument principle.
 
 use rayon::prelude::*;
 
 use faer::c64;
 
 use super::spectrum::{Solver, Spectrum};
-use crate::spectrum::{DampedBasis, SpectralModel, SpectrumError};
+use crate::spectrum::{DampedFullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
-use crate::stability::full_basis::Miscount;
+use crate::stability::mode_counts::Miscount;
 
 /// Bands on both sides of whose onset modes are counted, from the lowest: each count takes some
 /// forty determinants.
@@ -50,7 +50,7 @@ impl Counts {
         if model.plate.is_axisymmetric() || is_free {
             return Ok(Counts::default());
         }
-        let Some(basis) = DampedBasis::new(&model.plate) else {
+        let Some(basis) = DampedFullModel::new(&model.plate) else {
             return Ok(Counts::default());
         };
         let spectra: Result<Vec<Spectrum>, SpectrumError> = speeds(bands, range)
@@ -82,7 +82,7 @@ fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
     speeds
 }
 
-fn counted(basis: &DampedBasis, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
+fn counted(basis: &DampedFullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
     let listed: Vec<c64> = spectrum.values.iter().map(|value| value.lambda).collect();
     counted_in_window(basis, spectrum.speed, &listed, highest)
 }
@@ -90,7 +90,7 @@ fn counted(basis: &DampedBasis, spectrum: &Spectrum, highest: f64) -> Option<Opt
 /// Growing eigenvalues that a list lacks or has too many, below the highest frequency up to which it is complete.
 /// `None` where nothing is certain, for an eigenvalue lies on the path.
 pub fn counted_in_window(
-    basis: &DampedBasis,
+    basis: &DampedFullModel,
     speed_rad_per_s: f64,
     listed: &[c64],
     highest_rad_per_s: f64,
@@ -136,7 +136,7 @@ mod tests {
         let counts = Counts::new(&model, &solver, &[], range).unwrap();
         assert_eq!(counts.made, DRAWN as usize);
         assert!(counts.miscounts.is_empty(), "{:?}", counts.miscounts);
-        let basis = DampedBasis::new(&model.plate).unwrap();
+        let basis = DampedFullModel::new(&model.plate).unwrap();
         let spectra = (0..40).map(|k| solver.at(rad_per_s(1540.0 + 25.0 * f64::from(k))).unwrap());
         let grows = |s: &Spectrum| s.values.iter().any(|v| v.lambda.re > 0.01);
         let sound = spectra.into_iter().find(grows).unwrap();

@@ -1,4 +1,4 @@
-//! Modes held against counts on the whole basis, which know nothing of the projection that gave them.
+//! Modes held against counts on the full model, which know nothing of the projection that gave them.
 //!
 //! Of an undamped blade L(iω) is Hermitian, and with p and m modes of Krein sign + and − between 0 and ω
 //!
@@ -13,12 +13,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::signature::{Sign, Signature};
-use crate::spectrum::{AtSpeed, SpectralModel, SpectrumError, WholeBasis};
+use crate::spectrum::{AtSpeed, SpectralModel, SpectrumError, UndampedFullModel};
 
 /// Counts of one saw.
-pub struct FullBasis<'a> {
+pub struct ModeCounts<'a> {
     model: &'a SpectralModel,
-    basis: &'a WholeBasis,
+    basis: &'a UndampedFullModel,
     counted: AtomicUsize,
 }
 
@@ -142,12 +142,12 @@ fn of_sign(sign: Sign) -> isize {
     }
 }
 
-impl<'a> FullBasis<'a> {
+impl<'a> ModeCounts<'a> {
     /// Of a guided blade; the waves of a free one are known harmonic by harmonic.
     pub fn new(model: &'a SpectralModel) -> Option<Self> {
-        (!model.plate.is_axisymmetric()).then(|| FullBasis {
+        (!model.plate.is_axisymmetric()).then(|| ModeCounts {
             model,
-            basis: model.whole_basis(),
+            basis: model.undamped_full_model(),
             counted: AtomicUsize::new(0),
         })
     }
@@ -227,7 +227,7 @@ pub(super) struct Counted {
 /// Holds ascending claims against counts; what is not certain contradicts nothing. `begins` is n₋(K), with which the
 /// counts begin at ω = 0; where it is not known, the first of them is taken for right.
 pub(super) fn of_claims(
-    basis: &WholeBasis,
+    basis: &UndampedFullModel,
     speed_rad_per_s: f64,
     claims: &[Claim],
     begins: Option<isize>,
