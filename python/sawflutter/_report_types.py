@@ -470,8 +470,8 @@ class Certificate(Entry):
     """These speeds."""
 
     full_basis_counts: int
-    """Number of counts of eigenvalues on the full model, independent of the reduced model,
-    that the modes were compared with."""
+    """Number of counts of eigenvalues on the full model, independent of the reduced model, that
+    the modes were compared with."""
 
     uncertain_counts: int
     """Counts that were tried besides and were not certain, for an eigenvalue lies on their
@@ -481,8 +481,8 @@ class Certificate(Entry):
     """Modes that these counts say are missing, or too many; expected none."""
 
     searched_again: bool
-    """Whether modes were missing at first, so that the bands were searched again on the whole
-    basis."""
+    """Whether modes were missing at first, so that the bands were searched again on the full
+    model."""
 
     mismatches: tuple[Mismatch, ...]
     """Where the list of bands contradicts the eigenvalues that the search or the chart found;
