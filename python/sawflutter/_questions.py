@@ -54,7 +54,8 @@ class Questions(Searches):
         amplitude : bool
             Also how far the flutter of each band rises: ``saturated_amplitude_m`` of the bands.
         progress : bool or callable, optional
-            True shows a bar, a callable is called with what is done and of how many.
+            True shows a bar, a callable is called with what is done of a step and of how many, one
+            step of the computation after the other.
 
         Returns
         -------

@@ -44,7 +44,6 @@ pub fn analyze(
             }
         };
         let options = AnalysisOptions {
-            progress: &|done, of| meter.show(done, of),
             expected: Some(&say_if_long),
             ..AnalysisOptions::default()
         };

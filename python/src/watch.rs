@@ -1,40 +1,56 @@
 //! Computations beside the interpreter: without its lock, with progress, and until Ctrl-C.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use sawflutter::spectrum::Cancellation;
+use sawflutter::spectrum::{Cancellation, Progress, Stage};
 
 use crate::failure::Failure;
 
 /// How often Ctrl-C is looked for and progress is told.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// How far a computation has come.
-#[derive(Debug, Default)]
+/// How far a computation has come: the loop that is shown, as the program's bar shows it.
 pub struct Meter {
-    done: AtomicUsize,
-    of: AtomicUsize,
-    what: Mutex<&'static str>,
+    shown: Arc<Mutex<Shown>>,
+    progress: Progress,
     /// What is to be said before the end, once.
     remark: Mutex<Option<String>>,
+}
+
+/// How many are done, of how many, and of what.
+type Shown = (usize, usize, &'static str);
+
+impl Default for Meter {
+    fn default() -> Self {
+        let shown = Arc::new(Mutex::new((0, 0, "")));
+        let seen = shown.clone();
+        let see = move |stage: Stage| {
+            // Between two loops the last one stays shown.
+            if stage.of > 0 {
+                *lock(&seen) = (stage.done, stage.of, stage.what);
+            }
+        };
+        Meter {
+            shown,
+            progress: Progress::new(see),
+            remark: Mutex::default(),
+        }
+    }
 }
 
 impl Meter {
     /// So many of so many are done.
     pub fn show(&self, done: usize, of: usize) {
-        self.of.store(of, Ordering::Relaxed);
-        self.done.store(done, Ordering::Relaxed);
+        self.show_of("", done, of);
     }
 
-    /// The same, of something else.
+    /// The same, with their name.
     pub fn show_of(&self, what: &'static str, done: usize, of: usize) {
-        *lock(&self.what) = what;
-        self.show(done, of);
+        self.progress.show(what, done, of);
     }
 
     /// Something to say before the end.
@@ -42,14 +58,8 @@ impl Meter {
         *lock(&self.remark) = Some(text);
     }
 
-    fn state(&self) -> (usize, usize, &'static str) {
-        let what = *lock(&self.what);
-        let (done, of) = (&self.done, &self.of);
-        (
-            done.load(Ordering::Relaxed),
-            of.load(Ordering::Relaxed),
-            what,
-        )
+    fn state(&self) -> Shown {
+        *lock(&self.shown)
     }
 }
 
@@ -71,7 +81,11 @@ pub fn compute<T: Send + 'static>(
     let (flag, gauge) = (stop.clone(), meter.clone());
     std::thread::spawn(move || {
         // Nobody listens any more where the computation was stopped.
-        let _ = sender.send(guarded(&flag, || work(&gauge)));
+        let watched = || gauge.progress.watched(|| work(&gauge));
+        let _ = sender.send(guarded(&flag, || match watched() {
+            Ok(found) => found,
+            Err(error) => Err(Failure::Failed(error.to_string())),
+        }));
     });
     let mut told = (0, 0, "");
     let mut tell = |state| match &progress {
