@@ -30,7 +30,7 @@ TurnKind: TypeAlias = Literal["fold", "bifurcation"]
 
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
-Method: TypeAlias = Literal["reduced", "dense", "critical_speeds", "critical_speeds_single"]
+Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

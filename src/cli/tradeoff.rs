@@ -89,7 +89,6 @@ fn name(method: Method) -> &'static str {
     match method {
         Method::Reduced => "chart, projected",
         Method::Dense => "chart, full model",
-        Method::CriticalSpeeds => "critical speeds, f64",
-        Method::CriticalSpeedsSingle => "critical speeds, f32",
+        Method::CriticalSpeeds => "critical speeds",
     }
 }

@@ -6,7 +6,7 @@ use super::heading;
 use super::key::Key;
 use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
-    PAPER, QUIET, STANDING, STRONG_CURVE, tint,
+    PAPER, QUIET, STRONG_CURVE, tint,
 };
 use crate::stability::{Method, Setting};
 
@@ -22,12 +22,7 @@ const PANEL: Frame = Frame {
 /// Smaller errors and times are rounding.
 const LEAST: f64 = 1e-12;
 
-const METHODS: [Method; 4] = [
-    Method::Reduced,
-    Method::Dense,
-    Method::CriticalSpeeds,
-    Method::CriticalSpeedsSingle,
-];
+const METHODS: [Method; 3] = [Method::Reduced, Method::Dense, Method::CriticalSpeeds];
 
 pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
@@ -69,8 +64,7 @@ fn look(method: Method) -> (Colour, &'static str) {
     match method {
         Method::Reduced => (FORWARD, "chart, projected"),
         Method::Dense => (BACKWARD, "chart, full model"),
-        Method::CriticalSpeeds => (DIVERGENCE, "critical speeds, f64"),
-        Method::CriticalSpeedsSingle => (STANDING, "critical speeds, f32"),
+        Method::CriticalSpeeds => (DIVERGENCE, "critical speeds"),
     }
 }
 
@@ -202,7 +196,6 @@ mod tests {
                 [
                     setting(Method::Reduced, k, 0.1 * time),
                     setting(Method::CriticalSpeeds, k, 1e-3 * time),
-                    setting(Method::CriticalSpeedsSingle, k, 9e-4 * time),
                 ]
                 .into_iter()
                 .chain(dense)
