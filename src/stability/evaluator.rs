@@ -66,6 +66,8 @@ pub struct SignatureEvaluator<'a> {
     low: Option<SearchModel<'a>>,
     tally: Tally,
     seen: Seen,
+    /// Whether its solves take the place of a reduced model that lacks something, and are few.
+    is_second_search: bool,
 }
 
 impl<'a> SignatureEvaluator<'a> {
@@ -76,7 +78,10 @@ impl<'a> SignatureEvaluator<'a> {
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
         match SearchModel::new(model) {
             Some(low) => Ok(Self::of(model, Some(low))),
-            None => Self::on_full_model(model, speeds),
+            None => Ok(Self::of(
+                model,
+                SearchModel::of_full_model(model, &anchors(speeds))?,
+            )),
         }
     }
 
@@ -91,7 +96,10 @@ impl<'a> SignatureEvaluator<'a> {
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn on_full_model(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
         let low = SearchModel::of_full_model(model, &anchors(speeds))?;
-        Ok(Self::of(model, low))
+        Ok(SignatureEvaluator {
+            is_second_search: true,
+            ..Self::of(model, low)
+        })
     }
 
     fn of(model: &'a SpectralModel, low: Option<SearchModel<'a>>) -> Self {
@@ -100,6 +108,7 @@ impl<'a> SignatureEvaluator<'a> {
             low,
             tally: Tally::default(),
             seen: Seen::default(),
+            is_second_search: false,
         }
     }
 
@@ -153,6 +162,9 @@ impl<'a> SignatureEvaluator<'a> {
             if self.match_index(speed_rad_per_s, &modes) {
                 return Ok(modes);
             }
+        }
+        if self.is_second_search {
+            self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
         }
         let reduced = self.projected_modes(speed_rad_per_s)?;
         if self.match_index(speed_rad_per_s, &reduced) {
