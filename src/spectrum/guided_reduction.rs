@@ -1,4 +1,4 @@
-//! Few vectors that span the low modes over a whole range of speeds.
+//! The intervals of a range of speeds, each with few vectors that span its low modes.
 
 mod error;
 

@@ -23,8 +23,8 @@ const MAX_STEPS: usize = 40;
 /// Share of the way to the coalescence of two real λ that one step goes: beyond it the pair has
 /// no complex states to be followed by.
 const SHORT_OF_REAL: f64 = 0.999;
-/// Share of σ² and, of the speed, the shift of an edge by which the coarser models between the
-/// anchors of the search may be off.
+/// Share of σ² and, of the speed, the shift of an edge by which the states that the search goes by
+/// may be off.
 const LIKENESS: f64 = 0.05;
 pub const VICINITY: f64 = 3e-5;
 
