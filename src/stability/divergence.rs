@@ -4,6 +4,7 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::found::Found;
 use super::maximum::{Sample, maximise};
+use super::pair_continuation::VICINITY;
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
@@ -168,9 +169,11 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
-    // Of several coalescences between two speeds the one that is next to what diverges.
-    let coalescence = |from: f64, to: f64| {
-        let between = |speed: &&f64| (from.min(to)..=from.max(to)).contains(*speed);
+    // Of several coalescences the one that is next to what diverges. That of a stable speed may lie just beyond it, by as
+    // much as the states are off from which the speed is known.
+    let coalescence = |to: f64| {
+        let beyond = stable + (stable - to).signum() * VICINITY * stable;
+        let between = |speed: &&f64| (beyond.min(to)..=beyond.max(to)).contains(*speed);
         let away = |x: &&f64| (*x - to).abs();
         let nearest = coalescences.iter().filter(between);
         nearest.min_by(|x, y| away(x).total_cmp(&away(y))).copied()
@@ -185,7 +188,7 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
         Some(speed) => (speed, (speed, Edge::Critical)),
         None => (unstable, (unstable, Edge::Coalescence)),
     };
-    coalescence(stable, to).map_or(otherwise, |speed| (speed, Edge::Coalescence))
+    coalescence(to).map_or(otherwise, |speed| (speed, Edge::Coalescence))
 }
 
 #[cfg(test)]
@@ -207,5 +210,10 @@ mod tests {
             (4.0, Edge::Coalescence)
         );
         assert_eq!(edge(&[3.0], &[4.0], None, 2.0), (2.0, Edge::Range));
+        // Of a speed that the states show on the wrong side of the coalescence.
+        assert_eq!(
+            edge(&[], &[5.0001], Some(5.0), 2.0),
+            (5.0001, Edge::Coalescence)
+        );
     }
 }
