@@ -81,11 +81,7 @@ pub fn compute<T: Send + 'static>(
     let (flag, gauge) = (stop.clone(), meter.clone());
     std::thread::spawn(move || {
         // Nobody listens any more where the computation was stopped.
-        let watched = || gauge.progress.watched(|| work(&gauge));
-        let _ = sender.send(guarded(&flag, || match watched() {
-            Ok(found) => found,
-            Err(error) => Err(Failure::Failed(error.to_string())),
-        }));
+        let _ = sender.send(guarded(&flag, &gauge.progress, || work(&gauge)));
     });
     let mut told = (0, 0, "");
     let mut tell = |state| match &progress {
@@ -129,9 +125,10 @@ fn log(py: Python<'_>, text: &str) -> PyResult<()> {
 /// The work's result, a panic being a fault.
 fn guarded<T: Send>(
     stop: &Cancellation,
+    progress: &Progress,
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> Result<T, Failure> {
-    let watched = catch_unwind(AssertUnwindSafe(|| stop.watched(work)));
+    let watched = catch_unwind(AssertUnwindSafe(|| stop.watched_with(progress, work)));
     match watched {
         Ok(Ok(found)) => found,
         Ok(Err(error)) => Err(Failure::Failed(error.to_string())),

@@ -1,47 +1,30 @@
 //! The intervals of a range of speeds, each with few vectors that span its low modes.
 
 mod error;
+mod settled;
 
-use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use faer::{Col, Mat, Scale, c64};
+use faer::c64;
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
-use super::hamiltonian::HamiltonianReduction;
 use super::inertia::UndampedFullModel;
-use super::interval::{Interval, KnownModes, SPAN_MARGIN, StandingWave, states_at, states_between};
+use super::interval::{Interval, StandingWave};
 use super::mode::{ModeKind, classify, is_seen};
 use super::model::{CHART_MODES, chart_height};
-use super::projection::Projection;
-use super::vectors::{Eigenpair, orthonormal, split};
+use super::vectors::Eigenpair;
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
 
-/// Vectors closer than this to the span of the others are left out. Eigenvalues of
-/// a projected symmetric problem are off by the square of it.
-const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERANCE", 1e-6);
-/// Largest estimated error of a projected frequency, relative to the chart's height.
-const FREQUENCY_TOLERANCE: Tuned =
-    Tuned::new("spectrum/guided_reduction::FREQUENCY_TOLERANCE", 1e-8);
 /// A reflected wave may meet modes up to this multiple of the highest one's frequency.
 const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
-/// Largest estimated error of a frequency that is read off the states of an interval's ends, relative to the highest of
-/// these: what is drawn needs no more, and edges and peaks are followed from there on the projection.
-const STATES_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::STATES_TOLERANCE", 1e-5);
-/// How often the stretch between a snapshot and the middle to the next is halved for the sake of these states.
-const MOST_HALVINGS: usize = 3;
 /// Relative distance of the first speed of the search for bands from the lowest critical speed: more
 /// than the search itself keeps from it.
 const BELOW_CRITICAL: f64 = 1e-3;
-/// Length given to vectors of which no part may be left out.
-const KEPT_WHOLE: f64 = 1e6;
-/// Speeds at which modes of the full model are computed, at most.
-const MAX_SNAPSHOTS: usize = 33;
 
 /// The reduced models of a guided blade.
 pub struct Reduction {
@@ -120,14 +103,6 @@ pub fn of_guided(
 struct Snapshot {
     speed: f64,
     pairs: Vec<Eigenpair>,
-}
-
-/// What is tried between two snapshots.
-struct Tried {
-    intervals: Vec<Interval>,
-    middle: f64,
-    is_kept: bool,
-    unsettled_rad_per_s: f64,
 }
 
 struct Builder<'a> {
@@ -284,146 +259,6 @@ impl<'a> Builder<'a> {
             true => (lowest * (1.0 - BELOW_CRITICAL)).max(from),
             false => from,
         }
-    }
-
-    /// The modes at two snapshots; of the others those that the search follows; and the standing waves of the
-    /// critical speeds between the two: with these the projected K(Ω) is singular at the same speeds as
-    /// the whole one, to the last digit.
-    fn basis(&self, [from, to]: [&Snapshot; 2]) -> Mat<f64> {
-        let system = self.guided.system;
-        let between = from.speed..=to.speed;
-        let inside = |c: &&NamedCriticalSpeed| between.contains(&c.speed_rad_per_s);
-        let standing = self.guided.critical.iter().filter(inside);
-        let kept = standing.map(|c| &c.shape).chain(&system.free_rigid);
-        let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
-        let followed = match system.is_conservative() {
-            true => self.reflected,
-            false => 0.0,
-        };
-        for snapshot in &self.snapshots {
-            let height = match between.contains(&snapshot.speed) {
-                true => self.window,
-                false => followed,
-            };
-            for (lambda, q) in &snapshot.pairs {
-                if lambda.norm() <= SPAN_MARGIN.get() * height {
-                    let (re, im) = split(q);
-                    vectors.extend([re, im]);
-                }
-            }
-        }
-        orthonormal(system.order(), &vectors, SPAN_TOLERANCE.get())
-    }
-
-    /// The reduced models between neighbouring snapshots, more of which are added until each is right in its middle.
-    fn intervals(&mut self) -> Result<Vec<Interval>, SpectrumError> {
-        let mut finished: Vec<(f64, Vec<Interval>)> = Vec::new();
-        loop {
-            self.counters.cancellation.check()?;
-            let is_open = |pair: &&[Snapshot]| finished.iter().all(|(to, _)| *to != pair[1].speed);
-            let open: Vec<&[Snapshot]> = self.snapshots.windows(2).filter(is_open).collect();
-            let tried = open.into_par_iter().map(|pair| {
-                let tried = self.tried([&pair[0], &pair[1]])?;
-                Ok((pair[1].speed, tried))
-            });
-            let tried: Vec<(f64, Tried)> = tried.collect::<Result<_, SpectrumError>>()?;
-            let mut coarse = Vec::new();
-            for (to, tried) in tried {
-                if !tried.is_kept {
-                    coarse.push(tried.middle);
-                    continue;
-                }
-                finished.push((to, tried.intervals));
-                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(tried.unsettled_rad_per_s);
-            }
-            if coarse.is_empty() {
-                finished.sort_by(|x, y| x.0.total_cmp(&y.0));
-                return Ok(finished
-                    .into_iter()
-                    .flat_map(|(_, intervals)| intervals)
-                    .collect());
-            }
-            self.add_snapshots(&coarse)?;
-        }
-    }
-
-    fn tried(&self, ends: [&Snapshot; 2]) -> Result<Tried, SpectrumError> {
-        let Guided {
-            system, structure, ..
-        } = self.guided;
-        let projection = Arc::new(Projection::new(system, structure, self.basis(ends)));
-        let [from, to] = ends.map(|end| end.speed);
-        let middle = KnownModes::of(&projection, 0.5 * (from + to), self.counters)?;
-        let speed = middle.speed_rad_per_s;
-        let error = self.frequency_error(&projection, speed, self.window, &middle.pairs);
-        let unsettled_rad_per_s = match error > FREQUENCY_TOLERANCE.get() * self.window {
-            true => error,
-            false => 0.0,
-        };
-        let is_kept = unsettled_rad_per_s == 0.0 || self.snapshots.len() >= MAX_SNAPSHOTS;
-        let mut intervals = Vec::new();
-        if is_kept {
-            let inward = |end: &Snapshot| {
-                let pairs = end.pairs.iter().map(|pair| projection.inward(pair));
-                KnownModes {
-                    speed_rad_per_s: end.speed,
-                    pairs: pairs.collect(),
-                }
-            };
-            let [first, last] = ends.map(inward);
-            for ends in [[&first, &middle], [&middle, &last]] {
-                intervals.extend(self.between(&projection, ends, MOST_HALVINGS)?);
-            }
-        }
-        Ok(Tried {
-            intervals,
-            middle: middle.speed_rad_per_s,
-            is_kept,
-            unsettled_rad_per_s,
-        })
-    }
-
-    /// The intervals between two speeds, each so short that the states of its ends are good enough to draw from.
-    fn between(
-        &self,
-        projection: &Arc<Projection>,
-        ends: [&KnownModes; 2],
-        halvings: usize,
-    ) -> Result<Vec<Interval>, SpectrumError> {
-        let [from, to] = ends.map(|end| end.speed_rad_per_s);
-        let middle = 0.5 * (from + to);
-        let up_to = |height: f64| states_between(projection, ends, &self.standing, height);
-        let is_good = |states: &HamiltonianReduction, height: f64| {
-            // Where the eigenproblem of the states fails, that of the projection takes its place.
-            states_at(states, middle, self.counters).is_ok_and(|pairs| {
-                let error = self.frequency_error(projection, middle, height, &pairs);
-                error <= STATES_TOLERANCE.get() * height
-            })
-        };
-        let mut drawn = up_to(self.window);
-        let mut searched = match self.reflected > 0.0 {
-            true => up_to(self.reflected),
-            false => None,
-        };
-        let are_good = [(&drawn, self.window), (&searched, self.reflected)]
-            .map(|(states, height)| states.as_ref().is_none_or(|states| is_good(states, height)));
-        if are_good != [true; 2] && halvings > 0 {
-            let middle = KnownModes::of(projection, middle, self.counters)?;
-            let mut halves = self.between(projection, [ends[0], &middle], halvings - 1)?;
-            halves.extend(self.between(projection, [&middle, ends[1]], halvings - 1)?);
-            return Ok(halves);
-        }
-        for (states, is_good) in [&mut drawn, &mut searched].into_iter().zip(are_good) {
-            if !is_good {
-                *states = None;
-            }
-        }
-        Ok(vec![Interval {
-            to_rad_per_s: to,
-            projection: projection.clone(),
-            drawn,
-            searched,
-        }])
     }
 }
 

@@ -235,12 +235,8 @@ impl<'a> SearchModel<'a> {
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let interval = self.at(speed_rad_per_s);
         let pairs = self.pairs(interval, speed_rad_per_s)?;
-        Ok(classify(
-            &interval.projection.reduced,
-            speed_rad_per_s,
-            0,
-            pairs,
-        ))
+        let system = &interval.projection.reduced;
+        Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
     /// The same without the error of few states.
@@ -250,12 +246,8 @@ impl<'a> SearchModel<'a> {
     pub fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         let interval = self.at(speed_rad_per_s);
         let pairs = interval.projected_pairs(speed_rad_per_s, self.counters)?;
-        Ok(classify(
-            &interval.projection.reduced,
-            speed_rad_per_s,
-            0,
-            pairs,
-        ))
+        let system = &interval.projection.reduced;
+        Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
     /// The same in the coordinates of the whole component, which all speeds share.
@@ -279,17 +271,16 @@ impl<'a> SearchModel<'a> {
 
     /// Two such modes of a speed, refined on the projection.
     pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
-        let projection = &self.at(speed_rad_per_s).projection;
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let pairs = modes
             .each_ref()
             .map(|mode| (mode.lambda, mode.coordinates.clone()));
-        ModePair::new(
-            projection,
-            speed_rad_per_s,
-            self.height_rad_per_s,
-            pairs.each_ref(),
-        )
+        self.refined(speed_rad_per_s, pairs.each_ref())
+    }
+
+    fn refined(&self, speed_rad_per_s: f64, pairs: [&Eigenpair; 2]) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let projection = &self.at(speed_rad_per_s).projection;
+        ModePair::new(projection, speed_rad_per_s, self.height_rad_per_s, pairs)
     }
 
     /// The two modes of a speed next to two eigenvalues, refined on the projection.
@@ -316,13 +307,7 @@ impl<'a> SearchModel<'a> {
         let [first, second] = chosen.as_slice() else {
             return Ok(None);
         };
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        Ok(ModePair::new(
-            &interval.projection,
-            speed_rad_per_s,
-            self.height_rad_per_s,
-            [first, second],
-        ))
+        Ok(self.refined(speed_rad_per_s, [first, second]))
     }
 
     /// A pair at another speed, by a factorization in place of an eigenproblem.

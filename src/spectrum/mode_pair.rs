@@ -9,7 +9,7 @@ use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::projection::Projection;
-use super::vectors::Eigenpair;
+use super::vectors::{Eigenpair, real_times};
 
 /// The invariant subspace of two modes at one speed, and what it says next to that speed.
 #[derive(Debug)]
@@ -62,7 +62,10 @@ impl ModePair {
             true => self.subspace.clone(),
             false => {
                 let turned = projection.basis.transpose() * &self.projection.basis;
-                let in_new = |part: &Mat<c64>| real_times_columns(&turned, part);
+                let in_new = |part: &Mat<c64>| {
+                    let columns = [0, 1].map(|k| real_times(&turned, &part.col(k).to_owned()));
+                    Mat::from_fn(turned.nrows(), 2, |i, k| columns[k][i])
+                };
                 Subspace {
                     q: in_new(&self.subspace.q),
                     v: in_new(&self.subspace.v),
@@ -160,15 +163,6 @@ impl ModePair {
         let distance = half(growth, c64::new(1.0, 0.0), c64::new(0.0, 1.0));
         [mean + distance, mean - distance]
     }
-}
-
-/// A real matrix times complex columns.
-fn real_times_columns(matrix: &Mat<f64>, columns: &Mat<c64>) -> Mat<c64> {
-    Mat::from_fn(matrix.nrows(), columns.ncols(), |i, k| {
-        (0..matrix.ncols())
-            .map(|j| columns[(j, k)] * matrix[(i, j)])
-            .sum()
-    })
 }
 
 /// Makes two complex states orthonormal in (q, v/scale).

@@ -59,8 +59,7 @@ impl Progress {
         &self,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, rayon::ThreadPoolBuildError> {
-        let pool = Cancellation::current().pool_with(self, rayon::current_num_threads())?;
-        Ok(pool.install(work))
+        Cancellation::current().watched_with(self, work)
     }
 
     /// That of the computation that this thread works for.

@@ -52,7 +52,20 @@ impl Cancellation {
         &self,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, rayon::ThreadPoolBuildError> {
-        Ok(self.pool(rayon::current_num_threads())?.install(work))
+        self.watched_with(&Progress::current(), work)
+    }
+
+    /// The same with another progress callback than that of this thread.
+    ///
+    /// # Errors
+    /// When the system gives no more threads.
+    pub fn watched_with<T: Send>(
+        &self,
+        progress: &Progress,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, rayon::ThreadPoolBuildError> {
+        let pool = self.pool_with(progress, rayon::current_num_threads())?;
+        Ok(pool.install(work))
     }
 
     /// Threads of which this is the current flag, with the progress callback of this thread.
@@ -67,7 +80,7 @@ impl Cancellation {
     }
 
     /// The same with another progress callback.
-    pub(super) fn pool_with(
+    fn pool_with(
         &self,
         progress: &Progress,
         threads: usize,

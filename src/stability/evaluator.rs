@@ -76,13 +76,11 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        match SearchModel::new(model) {
-            Some(low) => Ok(Self::of(model, Some(low))),
-            None => Ok(Self::of(
-                model,
-                SearchModel::of_full_model(model, &anchors(speeds))?,
-            )),
-        }
+        let low = match SearchModel::new(model) {
+            Some(low) => Some(low),
+            None => SearchModel::of_full_model(model, &anchors(speeds))?,
+        };
+        Ok(Self::of(model, low))
     }
 
     /// Whether the full model is small enough to be solved at every speed of a search.

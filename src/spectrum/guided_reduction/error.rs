@@ -54,10 +54,11 @@ fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Guided, KnownModes};
+    use super::super::Guided;
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::interval::KnownModes;
     use crate::spectrum::{WorkCounters, companion_eigenpairs, frequency_scale};
     use crate::system::GyroscopicSystem;
 
