@@ -155,17 +155,26 @@ fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result
 }
 
 /// Ends the program at Ctrl-C between two rows of the log, and says how it goes on.
+///
+/// The signal is waited for before the first saw is computed: until then it would end the program
+/// without a word.
 #[cfg(feature = "explore")]
 fn tell_when_interrupted(log: Arc<Mutex<Log>>, of: usize) {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_io()
         .build();
-    // Where the signal cannot be waited for, it ends the program without a word.
     let Ok(runtime) = runtime else {
         return;
     };
+    let interrupts = {
+        let _context = runtime.enter();
+        interrupts()
+    };
+    let Ok(mut interrupts) = interrupts else {
+        return;
+    };
     std::thread::spawn(move || {
-        if runtime.block_on(tokio::signal::ctrl_c()).is_ok() {
+        if runtime.block_on(interrupts.recv()).is_some() {
             let log = log.lock().unwrap_or_else(PoisonError::into_inner);
             let done = log.finished().done();
             eprintln!(
@@ -174,6 +183,16 @@ fn tell_when_interrupted(log: Arc<Mutex<Log>>, of: usize) {
             std::process::exit(INTERRUPTED);
         }
     });
+}
+
+#[cfg(all(feature = "explore", unix))]
+fn interrupts() -> std::io::Result<tokio::signal::unix::Signal> {
+    tokio::signal::unix::signal(tokio::signal::unix::SignalKind::interrupt())
+}
+
+#[cfg(all(feature = "explore", windows))]
+fn interrupts() -> std::io::Result<tokio::signal::windows::CtrlC> {
+    tokio::signal::windows::ctrl_c()
 }
 
 /// Exit code of a program that Ctrl-C has ended, as shells give it: 128 and the number of the signal.
