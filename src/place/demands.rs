@@ -1,46 +1,47 @@
-//! What is wanted of a place, and how hard to look for it.
+//! The goal of a placement, its limit, and the extent of the search.
 
 use crate::plate::Resolution;
 use crate::scene::{Parameter, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
 use crate::text::shown;
 
-/// What is to be made large.
+/// The quantity to maximize.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
     /// Onset of the first flutter band that reaches the scene's threshold.
     FlutterSpeed,
-    /// Distance from the end of the last band below a speed to the onset of the first above it.
+    /// Width of the window without instability around a speed, from the end of the last band below it to the
+    /// onset of the first above it.
     StableWindow {
-        /// The speed.
+        /// The speed inside the window.
         around_rad_per_s: f64,
     },
 }
 
 impl Goal {
-    /// The widest stable window around the operating speed of a scene.
+    /// The goal of the widest window around the operating speed of a scene.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene has no operating speed.
+    /// [`RefusedValue`] if the scene has no operating speed.
     pub fn window_of(scene: &Scene) -> Result<Self, RefusedValue> {
         let around_rad_per_s = rad_per_s(scene.needed_operating_rpm(None)?);
         Ok(Goal::StableWindow { around_rad_per_s })
     }
 }
 
-/// The goal of a placement, and the limit that it has to keep.
+/// The goal of a placement, and its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demands {
-    /// What is to be made large.
+    /// The quantity to maximize.
     pub goal: Goal,
     /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
 }
 
 impl Demands {
-    /// A goal under a limit in rpm.
+    /// A goal, with a limit in rpm.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the limit is no speed.
+    /// [`RefusedValue`] if the limit is not a valid speed.
     pub fn new(goal: Goal, min_critical_rpm: Option<f64>) -> Result<Self, RefusedValue> {
         let limit = min_critical_rpm.map(|rpm| speed_rad_per_s("min_critical_rpm", rpm));
         Ok(Demands {
@@ -59,33 +60,34 @@ impl Default for Demands {
     }
 }
 
-/// How many saws are tried.
+/// Extent of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Saws spread over the bounds at first.
+    /// Number of initial samples.
     pub samples: usize,
-    /// How many of the best of them, if apart, are refined.
+    /// Number of samples, at a distance from each other, that are refined.
     pub places: usize,
-    /// Steps that each refinement may take: a saw, and as many of those around it as it takes to say what it is worth.
+    /// Number of steps of each refinement. A step computes a saw and those of its neighbours that are needed
+    /// to find its worst case.
     pub refine: u64,
-    /// Points of the map along each axis; 0 for none.
+    /// Number of points of the map along each axis; 0 for no map.
     pub map: usize,
-    /// A basis instead of the one that the scene's tolerance asks for.
+    /// A basis to use instead of the one chosen by the tolerance of the scene.
     pub resolution: Option<Resolution>,
-    /// How far the numbers of a saw may be off.
+    /// Tolerances of production.
     pub tolerances: Tolerances,
 }
 
-/// Tolerances of production: how far the numbers of a saw may be off, to either side.
+/// Tolerances of production, to either side of the nominal value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
-    /// Of a radius.
+    /// Tolerance of a radius.
     pub radius_m: f64,
-    /// Of an angle.
+    /// Tolerance of an angle.
     pub angle_deg: f64,
-    /// Of the stiffness or damping of a guide, as a share of it.
+    /// Relative tolerance of the stiffness or damping of a guide.
     pub guide_share: f64,
-    /// Of other numbers, as a share of each.
+    /// Relative tolerance of other numbers.
     pub other_share: f64,
 }
 
@@ -96,7 +98,7 @@ impl Default for Tolerances {
 }
 
 impl Tolerances {
-    /// Where nothing else is known.
+    /// Usual tolerances.
     pub const USUAL: Self = Tolerances {
         radius_m: 0.002,
         angle_deg: 1.0,
@@ -104,10 +106,10 @@ impl Tolerances {
         other_share: 0.01,
     };
 
-    /// The same, if production can have them.
+    /// Checks that production can achieve these tolerances.
     ///
     /// # Errors
-    /// [`RefusedValue`] that names the tolerance that no production has.
+    /// [`RefusedValue`] that names the tolerance.
     pub fn checked(self) -> Result<Self, RefusedValue> {
         let all = [
             ("radius_tolerance_m", self.radius_m, 0.1, "0.002 is usual"),
@@ -134,7 +136,7 @@ impl Tolerances {
         Ok(self)
     }
 
-    /// That of a number of this value, in its unit.
+    /// The tolerance of a number with this value, in its unit.
     pub(super) fn of(&self, parameter: &Parameter, value: f64) -> f64 {
         match parameter.path().rsplit('.').next().unwrap_or_default() {
             "radius_m" => self.radius_m,
@@ -158,16 +160,16 @@ impl Default for Options {
     }
 }
 
-/// A search of this many saws takes a day.
+/// A search with more samples takes longer than a day.
 const MAX_SAMPLES: usize = 100_000;
-/// A map of this many points along each axis is finer than it is drawn.
+/// A finer map exceeds the resolution of its picture.
 const MAX_MAP: usize = 400;
 
 impl Options {
-    /// The same, if a search can have them.
+    /// Checks that the options are within their ranges.
     ///
     /// # Errors
-    /// [`RefusedValue`] that names the option that no search can have.
+    /// [`RefusedValue`] that names the option.
     pub fn checked(self) -> Result<Self, RefusedValue> {
         if !(1..=MAX_SAMPLES).contains(&self.samples) {
             let allowed = format!("from 1 to {MAX_SAMPLES}");

@@ -1,4 +1,4 @@
-//! The map of a search while its saws are computed, for whoever watches.
+//! The map of a search while its saws are computed, for a progress display.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,14 +7,14 @@ use super::map::Map;
 use super::outcome::Outcome;
 use super::search::{Search, Seen};
 
-/// The goal over two freed numbers as far as it is known.
+/// The part of a map that is known so far.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GrowingMap {
     /// The map; a cell that is not computed yet has no outcome.
     pub map: Map,
-    /// Which cells are computed, one row for each value of y.
+    /// Whether a cell is computed; one row for each value of y.
     pub is_computed: Vec<Vec<bool>>,
-    /// The samples of the bounds, from which the search begins.
+    /// Initial samples of the search.
     pub samples: Vec<Sample>,
 }
 
@@ -23,23 +23,23 @@ pub(crate) struct GrowingMap {
 pub(crate) struct Sample {
     /// Its numbers along the axes of the map.
     pub at: [f64; 2],
-    /// What it is worth; `None` where there is no saw.
+    /// Result; `None` if there is no such saw.
     pub outcome: Option<Outcome>,
 }
 
-/// Called with the map whenever it has grown.
+/// Called whenever the map has changed.
 pub(crate) type Watch<'a> = &'a (dyn Fn(&GrowingMap) + Sync);
 
-/// Takes what the threads of a search find into one map.
+/// Collects the results of all threads of a search into one map.
 pub(super) struct Grower<'a> {
     growing: Mutex<GrowingMap>,
     watch: Watch<'a>,
 }
 
 impl<'a> Grower<'a> {
-    /// With nothing known yet; `points` along each axis.
+    /// An empty map with `points` points along each axis.
     pub fn new(search: &Search<'_>, points: usize, watch: Watch<'a>) -> Self {
-        // A search without a map has its samples to show, between the bounds.
+        // A search without a map still shows its samples.
         let map = Map::unknown(search, points.max(2));
         let growing = GrowingMap {
             is_computed: unknown(&map),
@@ -58,7 +58,7 @@ impl<'a> Grower<'a> {
         (self.watch)(&growing);
     }
 
-    /// A sample is known.
+    /// Adds a sample.
     pub fn sampled(&self, search: &Search<'_>, seen: &Seen<'_>) {
         self.grown(|growing| {
             let sample = Sample {
@@ -69,7 +69,7 @@ impl<'a> Grower<'a> {
         });
     }
 
-    /// A map with all its saws.
+    /// Computes a map.
     pub fn drawn(&self, mut map: Map, search: &Search<'_>, progress: Progress<'_>) -> Map {
         self.begun(&map);
         let (columns, total) = (map.x.len(), map.x.len() * map.y.len());
@@ -83,7 +83,7 @@ impl<'a> Grower<'a> {
         map
     }
 
-    /// A map is begun, through another saw than the last one: every cell is unknown again.
+    /// Starts a map, with every cell unknown.
     fn begun(&self, map: &Map) {
         self.grown(|growing| {
             growing.is_computed = unknown(map);
@@ -91,7 +91,7 @@ impl<'a> Grower<'a> {
         });
     }
 
-    /// A cell is known.
+    /// Adds a cell.
     fn filled(&self, seen: &Seen<'_>) {
         self.grown(|growing| {
             let columns = growing.map.x.len();
@@ -113,7 +113,7 @@ mod tests {
     use crate::plate::Resolution;
     use crate::scene::{Freed, Scene};
 
-    /// Goal: what is shown of a map that is being computed is the map that is answered in the end.
+    /// The goal of the last map shown is that of the final map.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
     fn a_map_that_is_watched_grows_cell_by_cell_into_the_map_of_the_result() {
@@ -145,7 +145,7 @@ mod tests {
         let samples = shown.iter().map(|(_, samples, _)| *samples);
         assert!(samples.take(8).eq(1..=8), "the samples come one by one");
         let cells: Vec<usize> = shown[8..].iter().map(|(cells, ..)| *cells).collect();
-        // Anew where the map itself has led to a better saw.
+        // A new map starts if a cell of the map leads to a better saw.
         assert!(
             cells.chunks(10).all(|map| map.iter().copied().eq(0..=9)),
             "{cells:?}"

@@ -1,31 +1,31 @@
-//! The goal over two of the freed numbers.
+//! Map of the goal over two of the freed numbers.
 
 use crate::campbell::even_speeds;
 
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
 
-/// The goal over two freed numbers, the others as they were best when it was drawn. On the
-/// coarse basis of the search.
+/// The goal over two freed numbers; the others have their best values at the time of drawing. The saws are
+/// computed on the coarse basis of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Map {
     /// JSON path of the number along the first axis.
     pub x_path: String,
-    /// Its values, of even shares.
+    /// Values along the first axis, with equally spaced shares.
     pub x: Vec<f64>,
-    /// JSON path of the number along the second axis; `None` where only one is free.
+    /// JSON path of the number along the second axis; `None` if only one number is free.
     pub y_path: Option<String>,
-    /// Its values.
+    /// Values along the second axis.
     pub y: Vec<f64>,
-    /// What each saw is worth, one row for each value of y; `None` where there is no saw.
+    /// Results, one row for each value of y; `None` if there is no such saw.
     pub outcomes: Vec<Vec<Option<Outcome>>>,
     shares: [Vec<f64>; 2],
     axes: (usize, Option<usize>),
-    /// Shares of all numbers, of which the others stay where they are.
+    /// Shares of all numbers; those of the axes are replaced.
     at: Vec<f64>,
 }
 
-/// The numbers to draw a map over: radius and angle of a pad if both are free, then others.
+/// The numbers of the axes: radius and angle of a pad if both are free, otherwise others.
 fn axes(paths: &[&str]) -> (usize, Option<usize>) {
     let rank = |path: &str| {
         let name = path.rsplit('.').next().unwrap_or_default();
@@ -39,7 +39,7 @@ fn axes(paths: &[&str]) -> (usize, Option<usize>) {
     (order[0], next(paths, &order))
 }
 
-/// The second axis is of the same pad as the first where it can be.
+/// The second axis belongs to the same pad as the first if possible.
 fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
     let pad = |i: usize| paths[i].split('.').next();
     let (first, rest) = order.split_first()?;
@@ -48,7 +48,7 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
 }
 
 impl Map {
-    /// The axes, and no saw yet.
+    /// A map without results.
     pub(super) fn unknown(search: &Search<'_>, points: usize) -> Self {
         let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
         let (x, y) = axes(&paths);
@@ -72,7 +72,7 @@ impl Map {
         }
     }
 
-    /// The same through a saw, whose shares the other numbers have.
+    /// The map through another saw, whose shares the numbers off the axes take.
     pub(super) fn through(self, at: &[f64]) -> Self {
         Map {
             at: at.to_vec(),
@@ -80,7 +80,7 @@ impl Map {
         }
     }
 
-    /// Of a saw of the map, row by row.
+    /// Shares of the cell `index`, counted row by row.
     pub(super) fn shares_of(&self, index: usize) -> Vec<f64> {
         let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
         let mut shares = self.at.clone();
@@ -91,13 +91,13 @@ impl Map {
         shares
     }
 
-    /// Where shares lie on the axes.
+    /// Values on the axes that belong to these shares.
     pub(super) fn place_of(&self, search: &Search<'_>, shares: &[f64]) -> [f64; 2] {
         let value = |k: usize| search.freed[k].value(shares[k]);
         [value(self.axes.0), self.axes.1.map_or(0.0, value)]
     }
 
-    /// The saws of the map, best first.
+    /// The computed saws of the map, best first.
     pub(super) fn cells(&self) -> Vec<Tried> {
         let cells = self.outcomes.iter().flatten().enumerate();
         let cells = cells.map(|(k, outcome)| Tried::new(self.shares_of(k), outcome.as_ref()));

@@ -1,13 +1,14 @@
-//! Where to put the guides: pad radius, angle and stiffness within bounds for the highest
-//! flutter speed, or the widest stable window around the operating speed, under a limit on the
-//! lowest critical speed.
+//! Placement of guides: radius, angle and stiffness of a pad within bounds, for the highest flutter speed or
+//! the widest window without instability around the operating speed, under a lower limit of the first
+//! critical speed.
 //!
-//! The flutter speed is not continuous in the numbers: it jumps where the peak of a band passes the
-//! threshold. A saw right beside such a jump is worth little, for production meets no number exactly. So
-//! a saw is worth what the worst of its neighbours is worth, those whose numbers are off by tolerances of production,
-//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other numbers. The saw that is best without tolerances is told beside
-//! the answer. Bands are searched without the forces of a cut. One angle of guides that may all turn is held, since nothing else
-//! stands in space: a single pad may be anywhere around the blade.
+//! The flutter speed is a discontinuous function: it jumps where the peak of a band passes the threshold. A
+//! saw next to such a jump is of little use, because production deviates from every number. A saw is
+//! therefore rated by the worst of its neighbours, whose numbers deviate by the tolerances of production,
+//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other
+//! numbers. The saw that is best without tolerances is reported in addition. Bands are searched without the
+//! forces of a cut. If all guides may turn, one angle is held fixed, because a common rotation changes
+//! nothing.
 //!
 //! ```
 //! use sawflutter::place::{Demands, Options, Placement};
@@ -55,10 +56,10 @@ use outcome::{Question, REFUSED};
 use search::{Search, Tally, Tried};
 use settle::{Choice, Weighed, basis_of_all, settle};
 
-/// Why no place could be looked for.
+/// Reason for which a placement failed.
 #[derive(Debug, thiserror::Error)]
 pub enum PlaceError {
-    /// Nothing to move.
+    /// No free number has an effect.
     #[error(
         "no number is free that moves a critical speed or a band; free another one, like guides[0].radius_m"
     )]
@@ -66,7 +67,7 @@ pub enum PlaceError {
     /// The scene itself, or every saw tried, cannot be analysed.
     #[error("none of the {tried} saws tried can be analysed; narrow the bounds")]
     NoSaw {
-        /// How many.
+        /// Number of saws tried.
         tried: usize,
     },
     /// A scene was refused.
@@ -80,91 +81,90 @@ pub enum PlaceError {
     Analysis(#[from] AnalysisError),
 }
 
-/// A number and what was found for it.
+/// A free number and its best value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedParameter {
-    /// Which, and between which bounds.
+    /// The number and its bounds.
     pub freed: Freed,
-    /// What the scene had.
+    /// Value in the scene.
     pub start: f64,
-    /// What is best.
+    /// Best value.
     pub value: f64,
-    /// Whether it rests on a bound.
+    /// Whether the best value is a bound.
     pub at_bound: bool,
 }
 
-/// The saw that is best at the worst of its tolerances.
+/// The saw that is best in the worst case of its tolerances.
 #[derive(Debug, Clone)]
 pub struct Placement {
-    /// The saw: the best that was found, or the scene as it was where none between the bounds is
-    /// better.
+    /// The best saw, or the original scene if no saw within the bounds is better.
     pub scene: Scene,
-    /// Whether it is better than the scene as it was, both at the worst of their tolerances. It can be worse where that
-    /// one does not lie within the bounds.
+    /// Whether the saw is better than the original scene, both in the worst case of their tolerances. It may
+    /// be worse if the original scene lies outside the bounds.
     pub improved: bool,
-    /// Numbers found.
+    /// The free numbers and their best values.
     pub parameters: Vec<PlacedParameter>,
-    /// Freed numbers that move nothing, or nothing that the others do not move as well.
+    /// Numbers without effect, or whose effect other free numbers have as well.
     pub without_effect: Vec<Freed>,
-    /// The scene as it was.
+    /// Result of the original scene.
     pub before: Outcome,
-    /// The best saw.
+    /// Result of the best saw.
     pub best: Outcome,
-    /// Saws off the best one by the tolerances.
+    /// Neighbours of the best saw within its tolerances.
     pub(crate) neighbours: Neighbours,
-    /// The worst of those around the scene as it was.
+    /// Worst neighbour of the original scene.
     pub(crate) worst_before: Neighbour,
-    /// A saw that is better than the best one by itself, and worse within its tolerances.
+    /// A saw that is better than the best one at its nominal numbers and worse within its tolerances.
     pub(crate) fragile_optimum: Option<FragileOptimum>,
     /// The goal over two of the numbers.
     pub(crate) map: Option<Map>,
-    /// Sweep in rad/s, the same for every saw.
+    /// Range of speeds in rad/s, the same for every saw.
     pub range: (f64, f64),
-    /// Whether no energy is lost, so that modes have Krein signs.
+    /// Whether the blade is undamped, so that its modes have Krein signs.
     pub(crate) is_undamped: bool,
-    /// The basis of the best saw.
+    /// Basis of the best saw.
     pub resolution: Resolution,
-    /// Saws analysed, and those that could not be.
+    /// Numbers of saws analysed and of failures.
     pub(crate) tally: Tally,
 }
 
-/// A saw beside a jump.
+/// A saw next to a jump of the goal.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FragileOptimum {
-    /// The saw.
+    /// The saw at its nominal numbers.
     pub saw: Neighbour,
-    /// The worst of those off it by the tolerances.
+    /// Its worst neighbour within the tolerances.
     pub worst: Neighbour,
 }
 
-/// Progress callback: which step, how many of its saws are done, and of how many.
+/// Progress callback: name of the step, number of its finished saws, number of all its saws.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
-/// The search may be this far off; the best that it finds are held against each other, and
-/// refined, on the basis asked for.
+/// Tolerance of the coarse search. The best saws are compared and refined with the tolerance of the scene.
 const COARSE_TOLERANCE: f64 = 5e-2;
-/// How far apart places to refine are at least, as a share of the bounds.
+/// Smallest distance between samples that are refined, as a share of the bounds.
 const APART: f64 = 0.08;
-/// First and last steps of the refinement as shares of the bounds.
+/// First and last step of a refinement, as shares of the bounds.
 const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
-/// The fine basis moves an optimum, and the cliffs next to it, by little: so many times fewer saws
-/// are enough there, and each costs ten times as much.
+/// Factor by which the refinement on the fine basis is shorter: it moves an optimum only a little, and each
+/// saw costs ten times as much.
 const SETTLED: u64 = 3;
-/// So many samples that are best by themselves are candidates for the finer basis.
+/// Number of samples, best at their nominal numbers, that are compared on the finer basis too.
 const MORE_SAMPLES: usize = 3;
-/// Nearer to a bound than this a share rests on it.
+/// A share nearer to a bound than this is taken for the bound.
 const AT_BOUND: f64 = 1e-3;
-/// Shares of the bounds at which a number is looked at for whether it moves anything.
+/// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 2] = [0.23, 0.71];
-/// Speeds that move by less than this share of themselves do not move.
+/// Smaller relative changes of speeds are no effect.
 const IDLE: f64 = 1e-7;
 
 impl Placement {
-    /// Looks for the saw that is best at the worst of its tolerances: even samples of the bounds, direct search (MADS) from the best of
-    /// them, a map through the result, and refinement on the basis that the tolerance of the scene asks for.
+    /// Searches for the saw that is best in the worst case of its tolerances: even samples of the bounds,
+    /// direct search (MADS) from the best of them, a map through the result, and refinement on the basis that
+    /// the tolerance of the scene requires.
     ///
     /// # Errors
-    /// [`PlaceError`] where no freed number has an effect, or no saw tried can be analysed.
+    /// [`PlaceError`] if no free number has an effect, or no saw can be analysed.
     pub fn new(
         scene: &Scene,
         freed: &[Freed],
@@ -175,7 +175,7 @@ impl Placement {
         Self::watched(scene, freed, demands, options, progress, &|_| ())
     }
 
-    /// The same, with the map shown while it is computed.
+    /// As [`Placement::new`]; the map is shown while it is computed.
     ///
     /// # Errors
     /// Those of [`Placement::new`].
@@ -232,12 +232,12 @@ impl Placement {
         })
     }
 
-    /// The goal of the best saw at the worst of its tolerances.
+    /// Goal of the best saw in the worst case of its tolerances.
     pub fn worst_rad_per_s(&self) -> f64 {
         value(&self.neighbours.worst)
     }
 
-    /// The same of the scene as it was.
+    /// Goal of the original scene in the worst case of its tolerances.
     pub fn worst_before_rad_per_s(&self) -> f64 {
         value(&self.worst_before)
     }
@@ -252,15 +252,15 @@ fn value(saw: &Neighbour) -> f64 {
     saw.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s)
 }
 
-/// Shares of the scene's own numbers, which may lie outside the bounds.
+/// Shares of the original numbers, which may lie outside the bounds.
 fn exact_shares(scene: &Scene, freed: &[Freed]) -> Result<Vec<f64>, SceneError> {
     let shares = freed.iter();
     let shares = shares.map(|f| Ok(f.share(f.parameter.get(scene.file())?)));
     shares.collect()
 }
 
-/// The saw that is best by itself of all that were computed on the basis of the answer, where it is better than that one and
-/// loses it within its tolerances.
+/// The saw with the best nominal goal among those computed on the final basis, if it is better than the
+/// answer and loses this advantage within its tolerances.
 fn fragile_optimum(search: &Search<'_>, answer: &Weighed) -> Option<FragileOptimum> {
     let cheapest = search.cheapest()?;
     if cheapest.cost >= answer.outcome.cost() {
@@ -278,7 +278,7 @@ fn fragile_optimum(search: &Search<'_>, answer: &Weighed) -> Option<FragileOptim
     })
 }
 
-/// Every number with what was found for it.
+/// The free numbers with their best values.
 fn parameters(
     scene: &Scene,
     freed: &[Freed],
@@ -295,9 +295,10 @@ fn parameters(
     numbers.collect()
 }
 
-/// Samples, refines the best of them, and draws the map through the best; where a cell of the map is better, it is refined too. The
-/// candidates for the finer basis: what the refinements led to, the start, and the best samples, by themselves and within their tolerances, for
-/// a saw next to a jump on this basis may be past it on the other.
+/// Samples the bounds, refines the best samples and draws the map through the best saw; a better cell of the
+/// map is refined too. Returns the candidates for the finer basis: the results of the refinements, the
+/// original scene, and the samples that are best at their nominal numbers and within their tolerances,
+/// because the finer basis may move a jump past a saw.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
@@ -347,7 +348,7 @@ fn cheapest(tried: &[Tried]) -> Option<Tried> {
     least.cloned()
 }
 
-/// Parts the freed numbers into those that move a critical speed or a band, and the others.
+/// Divides the free numbers into those that move a critical speed or a band, and the others.
 fn moving(scene: &Scene, search: &Search<'_>) -> (Vec<Freed>, Vec<Freed>) {
     let speeds = |shares: &[f64]| {
         let of = |outcome: Outcome| {

@@ -1,4 +1,4 @@
-//! What becomes of a saw whose numbers are off by as much as production leaves open.
+//! Neighbours of a saw: saws whose numbers deviate by the tolerances of production.
 
 use rayon::prelude::*;
 
@@ -8,12 +8,12 @@ use crate::stability::{Instability, InstabilityKind};
 use super::outcome::{Outcome, REFUSED};
 use super::search::Search;
 
-/// A saw whose numbers are off by their tolerances.
+/// A saw whose numbers deviate by their tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Neighbour {
-    /// Values of the freed numbers.
+    /// Values of the free numbers.
     pub values: Vec<f64>,
-    /// What it is worth; `None` where it could not be computed.
+    /// Result; `None` if it could not be computed.
     pub outcome: Option<Outcome>,
 }
 
@@ -23,32 +23,33 @@ impl Neighbour {
     }
 }
 
-/// What happens around a saw.
+/// The neighbours of a saw and the worst of them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Neighbours {
-    /// The tolerance of each number, in its unit.
+    /// Tolerance of each number, in its unit.
     pub offsets: Vec<f64>,
-    /// For each number the saws with less and with more of it; `None` where there is no such saw.
+    /// For each number, the saws in which it alone is smaller and larger; `None` if there is no such saw.
     pub along: Vec<[Option<Neighbour>; 2]>,
-    /// The worst of the saw itself, of these and of the corners between them.
+    /// The worst of the saw itself, these neighbours and the corners of the tolerances.
     pub worst: Neighbour,
-    /// Value of the goal there, over that of the saw itself.
+    /// Ratio of the goal of the worst to that of the saw itself.
     pub worst_share: f64,
-    /// Bands of the saw that stay a little below the threshold and begin before the
-    /// flutter speed: were they to count, it would fall to their onset.
+    /// Bands of the saw that lie slightly below the threshold and before the flutter speed. If their growth
+    /// rose above it, the flutter speed would fall to their onset.
     pub almost: Vec<Instability>,
 }
 
-/// A saw that loses more than this share of its worth within its tolerances is a fragile one.
+/// A saw that loses more than this share of its goal within its tolerances is fragile.
 const FRAGILE: f64 = 0.05;
-/// A band with this share of the growth that counts is near to counting.
+/// Share of the threshold from which on the growth of a band is close to it.
 const NEAR: f64 = 0.5;
-/// More numbers than these have too many corners.
+/// With more numbers the corners are too many to compute.
 const MAX_CORNERS: usize = 4;
-/// So many neighbours are computed at a time before the worst of them is looked at.
+/// Number of neighbours that are computed before the worst of them is determined.
 const AT_A_TIME: usize = 4;
 
-/// Directions to the neighbours: corners of the tolerances, which tell most, and then less and more of each number.
+/// Directions of the neighbours: first the corners of the tolerances, which usually contain the worst, then
+/// each number alone.
 fn directions(numbers: usize) -> Vec<Vec<f64>> {
     let mut all: Vec<Vec<f64>> = Vec::new();
     if (2..=MAX_CORNERS).contains(&numbers) {
@@ -67,8 +68,8 @@ fn directions(numbers: usize) -> Vec<Vec<f64>> {
     all
 }
 
-/// Values and shares of the neighbour in a direction. Production does not know the bounds of a search, but
-/// there may be no such saw: a pad cannot stand beyond the rim.
+/// Values and shares of the neighbour in a direction. It may lie outside the bounds of the search, but it has
+/// to be a valid saw: a pad cannot be beyond the rim.
 fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
     let numbers = search.freed.iter().zip(shares).zip(direction);
     let values = numbers.map(|((freed, share), direction)| {
@@ -82,7 +83,8 @@ fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<
     exists.then_some((values, shares))
 }
 
-/// The cost of a saw at the worst of its tolerances, or that of some of its neighbours if it is beyond a limit.
+/// Cost of a saw in the worst case of its tolerances; if it exceeds a limit, that of the worst neighbour
+/// computed so far.
 pub fn worst_cost(search: &Search<'_>, shares: &[f64], limit: f64) -> f64 {
     let mut worst = search.cost(shares);
     for some in directions(shares.len()).chunks(AT_A_TIME) {
@@ -139,17 +141,17 @@ impl Neighbours {
         }
     }
 
-    /// Cost of the worst.
+    /// Cost of the worst neighbour.
     pub(super) fn worst_cost(&self) -> f64 {
         self.worst.cost()
     }
 
-    /// Whether the limit is kept with every number off by its tolerance.
+    /// Whether every neighbour keeps the limit.
     pub fn keep_limit(&self) -> bool {
         self.worst.outcome.as_ref().is_some_and(Outcome::is_kept)
     }
 
-    /// Whether a little more or less of a number costs much.
+    /// Whether a small change of a number reduces the goal considerably.
     pub fn are_fragile(&self) -> bool {
         self.worst_share < 1.0 - FRAGILE
     }

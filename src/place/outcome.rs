@@ -1,4 +1,4 @@
-//! What a saw is worth that is tried.
+//! Result of a saw in a placement.
 
 use crate::plate::Resolution;
 use crate::scene::Scene;
@@ -8,54 +8,54 @@ use crate::stability::{
 
 use super::{Goal, Tolerances};
 
-/// What was found out about a saw.
+/// The result of a saw.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// What is to be made large, in rad/s.
+    /// Value of the goal, to be maximized, in rad/s.
     pub value_rad_per_s: f64,
-    /// Onset of the first flutter band that reaches the threshold; `None` within the sweep.
+    /// Flutter speed; `None` if it exceeds the sweep.
     pub flutter_rad_per_s: Option<f64>,
     /// Lowest critical speed, if the blade has one.
     pub critical_rad_per_s: Option<f64>,
-    /// The window without instability around the operating speed, if that is what is asked for; nothing where
-    /// the operating speed is in a band or within 5 % of a critical speed.
+    /// Window without instability around the operating speed, if it is the goal; `None` if the operating
+    /// speed lies in a band or within 5 % of a critical speed.
     pub window: Option<(f64, f64)>,
-    /// By how much the lowest critical speed misses its limit, in rad/s.
+    /// Amount by which the lowest critical speed is below its limit, in rad/s; zero if the limit is kept.
     pub short_rad_per_s: f64,
-    /// Every band of the sweep.
+    /// All bands of the sweep.
     pub bands: Vec<Instability>,
-    /// What this list was held against.
+    /// Certificate of this list of bands.
     pub certificate: Certificate,
 }
 
-/// What is asked of every saw that is tried.
+/// The computation that every saw of a search goes through.
 #[derive(Debug, Clone)]
 pub struct Question {
     pub goal: Goal,
     pub min_critical_rad_per_s: Option<f64>,
-    /// Sweep, the same for all.
+    /// Range of speeds, the same for every saw.
     pub range: (f64, f64),
-    /// The basis, or the least of all where a saw takes a larger one.
+    /// The basis, or its lower limit if each saw chooses its own.
     pub resolution: Resolution,
-    /// How far its numbers may be off.
+    /// Tolerances of production.
     pub tolerances: Tolerances,
 }
 
-/// The cost of a saw worse than any that can be analysed.
+/// Cost of a saw that cannot be analysed, larger than any other.
 pub const REFUSED: f64 = 1e12;
 
 impl Question {
-    /// Analyses a saw as far as the question asks.
+    /// Analyses a saw.
     ///
     /// # Errors
-    /// [`AnalysisError`] when an eigenproblem fails, or no basis holds the waves of the sweep.
+    /// [`AnalysisError`] when an eigenproblem fails, or no basis represents the waves of the sweep.
     pub fn ask(&self, scene: &Scene) -> Result<Outcome, AnalysisError> {
         let (saw, critical) = resolved(scene, self.resolution, self.range.1)?;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest = critical_rad_per_s.first().copied();
         let short = match (self.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (asked - found).max(0.0),
-            // Without a critical speed every limit is kept.
+            // A blade without critical speed keeps every limit.
             _ => 0.0,
         };
         let (bands, certificate) = search_bands(saw, critical, self.range)?;
@@ -90,8 +90,8 @@ impl Question {
 }
 
 impl Outcome {
-    /// What a minimizer makes small: how far the limit is missed, and where it is kept, which no positive
-    /// number is, the value with the other sign.
+    /// The cost to minimize: the amount by which the limit is missed, which is positive, or, if the limit is
+    /// kept, the negative goal.
     pub(crate) fn cost(&self) -> f64 {
         match self.is_kept() {
             true => -self.value_rad_per_s,
@@ -99,7 +99,7 @@ impl Outcome {
         }
     }
 
-    /// Whether the limit is kept.
+    /// Whether the limit of the critical speed is kept.
     pub fn is_kept(&self) -> bool {
         self.short_rad_per_s == 0.0
     }

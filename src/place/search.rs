@@ -1,10 +1,11 @@
-//! Looking for the shares of the freed numbers that are best at the worst of their tolerances.
+//! Search for the shares of the free numbers that are best in the worst case of their tolerances.
 //!
-//! The flutter speed jumps where a band passes the threshold and is smooth in between. A saw right beside a
-//! jump is worth what is on the other side of it, for its numbers are never met exactly: what counts is the worst of a saw
-//! and of those whose numbers are off by their tolerances. It is never better than the saw itself, so that few of them have to be
-//! computed to rule a saw out. The box is sampled evenly, and the best samples are refined by mesh adaptive direct search, which needs no
-//! derivative and whose theory allows jumps (Audet and Dennis, SIAM J. Optim. 17, 2006). Both are deterministic.
+//! The flutter speed jumps where a band passes the threshold and is smooth elsewhere. A saw next to a jump
+//! has the value of the other side, because its numbers are never met exactly; it is rated by the worst of
+//! itself and its neighbours within the tolerances. This rating never exceeds the nominal value, so a few
+//! neighbours suffice to exclude a saw. The box of bounds is sampled evenly, and the best samples are refined
+//! by mesh adaptive direct search, which needs no derivative and whose theory allows jumps (Audet and Dennis,
+//! SIAM J. Optim. 17, 2006). Both are deterministic.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -23,39 +24,39 @@ use crate::scene::{Freed, SceneFile, scene_at, spread};
 use super::neighbours::worst_cost;
 use super::outcome::{Outcome, Question, REFUSED};
 
-/// What is known of a saw: what it is worth, or why it could not be computed; nothing where there is no such saw.
+/// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
 type Known = Result<Outcome, Option<String>>;
 
-/// Saws with some numbers freed, and what is asked of them; each is computed once.
+/// The saws of a search. Each is computed once.
 pub struct Search<'a> {
     pub scene: &'a SceneFile,
     pub freed: &'a [Freed],
     question: Question,
-    /// By the bits of the shares.
+    /// Results by the bits of the shares.
     known: Mutex<HashMap<Vec<u64>, Known>>,
 }
 
-/// Shares and what they cost.
+/// Shares and their cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tried {
     pub shares: Vec<f64>,
     pub cost: f64,
 }
 
-/// A saw of many that has just been computed.
+/// A saw of a batch that has just been computed.
 pub struct Seen<'a> {
-    /// How many are done with it.
+    /// Number of finished saws, this one included.
     pub done: usize,
-    /// Which one.
+    /// Index in the batch.
     pub index: usize,
     pub shares: &'a [f64],
     pub outcome: Option<&'a Outcome>,
 }
 
-/// Called for every saw of many, by the thread that has computed it.
+/// Called for every saw of a batch, on the thread that has computed it.
 pub type See<'a> = &'a (dyn Fn(Seen<'_>) + Sync);
 
-/// How many saws were computed, how many of them could not be, and what one of these says.
+/// Number of saws computed, number of failures, and the message of one failure.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tally {
     pub saws: usize,
@@ -64,7 +65,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// With those of another search.
+    /// Adds the counts of another search.
     pub fn and(self, other: Tally) -> Tally {
         Tally {
             saws: self.saws + other.saws,
@@ -80,7 +81,7 @@ impl Tried {
         Tried { shares, cost }
     }
 
-    /// Whether the shares are far from those of some others.
+    /// Whether the shares are at a distance from those of some others.
     fn is_apart(&self, others: &[Tried], distance: f64) -> bool {
         others.iter().all(|other| {
             let pairs = self.shares.iter().zip(&other.shares);
@@ -103,7 +104,7 @@ impl<'a> Search<'a> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What the saw at given shares is worth; `None` where it is refused or cannot be analysed.
+    /// Result of the saw with the given shares; `None` if it is refused or cannot be analysed.
     pub fn outcome(&self, shares: &[f64]) -> Option<Outcome> {
         let key: Vec<u64> = shares.iter().map(|share| share.to_bits()).collect();
         let known = self.known().get(&key).cloned();
@@ -118,17 +119,17 @@ impl<'a> Search<'a> {
         found.ok()
     }
 
-    /// How far a number of this value may be off.
+    /// Tolerance of a number with this value.
     pub fn tolerance(&self, freed: &Freed, value: f64) -> f64 {
         self.question.tolerances.of(&freed.parameter, value)
     }
 
-    /// What a saw costs.
+    /// Cost of the saw with the given shares.
     pub fn cost(&self, shares: &[f64]) -> f64 {
         self.outcome(shares).as_ref().map_or(REFUSED, Outcome::cost)
     }
 
-    /// What was computed.
+    /// Counts of the saws computed so far.
     pub fn tally(&self) -> Tally {
         let known = self.known();
         let failed = known.values().filter_map(|found| found.as_ref().err());
@@ -141,7 +142,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The cheapest saw of all between the bounds that were computed, by itself.
+    /// The saw within the bounds whose nominal cost is least.
     pub fn cheapest(&self) -> Option<Tried> {
         let known = self.known();
         let all = known.iter().filter_map(|(key, found)| {
@@ -150,14 +151,14 @@ impl<'a> Search<'a> {
             let cost = found.as_ref().ok().filter(|_| is_inside)?.cost();
             Some(Tried { shares, cost })
         });
-        // Of equals always the same one, whatever the order of the map.
+        // Ties are decided by the shares, since the order of the hash map is random.
         all.min_by(|x, y| {
             let by_shares = || x.shares.partial_cmp(&y.shares).unwrap_or(Ordering::Equal);
             x.cost.total_cmp(&y.cost).then_with(by_shares)
         })
     }
 
-    /// What `count` saws are worth, in their order, computed on all threads.
+    /// Results of `count` saws in their order, computed on all threads.
     pub fn outcomes<T: Send>(
         &self,
         count: usize,
@@ -180,7 +181,7 @@ impl<'a> Search<'a> {
         (0..count).into_par_iter().map(one).collect()
     }
 
-    /// `count` samples of the box, the scene's own first, by what each costs by itself.
+    /// `count` samples of the box, the original scene first, sorted by nominal cost.
     pub fn sample(&self, own: &[f64], count: usize, see: See<'_>) -> Vec<Tried> {
         let shares_of = |index: usize| match index.checked_sub(1) {
             None => own.to_vec(),
@@ -189,13 +190,13 @@ impl<'a> Search<'a> {
         let mut tried = self.outcomes(count, shares_of, see, |shares, outcome| {
             Tried::new(shares, outcome.as_ref())
         });
-        // Stable, so that equals stay in their order whatever thread was first.
+        // The sort is stable, so that the order of equal saws does not depend on the threads.
         tried.sort_by(|x, y| x.cost.total_cmp(&y.cost));
         tried
     }
 
-    /// Of saws in the order of what each costs by itself those that cost least at the worst of their tolerances, a few that are
-    /// apart from each other; with that cost.
+    /// A few saws, at a distance from each other, that cost least in the worst case of their tolerances.
+    /// `tried` is sorted by nominal cost.
     pub fn most_robust(&self, tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
         let mut chosen: Vec<Tried> = Vec::new();
         while chosen.len() < count {
@@ -219,8 +220,8 @@ impl<'a> Search<'a> {
         chosen
     }
 
-    /// Refines a try by direct search for what costs least at the worst of its tolerances, from a step to a smaller one,
-    /// both shares of the box. `see` is called after each of its saws.
+    /// Refines a saw by direct search for the least cost in the worst case of its tolerances, between two
+    /// step sizes, which are shares of the box. `see` is called after each saw.
     pub fn refine(
         &self,
         start: &Tried,
@@ -254,7 +255,7 @@ impl<'a> Search<'a> {
 
 struct Boxed<'a> {
     search: &'a Search<'a>,
-    /// The least cost so far.
+    /// Least cost so far.
     least: Mutex<f64>,
     see: &'a (dyn Fn() + Sync),
     lower: Vec<f64>,
@@ -276,7 +277,7 @@ impl CostFunction for Boxed<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Infallible> {
         let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
-        // A cost beyond the least is not told exactly: direct search only asks whether it is less.
+        // A cost above the least may be inexact, because direct search only compares it with the least.
         let limit = *least();
         let cost = worst_cost(self.search, shares, limit);
         *least() = limit.min(cost);

@@ -1,5 +1,5 @@
-//! From candidates of the coarse search to the saw that is answered: candidates and start are held
-//! against each other on the basis asked for.
+//! Selects the answer from the candidates of the coarse search: candidates and the original scene are
+//! compared on the final basis.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,10 +14,10 @@ use super::outcome::Outcome;
 use super::search::{Search, Tried};
 use super::{IDLE, PlaceError, Progress, cheapest};
 
-/// First and last steps of the refinement on that basis, as shares of the bounds.
+/// First and last step of the refinement on the final basis, as shares of the bounds.
 const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
 
-/// A saw, and what becomes of it within its tolerances.
+/// A saw with its neighbours.
 #[derive(Clone)]
 pub struct Weighed {
     pub shares: Vec<f64>,
@@ -35,7 +35,7 @@ impl Weighed {
     }
 }
 
-/// The saw that is answered.
+/// The saw that becomes the answer.
 pub struct Choice {
     pub scene: Scene,
     pub saw: Weighed,
@@ -43,8 +43,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The best saw found, or the scene's own where that is within the bounds and none is better at the worst of its
-    /// tolerances.
+    /// The best saw, or the original scene if it lies within the bounds and no saw is better in the worst
+    /// case of its tolerances.
     pub fn between(
         search: &Search<'_>,
         scene: &Scene,
@@ -80,8 +80,8 @@ impl Choice {
     }
 }
 
-/// The largest of the bases that the tolerance asks for of the start and of every candidate, so
-/// that all are held against each other on the same.
+/// The largest of the bases that the tolerance requires for the original scene and the candidates, so that
+/// all are compared on the same one.
 pub fn basis_of_all(
     scene: &Scene,
     freed: &[Freed],
@@ -107,8 +107,8 @@ pub fn basis_of_all(
         .unwrap_or(own))
 }
 
-/// Holds the candidates against each other on the basis asked for, at the worst of their tolerances, and refines the best, and
-/// besides it the one that is best by itself: a place that is wide enough may lie next to it.
+/// Compares the candidates on the final basis in the worst case of their tolerances. It refines the best, and
+/// also the one that is best at its nominal numbers, because a robust position may lie next to it.
 pub fn settle(
     search: &Search<'_>,
     candidates: &[Tried],
@@ -141,7 +141,7 @@ pub fn settle(
     cheapest(&refined)
 }
 
-/// The scene with what was found and a note of where it comes from.
+/// The scene with the best numbers, and a note on their origin.
 fn placed(scene: &Scene, freed: &[Freed], shares: &[f64]) -> Result<Scene, SceneError> {
     let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
     let note = format!("{}: placed by optimization", names.join(", "));

@@ -1,22 +1,22 @@
-//! Ranges of the numbers of a scene, and the errors of those outside.
+//! Checks that the numbers of a scene are within their ranges, and the errors of those that are not.
 
 use super::quantity::Quantity;
 use super::{Blade, RefusedValue, SceneError};
 use crate::text::shown;
 
-/// Widest range of a positive quantity: far beyond any saw, and narrow enough
-/// that no product of them overflows.
+/// Widest range of a positive quantity. It exceeds that of any saw, and products of such numbers do not
+/// overflow.
 pub const SPAN: (f64, f64) = (1e-12, 1e15);
-/// Bounds that are further apart only keep numbers from overflowing.
+/// Bounds whose ratio exceeds this only prevent overflow.
 const FAR: f64 = 1e9;
-/// A pad stiffer than this is, to all digits of a double, a rigid one.
+/// In double precision a pad stiffer than this is rigid.
 pub const MAX_GUIDE: f64 = 1e18;
-/// Each pad costs an integral over every function of the basis; no saw has a hundredth of these.
+/// Each pad costs an integral over every basis function; no saw has a hundredth of this number.
 pub const MAX_GUIDES: usize = 256;
-/// A rim at this speed would long have burst.
+/// A rim bursts long before this speed.
 pub const MAX_RPM: f64 = 1e9;
 
-/// The error of a number out of its range.
+/// Makes the error of a number outside its range.
 pub fn refuse(
     key: &str,
     value: f64,
@@ -26,7 +26,7 @@ pub fn refuse(
     RefusedValue::new(key, value, allowed, remedy).into()
 }
 
-/// A quantity that must not be zero.
+/// Checks that a quantity is positive.
 pub fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
     ranged(
         key,
@@ -36,7 +36,7 @@ pub fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
     )
 }
 
-/// A number of a range, its ends included.
+/// Checks that a number lies in a range, ends included.
 pub fn within(key: &str, value: f64, range: (f64, f64)) -> Result<f64, SceneError> {
     ranged(
         key,
@@ -66,7 +66,7 @@ fn ranged(
     Err(refuse(key, value, allowed, remedy))
 }
 
-/// The one of two bounds far beyond any saw that a value is past, and what saws have.
+/// If a value is past a bound that is far beyond any saw: this bound, with the usual range.
 fn beside_usual(key: &str, value: f64, (low, high): (f64, f64)) -> String {
     let bound = if value > high {
         format!("at most {}", shown(high))
@@ -78,7 +78,7 @@ fn beside_usual(key: &str, value: f64, (low, high): (f64, f64)) -> String {
     bound + &usual(key)
 }
 
-/// What saws have, to stand behind what is allowed.
+/// Describes the usual range, to be appended to the allowed range.
 fn usual(key: &str) -> String {
     Quantity::of(key).map_or(String::new(), |quantity| {
         let ((from, to), unit) = (quantity.usual, quantity.unit);
@@ -87,7 +87,7 @@ fn usual(key: &str) -> String {
     })
 }
 
-/// Whether a profile has no more rows than are sensible.
+/// Checks that a profile does not have too many rows.
 pub fn few(key: &str, count: usize) -> Result<(), SceneError> {
     if count <= MAX_GUIDES {
         return Ok(());
@@ -97,7 +97,7 @@ pub fn few(key: &str, count: usize) -> Result<(), SceneError> {
     Err(refuse(key, count as f64, allowed, remedy))
 }
 
-/// Whether radii ascend from the bore to the rim.
+/// Checks that radii ascend from the bore to the rim.
 pub fn ascending(key: &str, radii: &[f64], blade: &Blade) -> Result<(), SceneError> {
     let mut least = 0.0;
     for (index, radius) in radii.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The cut: which forces the wood exerts on which teeth, and for how long.
+//! The cut: the forces that the wood exerts on the teeth, and their duration.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,23 +13,23 @@ use crate::text::shown;
 /// A validated cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
-    /// Angle of its middle.
+    /// Angle of the middle of the cut.
     pub angle_rad: f64,
-    /// Teeth in the cut at a time.
+    /// Number of teeth that cut at the same time.
     pub teeth: u32,
-    /// Angle from tooth to tooth.
+    /// Angle between successive teeth.
     pub pitch_rad: f64,
-    /// Time before and after the forces.
+    /// Time before and after the cut, without forces.
     pub idle_s: f64,
-    /// Speeds and the forces at each.
+    /// Speeds, with the forces at each.
     pub runs: Vec<CutRun>,
-    /// Wood against the blade, in the cut only.
+    /// Contact with the wood during the cut.
     pub(crate) wood: Option<Wood>,
-    /// The force of the surface left by the tooth before, for a look at washboarding only.
+    /// Force that depends on the surface left by the preceding tooth; used by washboarding only.
     pub(crate) washboarding: Option<Washboarding>,
-    /// Whether the blade stretches.
+    /// Whether the model includes stretching of the middle surface.
     pub stretching: bool,
-    /// The forces that bear on a chart; `None` where it is of the idling saw.
+    /// Forces under which the Campbell diagram is computed; `None` if it is that of the idling saw.
     pub chart: Option<CutRun>,
     file: CutFile,
     rim_radius_m: f64,
@@ -38,28 +38,27 @@ pub struct Cut {
 /// One speed of a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutRun {
-    /// Rotation speed, as typed.
+    /// Rotation speed as typed.
     pub rpm: f64,
     /// Rotation speed.
     pub speed_rad_per_s: f64,
-    /// Force against the rotation on each tooth, given or from the power.
+    /// Tangential force on each tooth, against the rotation; given, or computed from the power.
     pub tangential_n: f64,
-    /// Force towards the axis on each tooth.
+    /// Radial force on each tooth, towards the axis.
     pub radial_n: f64,
-    /// Force across the blade on each tooth.
+    /// Lateral force on each tooth.
     pub lateral_n: f64,
-    /// The tangential force that the power allows, P/(Ωb) shared by the teeth.
+    /// Tangential force at which the power is used up: P/(Ωb) divided by the number of teeth in the cut.
     pub tangential_of_power_n: Option<f64>,
-    /// Speed at which the wood is fed.
+    /// Feed speed of the wood.
     pub feed_m_per_s: Option<f64>,
-    /// Time that the forces last.
+    /// Duration of the forces.
     pub duration_s: f64,
 }
 
-/// Longest time a transient may show: far beyond any board, and short enough to keep
-/// the record in memory.
+/// Longest duration of a transient; the record of a longer one would not fit into memory.
 const MAX_DURATION_S: f64 = 600.0;
-/// Largest force on a tooth: it would shear off at a small part of it.
+/// Largest force on a tooth, many times the force that shears a tooth off.
 const MAX_FORCE_N: f64 = 1e9;
 
 impl Cut {
@@ -102,7 +101,7 @@ impl Cut {
         Ok(cut)
     }
 
-    /// The forces at a speed: those of the scene's entry for it, else those of the cut.
+    /// The forces at a speed: those that the scene lists for it, or else those of the cut.
     ///
     /// # Errors
     /// [`SceneError::Value`] where neither a tangential force nor a power is given, or a
@@ -111,7 +110,7 @@ impl Cut {
         self.run_at(rpm, "rpm")
     }
 
-    /// The same, of a speed that is refused under a key of its own, unless it is one of the scene's.
+    /// As [`Cut::at_rpm`]; a refused speed is reported under `key`, unless it is one of the scene's.
     fn run_at(&self, rpm: f64, key: &str) -> Result<CutRun, SceneError> {
         let index = self.file.speeds.iter().position(|speed| speed.rpm == rpm);
         let own = index.map_or_else(CutSpeedFile::default, |i| self.file.speeds[i].clone());
@@ -177,14 +176,14 @@ impl Cut {
         Ok(seconds)
     }
 
-    /// Where the teeth in the cut are: one pitch apart, around its middle.
+    /// Angles of the teeth in the cut: one pitch apart, symmetric about its middle.
     pub fn tooth_angles_rad(&self) -> impl Iterator<Item = f64> + '_ {
         let first = -0.5 * f64::from(self.teeth - 1);
         (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
     }
 }
 
-/// The teeth in the cut of a blade with so many in all.
+/// The teeth in the cut of a blade with `all_teeth` teeth.
 fn teeth_in_cut(
     typed: &CutFile,
     teeth: Option<u32>,
@@ -203,7 +202,7 @@ fn teeth_in_cut(
     })
 }
 
-/// The given number, or the depth over the pitch, rounded: what is in the cut on average.
+/// The given number of teeth in the cut, or depth over pitch, rounded, which is their average number.
 fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneError> {
     let key = "cut.teeth_in_cut";
     if let Some(teeth) = typed.teeth_in_cut {
@@ -252,7 +251,7 @@ mod tests {
         assert_eq!(pitches, [-1.5, -0.5, 0.5, 1.5]);
     }
 
-    /// 80 hp at 2800 rpm and a radius of 355 mm are 573 N, a quarter of it a tooth.
+    /// 80 hp at 2800 rpm and a radius of 355 mm are 573 N, shared by four teeth.
     #[test]
     fn power_over_rim_speed_gives_the_force() {
         let cut = with(|_, cut| {

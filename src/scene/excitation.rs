@@ -25,21 +25,21 @@ fn is_zero(value: &u32) -> bool {
     *value == 0
 }
 
-/// More lines than these hide the branches.
+/// More lines would hide the branches.
 const MAX_ORDERS: u32 = 60;
 const MAX_TOOTH_PASSING: u32 = 10;
 
 /// A validated line: a frequency that is a multiple of the rotation speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExcitationLine {
-    /// The multiple.
+    /// Ratio of the frequency to the rotation speed.
     pub order: u32,
-    /// Which multiple of the tooth passing frequency it is, if it is asked for as one.
+    /// Multiple of the tooth passing frequency, if the line was given as one.
     pub tooth_passing: Option<u32>,
 }
 
 impl ExcitationLine {
-    /// The lines that a scene asks for, ascending, each once.
+    /// The lines of a scene, ascending and without duplicates.
     pub(super) fn of(file: &SceneFile) -> Result<Vec<Self>, SceneError> {
         let Some(typed) = file.excitation else {
             return Ok(Vec::new());
@@ -70,7 +70,7 @@ impl ExcitationLine {
                 order: multiple.saturating_mul(teeth),
                 tooth_passing: Some(multiple),
             });
-            // A line that is asked for both ways is one of the teeth.
+            // A line that is given in both ways is listed as a multiple of tooth passing.
             let multiples: Vec<Self> = multiples.collect();
             lines.retain(|line| multiples.iter().all(|other| other.order != line.order));
             lines.extend(multiples);

@@ -1,7 +1,7 @@
 //! The scene as typed: the JSON that a user writes, key by key.
 //!
-//! Every key carries its unit. Unknown keys are refused, so a misspelt
-//! `thicknes_m` is an error and not a silently ignored wish.
+//! Every key carries its unit. Unknown keys are refused, so that a misspelt `thicknes_m` is an error and is
+//! not ignored.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -70,7 +70,7 @@ pub struct SceneFile {
     pub measured: Option<Measured>,
 }
 
-/// About the decay rate of a lightly damped steel blade: slower growth drowns in it.
+/// About the decay rate of a lightly damped steel blade; damping suppresses slower growth.
 fn default_flutter_threshold_per_s() -> f64 {
     0.25
 }
@@ -207,7 +207,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// The relative error that the name allows.
+    /// The relative error that belongs to the name.
     pub fn tolerance(self) -> f64 {
         match self {
             Accuracy::Draft => 1e-2,
@@ -238,7 +238,7 @@ pub struct MeasuredRow {
 }
 
 impl MeasuredRow {
-    /// The frequencies that were seen, in Hz.
+    /// The measured frequencies, in Hz.
     pub fn seen_hz(&self) -> impl Iterator<Item = f64> {
         self.frequencies_hz.iter().copied().flatten()
     }

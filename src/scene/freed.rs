@@ -1,32 +1,32 @@
-//! A number of a scene that may move between two bounds.
+//! A number of a scene that varies between two bounds.
 
 use rayon::prelude::*;
 
 use super::{Parameter, RefusedValue, Scene, SceneError, SceneFile};
 use crate::text::shown;
 
-/// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] see it as a share
-/// between 0 and 1, of the distance between the bounds or of its logarithm.
+/// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] work with its share, between 0 and
+/// 1: the position between the bounds, on a linear or a logarithmic scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Freed {
-    /// Which number.
+    /// The number that varies.
     pub parameter: Parameter,
-    /// Least value.
+    /// Lower bound.
     pub from: f64,
-    /// Largest value.
+    /// Upper bound.
     pub to: f64,
 }
 
-/// The path of a number of a scene, and its bounds where they are not the usual ones.
+/// Path of a number of a scene, with bounds if they are not the usual ones.
 pub type NamedBounds = (String, Option<(f64, f64)>);
 
-/// More numbers than these at once are beyond what a search can tell.
+/// A search over more numbers than these does not find their values reliably.
 const MAX_FREED: usize = 12;
-/// Bounds with this ratio or more are decades to search, not a length.
+/// From this ratio of the bounds on, the scale is logarithmic.
 const DECADE: f64 = 10.0;
 
 impl Freed {
-    /// A number between two bounds, both of which the scene must allow.
+    /// Frees a number between two bounds, each of which must be a valid value.
     ///
     /// # Errors
     /// [`SceneError`] where the scene has no such number, a bound is refused, or they are not
@@ -56,8 +56,8 @@ impl Freed {
         })
     }
 
-    /// With the bounds that its name suggests: a pad anywhere on the blade, a stiffness or
-    /// damping within a factor of thirty, an angle within 60°, other numbers within 20 %.
+    /// Frees a number between usual bounds: a radius anywhere on the blade, a stiffness or damping within a
+    /// factor of thirty, an angle within 60°, other numbers within 20 %.
     ///
     /// # Errors
     /// As [`Freed::new`].
@@ -74,12 +74,11 @@ impl Freed {
         Freed::new(&scene.file, path, from, to)
     }
 
-    /// The numbers asked for of a fit. Without any, what is hardly ever known of a saw: where the
-    /// guides act and how stiff they are. Angles are seen only between guides. Without guides:
-    /// density.
+    /// The numbers that a fit adjusts. By default these are the ones that are rarely known: position and
+    /// stiffness of the guides, with angles only if there are several guides; without guides, the density.
     ///
     /// # Errors
-    /// [`SceneError`] as [`Freed::new`], and where a number is named twice or too many are.
+    /// [`SceneError`] as [`Freed::new`], and if a number is named twice or too many are named.
     pub fn to_fit(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
         let of_guide = |index: usize| {
             let angle = (index > 0).then_some("angle_deg");
@@ -93,12 +92,11 @@ impl Freed {
         Freed::all(scene, asked, usual)
     }
 
-    /// The numbers asked for of a placement. Without any, what a designer may choose: radius,
-    /// angle and stiffness of the first guide.
+    /// The numbers that a placement adjusts; by default radius, angle and stiffness of the first guide.
     ///
     /// # Errors
-    /// [`SceneError`] as [`Freed::new`], and where there is no guide, or a number is named twice or
-    /// too many are.
+    /// [`SceneError`] as [`Freed::new`], and if there is no guide, a number is named twice, or too many are
+    /// named.
     pub fn to_place(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
         if scene.file.guides.is_empty() && asked.is_empty() {
             let allowed = "given, with a guide to be placed";
@@ -137,7 +135,7 @@ impl Freed {
         Ok(freed)
     }
 
-    /// Whether the share is of the logarithm.
+    /// Whether the scale is logarithmic.
     pub fn is_logarithmic(&self) -> bool {
         self.from > 0.0 && self.to >= DECADE * self.from
     }
@@ -150,7 +148,7 @@ impl Freed {
         self.from + share * (self.to - self.from)
     }
 
-    /// The share of a value.
+    /// The share that belongs to a value.
     pub fn share(&self, value: f64) -> f64 {
         if self.is_logarithmic() {
             let value = value.max(f64::MIN_POSITIVE);
@@ -159,14 +157,14 @@ impl Freed {
         (value - self.from) / (self.to - self.from)
     }
 
-    /// The share that the scene has, held within the bounds.
+    /// The share of the scene's own value, limited to 0…1.
     pub fn share_of(&self, scene: &SceneFile) -> f64 {
         let value = self.parameter.get(scene).unwrap_or(self.from);
         self.share(value).clamp(0.0, 1.0)
     }
 }
 
-/// The scene with freed numbers at given shares.
+/// The scene in which the freed numbers have the given shares.
 ///
 /// # Errors
 /// [`SceneError`] where these values are refused together.
@@ -179,8 +177,8 @@ pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Sc
     scene.with(&numbers)
 }
 
-/// The place of a freed angle to be held: nothing but the guides stands in space, so when all
-/// of them may turn, one of the angles is the saw looked at from another side.
+/// Index of the freed angle that is held fixed. Only guides are fixed in space, so if all of their angles are
+/// free, one common rotation changes nothing.
 pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
     let of_guide = |index: usize| format!("guides[{index}].angle_deg");
     let place = |index: usize| {
@@ -193,13 +191,13 @@ pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
     angles.and_then(|angles| angles.first().copied())
 }
 
-/// Parts the freed numbers into those that move an answer and those that do not: the angle of a
-/// single pad, say, which turns the saw as a whole. Each is moved alone to every one of `shares`,
-/// from the scene's own numbers and from others, for a number may rest where another one is.
-/// `answer` is `None` where a saw has none.
+/// Divides the freed numbers into those that change an answer and those that do not, such as the angle of a
+/// single pad. Each number alone is moved to every one of `shares`, starting from the scene's own numbers and
+/// from other points, because its effect may depend on the other numbers. `answer` returns `None` for a saw
+/// without an answer.
 ///
 /// # Errors
-/// Those of `answer`.
+/// The errors of `answer`.
 pub fn effective<A, E: Send>(
     scene: &Scene,
     freed: &[Freed],
@@ -235,10 +233,9 @@ pub fn effective<A, E: Send>(
     Ok((freed(moving), freed(idle)))
 }
 
-/// Point `index` of a sequence that fills the unit cube evenly in any number of dimensions:
-/// multiples of the powers of 1/φ_d, φ_d the root of φ^(d+1) = φ + 1 (M. Roberts, *The
-/// unreasonable effectiveness of quasirandom sequences*, 2018). Another seed is another
-/// offset.
+/// Point `index` of a sequence that fills the unit cube evenly in any number of dimensions: multiples of the
+/// powers of 1/φ_d, where φ_d is the root of φ^(d+1) = φ + 1 (M. Roberts, *The unreasonable effectiveness of
+/// quasirandom sequences*, 2018). The seed determines the offset.
 pub fn spread(dimensions: usize, seed: u64, index: usize) -> Vec<f64> {
     let mut phi = 2.0_f64;
     for _ in 0..40 {
@@ -312,7 +309,7 @@ mod tests {
         assert_eq!(turn(&two, &[1, 0]), Some(1));
     }
 
-    /// No two of a hundred points are close, and every tenth of every axis is met.
+    /// No two of a hundred points are close to each other, and every tenth of every axis has a point.
     #[test]
     fn the_sequence_fills_the_cube() {
         for seed in [0, 1, 12345] {

@@ -1,19 +1,19 @@
-//! Guide pads, checked and in radians.
+//! Validated guide pads, angles in radians.
 
 use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
 use super::{Blade, GuideFile, SceneError};
 use crate::text::shown;
 
-/// A guide pad on the blade, in radians.
+/// Validated guide pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guide {
     /// Distance of the centre from the axis.
     pub radius_m: f64,
     /// Angle of the centre.
     pub angle_rad: f64,
-    /// Side along the radius; zero for a point spring.
+    /// Length along the radius; zero for a point spring.
     pub radial_length_m: f64,
-    /// Side across the radius; zero for a point spring.
+    /// Length across the radius; zero for a point spring.
     pub tangential_length_m: f64,
     /// Stiffness of the whole pad.
     pub stiffness_n_per_m: f64,
@@ -22,12 +22,12 @@ pub(crate) struct Guide {
 }
 
 impl Guide {
-    /// A pad without size acts at a point.
+    /// Whether the pad has no extent and acts at a point.
     pub fn is_point(&self) -> bool {
         self.radial_length_m == 0.0
     }
 
-    /// Distances from the axis to the nearest and to the farthest point of the pad.
+    /// Smallest and largest distance of the pad from the axis.
     fn reach_m(&self) -> (f64, f64) {
         let half = [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m];
         let nearest = (self.radius_m - half[0]).max(0.0);
@@ -35,7 +35,7 @@ impl Guide {
     }
 }
 
-/// Checks a pad; `key` is its JSON path.
+/// Validates a pad; `key` is its JSON path.
 pub fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
     let of = |name: &str| format!("{key}.{name}");
     let size = (0.0, SPAN.1);

@@ -1,5 +1,4 @@
-//! Membrane stress that the blade has from its making and from its use: heat, roll tension,
-//! and residual stress as measured.
+//! Membrane stress from manufacture and from operation: heat, roll tension, measured residual stress.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -74,7 +73,7 @@ pub struct RollBandFile {
 /// Validated membrane stress.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Membrane {
-    /// Heat.
+    /// Temperature rise over the radius.
     pub temperature: Option<Temperature>,
     /// Rolled bands.
     pub roll_tension: Vec<RollBand>,
@@ -87,13 +86,13 @@ pub(crate) struct Membrane {
 pub(crate) struct Temperature {
     /// Coefficient of linear thermal expansion α.
     pub expansion_per_k: f64,
-    /// The rise of largest size on the blade; at the rim for a shape.
+    /// Temperature rise of largest magnitude on the blade; for [`TemperatureShape::Rim`], that of the rim.
     pub peak_rise_k: f64,
-    /// Share of the peak over the radius.
+    /// Ratio of the rise to its peak, over the radius.
     pub shape: TemperatureShape,
 }
 
-/// Temperature over its peak.
+/// Ratio of the temperature rise to its peak.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum TemperatureShape {
     /// ((r − r₀)/(b − r₀))^p beyond r₀.
@@ -103,30 +102,30 @@ pub(crate) enum TemperatureShape {
         /// p.
         exponent: f64,
     },
-    /// As typed.
+    /// A table as typed.
     Table(Profile),
 }
 
-/// A validated band, from edge to edge.
+/// Validated rolled band, from its inner to its outer edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RollBand {
     /// Inner edge.
     pub from_radius_m: f64,
     /// Outer edge.
     pub to_radius_m: f64,
-    /// In-plane eigenstrain, the same in all directions.
+    /// In-plane eigenstrain, isotropic.
     pub eigenstrain: f64,
 }
 
-/// Hotter than any blade stays a blade.
+/// No blade survives a larger rise.
 const RISE_K: (f64, f64) = (-2e3, 2e3);
-/// What no thermometer tells from nothing.
+/// No thermometer resolves a smaller rise.
 const LEAST_RISE_K: f64 = 1e-9;
 /// Polymers expand by 2e-4.
 const EXPANSION_PER_K: (f64, f64) = (0.0, 1e-2);
-/// Rolling spreads by 1e-4 to 1e-3.
+/// Rolling produces strains of 1e-4 to 1e-3.
 const EIGENSTRAIN: (f64, f64) = (-0.05, 0.05);
-/// A steeper rise is a step, which a table draws as well.
+/// A steeper rise is nearly a step, which a table describes as well.
 const EXPONENT: (f64, f64) = (0.0, 20.0);
 impl Membrane {
     pub(super) fn new(typed: &MembraneFile, blade: &Blade) -> Result<Self, SceneError> {
@@ -175,7 +174,7 @@ impl Temperature {
         })
     }
 
-    /// Rise at a radius of a blade, in K.
+    /// Temperature rise at a radius, in K.
     pub fn rise_k(&self, blade: &Blade, radius_m: f64) -> f64 {
         match &self.shape {
             TemperatureShape::Table(profile) => self.peak_rise_k * profile.at(radius_m),
@@ -197,7 +196,7 @@ impl Temperature {
 fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape, SceneError> {
     let from_radius_m = typed.from_radius_m.unwrap_or(blade.inner_radius_m);
     let outer = blade.outer_radius_m;
-    // Closer to the rim the rise is a jump at a point.
+    // Beyond this radius the rise is nearly a jump at the rim.
     if !(0.0..=0.999 * outer).contains(&from_radius_m) {
         let allowed = format!(
             "from 0 to 0.999 of the radius of the rim ({})",
@@ -237,7 +236,7 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     let peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });
-    // Below it a division by the peak would overflow.
+    // Division by a smaller peak would overflow.
     let peak = if peak.abs() < LEAST_RISE_K { 0.0 } else { peak };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
     rows.iter_mut().for_each(|(_, rise)| *rise *= share);
@@ -313,7 +312,7 @@ mod tests {
         }
     }
 
-    /// Rows too close to tell from zero would make a shape of infinities.
+    /// Values that are nearly zero must not give an infinite shape.
     #[test]
     fn a_table_of_nothing_is_no_temperature() {
         for rise in ["0", "1e-310"] {

@@ -1,9 +1,9 @@
-//! What the user says about the saw, in two stages: [`SceneFile`] as typed,
-//! then [`Scene`], validated and in SI units and radians.
+//! The scene, which describes a saw, in two stages: [`SceneFile`] as typed, and [`Scene`], validated and in
+//! SI units and radians.
 //!
-//! In goes JSON text; out comes a [`Scene`], or a [`SceneError`] that names the key, the value, what
-//! is allowed and the remedy. The units of a key are in its name. A scene is changed by
-//! [`Scene::edited`], which validates again, so that no scene exists that is not valid.
+//! JSON text becomes a [`Scene`] or a [`SceneError`] that names the key, the value, what is allowed and the
+//! remedy. The name of a key contains its unit. [`Scene::edited`] is the only way to change a scene, and it
+//! validates again, so that every scene is valid.
 
 mod check;
 mod cut;

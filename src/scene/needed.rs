@@ -1,4 +1,4 @@
-//! What single commands need of a scene: blocks that a scene may leave out.
+//! Blocks of a scene that are optional in general but required by some commands.
 
 use super::check::MAX_RPM;
 use super::{
@@ -8,10 +8,10 @@ use super::{
 use crate::text::shown;
 
 impl Scene {
-    /// The cut, for a command that cannot do without.
+    /// The cut, for commands that require it.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene has none.
+    /// [`RefusedValue`] if the scene has no cut.
     pub fn needed_cut(&self) -> Result<&Cut, RefusedValue> {
         let allowed = "given, with the forces on the teeth";
         let remedy = "add it to the scene";
@@ -19,19 +19,19 @@ impl Scene {
             .ok_or_else(|| RefusedValue::missing("cut", allowed, remedy))
     }
 
-    /// The cut, with a force that depends on the surface left by the tooth before.
+    /// The cut, if it has a force that depends on the surface left by the preceding tooth.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene lacks one of them.
+    /// [`RefusedValue`] if the scene lacks the cut or this force.
     pub fn needed_washboarding(&self) -> Result<&Cut, RefusedValue> {
         let cut = self.needed_cut()?;
         cut.needed_washboarding().map(|_| cut)
     }
 
-    /// The run-up.
+    /// The run-up, for commands that require it.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene has none.
+    /// [`RefusedValue`] if the scene has no run-up.
     pub fn needed_runup(&self) -> Result<&RunUp, RefusedValue> {
         let allowed = "given, with its speeds, duration and force";
         let remedy = "add it to the scene";
@@ -39,10 +39,10 @@ impl Scene {
             .ok_or_else(|| RefusedValue::missing("runup", allowed, remedy))
     }
 
-    /// The frequencies measured of the saw.
+    /// The measured frequencies, for commands that require them.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene has none.
+    /// [`RefusedValue`] if the scene has none.
     pub fn needed_measured(&self) -> Result<&Measured, RefusedValue> {
         let allowed = "given, with the frequencies measured of the saw";
         let remedy = "give a table of them, or add it to the scene";
@@ -50,10 +50,10 @@ impl Scene {
         measured.ok_or_else(|| RefusedValue::missing("measured", allowed, remedy))
     }
 
-    /// The speed at which the saw is run: the one asked for, in rpm, else the scene's.
+    /// The operating speed: `asked`, in rpm, or else the scene's.
     ///
     /// # Errors
-    /// [`RefusedValue`] where there is none.
+    /// [`RefusedValue`] if there is neither.
     pub fn needed_operating_rpm(&self, asked: Option<f64>) -> Result<f64, RefusedValue> {
         let allowed = "the speed at which the saw is run";
         let remedy = "give it, or operating_rpm in the scene";
@@ -63,10 +63,10 @@ impl Scene {
 }
 
 impl Cut {
-    /// The force that depends on the surface left by the tooth before.
+    /// Force that depends on the surface left by the preceding tooth.
     ///
     /// # Errors
-    /// [`RefusedValue`] where the scene has none.
+    /// [`RefusedValue`] if the cut has none.
     pub(crate) fn needed_washboarding(&self) -> Result<&Washboarding, RefusedValue> {
         let allowed = "given, with the cutting stiffness across the blade";
         let remedy = "add it to the scene's cut";
@@ -74,7 +74,7 @@ impl Cut {
         washboarding.ok_or_else(|| RefusedValue::missing("cut.washboarding", allowed, remedy))
     }
 
-    /// The forces at the speeds asked for, in rpm; without any, those of the scene's.
+    /// The forces at the given speeds in rpm; without any, at those of the scene.
     ///
     /// # Errors
     /// [`SceneError`] where there is no speed at all, or as [`Cut::at_rpm`].
@@ -96,7 +96,7 @@ impl Cut {
 }
 
 impl From<(f64, f64)> for SpeedRange {
-    /// From the first to the last speed, in rad/s.
+    /// The range between two speeds, in rad/s.
     fn from((from_rad_per_s, to_rad_per_s): (f64, f64)) -> Self {
         SpeedRange {
             from_rad_per_s,
@@ -105,20 +105,20 @@ impl From<(f64, f64)> for SpeedRange {
     }
 }
 
-/// As a speed in rpm is told: its last digits are those of the conversion.
+/// Rounds a speed for display, without the rounding error of the conversion to rpm.
 fn told(rad_per_s: f64) -> f64 {
     (1e3 * rpm(rad_per_s)).round() / 1e3
 }
 
 impl SpeedRange {
-    /// The speed of an argument in rpm, in rad/s.
+    /// Converts an argument in rpm to rad/s.
     ///
     /// # Errors
-    /// [`RefusedValue`] where it is not within the range.
+    /// [`RefusedValue`] if the speed is outside the range.
     pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
         let speed = rad_per_s(rpm);
         let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
-        // The end of a sweep is not told from its value in rpm.
+        // Conversion from rpm must not exclude the ends of the sweep.
         if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
             return Ok(speed);
         }
@@ -132,7 +132,7 @@ impl SpeedRange {
     }
 }
 
-/// A rotation speed above zero, in rad/s, of an argument in rpm.
+/// Converts an argument in rpm, which must be positive, to rad/s.
 pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> {
     if rpm > 0.0 && rpm <= MAX_RPM {
         return Ok(rad_per_s(rpm));

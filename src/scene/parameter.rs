@@ -1,19 +1,19 @@
-//! A number of a scene by its name, to read it and to ask for a scene with another one.
+//! Access by path to a number of a scene: its value, and scenes in which it is changed.
 
 use serde_json::{Number, Value};
 
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
-/// A number of a scene by its JSON path, written as in the errors: `guides[0].radius_m`.
+/// Path of a number of a scene, as in error messages: `guides[0].radius_m`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Parameter {
     path: String,
-    /// The same as a pointer of RFC 6901: `/guides/0/radius_m`.
+    /// Its RFC 6901 pointer: `/guides/0/radius_m`.
     pointer: String,
 }
 
 impl Parameter {
-    /// The parameter of a path, whether or not a scene has it.
+    /// The parameter with this path; a scene need not have it.
     pub fn new(path: &str) -> Self {
         let steps = path
             .split(['.', '['])
@@ -29,10 +29,10 @@ impl Parameter {
         &self.path
     }
 
-    /// Its value in a scene.
+    /// The value in a scene.
     ///
     /// # Errors
-    /// [`SceneError::Value`] where the scene has no number of this name.
+    /// [`SceneError::Value`] if the scene has no number at this path.
     pub fn get(&self, scene: &SceneFile) -> Result<f64, SceneError> {
         let json = value(scene);
         let found = json.pointer(&self.pointer);
@@ -50,10 +50,10 @@ impl Parameter {
 }
 
 impl SceneFile {
-    /// The scene with other numbers.
+    /// The scene with other values of some numbers.
     ///
     /// # Errors
-    /// [`SceneError`] where the scene has no number of a name, or a value is refused.
+    /// [`SceneError`] if the scene has no number at a path, or a value is refused.
     pub fn with(&self, numbers: &[(&Parameter, f64)]) -> Result<Scene, SceneError> {
         let mut json = value(self);
         for (parameter, number) in numbers {

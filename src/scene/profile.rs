@@ -1,4 +1,4 @@
-//! A quantity over the radius, as measured: straight between its rows.
+//! A quantity tabulated over the radius, linear between the rows.
 
 /// Values at ascending radii, linear between them and constant beyond the first and the last.
 #[derive(Debug, Clone, PartialEq)]
@@ -8,13 +8,13 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// From rows (radius, value) with ascending radii; `None` without rows.
+    /// The profile through rows (radius, value) with ascending radii; `None` without rows.
     pub(super) fn new(rows: &[(f64, f64)]) -> Option<Self> {
         let (radius_m, value): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
         (!value.is_empty()).then_some(Profile { radius_m, value })
     }
 
-    /// Where it bends.
+    /// Radii at which the slope changes.
     pub fn knots_m(&self) -> &[f64] {
         &self.radius_m
     }

@@ -1,17 +1,18 @@
-//! What the numbers of a scene are, in which unit, and between which values those of saws lie.
+//! Names, units and usual ranges of the numbers of a scene.
 
 use serde::Serialize;
 
-/// A number of a scene.
+/// Name, unit and usual range of a number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Quantity {
-    /// Its JSON path, with `[]` for any place in a list.
+    /// JSON path, with `[]` for any index of a list.
     pub path: &'static str,
-    /// What it is, as an axis or a table calls it.
+    /// Name, used in axis labels and tables.
     pub name: &'static str,
-    /// Its unit as it is written; empty for a mere number.
+    /// Unit; empty for a dimensionless number.
     pub unit: &'static str,
-    /// Between which values those of all saws lie, generously. Zero is always a number of none.
+    /// Range that includes all saws in use. Zero is always accepted, because it means that the feature is
+    /// absent.
     pub usual: (f64, f64),
 }
 
@@ -30,9 +31,9 @@ const fn q(
     }
 }
 
-/// Every number that a scene may have, in the order of the schema. The bounds are those of
-/// machines that are built: from slitting saws of 50 mm to saws for stone of 4 m, from aluminium
-/// to tungsten carbide, from a felt pad to a steel one.
+/// All numbers that a scene may contain, in the order of the schema. The ranges include all machines that are
+/// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
+/// carbide, guides from felt to steel.
 #[rustfmt::skip]
 pub const QUANTITIES: [Quantity; 82] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
@@ -120,7 +121,7 @@ pub const QUANTITIES: [Quantity; 82] = [
 ];
 
 impl Quantity {
-    /// The quantity of a path as errors write it, like `guides[0].radius_m`.
+    /// The quantity of a path such as `guides[0].radius_m`.
     pub fn of(path: &str) -> Option<&'static Self> {
         let mut general = String::new();
         let mut inside = false;
@@ -134,7 +135,7 @@ impl Quantity {
         QUANTITIES.iter().find(|quantity| quantity.path == general)
     }
 
-    /// Whether a saw may have this value.
+    /// Whether a value is usual.
     pub fn is_usual(&self, value: f64) -> bool {
         value == 0.0 || (self.usual.0..=self.usual.1).contains(&value)
     }

@@ -1,40 +1,40 @@
-//! From bytes to a [`SceneFile`], with errors that point at the key.
+//! Reads a [`SceneFile`] from bytes; errors name the key.
 
 use std::path::Path;
 
 use super::{RefusedValue, Scene, SceneFile};
 use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
-/// No scene a person writes comes near this size; a file beyond it is something else.
+/// A larger file is not a scene.
 #[doc(hidden)]
 pub const MAX_SCENE_BYTES: u64 = 1 << 20;
 
-/// How the files of scenes and studies are read.
+/// Options for reading scene and study files.
 pub(crate) const SCENE_TEXT: Kind = Kind {
     limit: MAX_SCENE_BYTES,
     other_encodings: OtherEncodings::Refused,
 };
 
-/// Why a scene was refused.
+/// Reason for which a scene was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// The file gave no text.
+    /// The file could not be read as text.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Nothing but white space.
+    /// The file is empty or contains only white space.
     #[error(
         "the scene is empty; `sawflutter schema` prints what it may contain, and scenes/ has examples"
     )]
     Empty,
-    /// Not JSON, or not a scene: wrong type, unknown or missing key.
+    /// The text is not JSON or not a scene: wrong type, unknown or missing key.
     #[error("{key}: {message}")]
     Syntax {
         /// JSON path of the key.
         key: String,
-        /// What is wrong with it, with the remedy and the line.
+        /// Description of the error, with remedy and line.
         message: String,
     },
-    /// A number that no saw has.
+    /// A value is outside its range.
     #[error(transparent)]
     Value(#[from] RefusedValue),
 }

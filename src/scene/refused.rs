@@ -1,24 +1,24 @@
-//! A value that cannot be used, in the four parts that every message of one has.
+//! The four parts of a message about a value that cannot be used.
 
 use crate::text::shown;
 
-/// A value of a scene, a study or an argument that cannot be used. Its words are those of every
-/// face: the program, the page and the Python package add nothing but the name of their option.
+/// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
+/// this message and add only the name of their option.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{key} is {value}, but must be {allowed}; {remedy}")]
 pub struct RefusedValue {
     /// JSON path of the key, or name of the argument.
     pub key: String,
-    /// What was given.
+    /// The value that was given.
     pub value: String,
     /// What is allowed.
     pub allowed: String,
-    /// What to do about it.
+    /// What the user can do.
     pub remedy: &'static str,
 }
 
 impl RefusedValue {
-    /// Of a value that was given.
+    /// Refuses a given value.
     pub(crate) fn new(
         key: impl Into<String>,
         value: impl Given,
@@ -33,18 +33,18 @@ impl RefusedValue {
         }
     }
 
-    /// Of a key that has no value and needs one.
+    /// Refuses a missing value.
     pub(crate) fn missing(key: &str, allowed: &str, remedy: &'static str) -> Self {
         RefusedValue::new(key, "missing", allowed, remedy)
     }
 
-    /// Whether the key has no value at all.
+    /// Whether the value is missing.
     pub fn is_missing(&self) -> bool {
         self.value == "missing"
     }
 }
 
-/// A value as messages show it.
+/// Formats a value for a message.
 pub(crate) trait Given {
     fn in_words(&self) -> String;
 }

@@ -1,4 +1,4 @@
-//! Residual stress as measured: held against equilibrium before it is believed.
+//! Measured residual stress, and the check that it is in equilibrium.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,23 +25,22 @@ pub struct ResidualStressRow {
 pub(crate) struct ResidualStress {
     /// σ_θθ, in Pa.
     pub hoop_pa: Profile,
-    /// ∫σ_θθ dr over ∫|σ_θθ| dr as typed: the mean was taken off where both edges are free.
+    /// ∫σ_θθ dr over ∫|σ_θθ| dr as typed. If both edges are free, the mean was subtracted.
     pub imbalance: f64,
 }
 
-/// Steel breaks at 3e9.
+/// Steel breaks at 3e9 Pa.
 const STRESS_PA: (f64, f64) = (-1e11, 1e11);
-/// Largest imbalance that is taken for the error of a measurement.
+/// A larger imbalance is not a measurement error and is refused.
 const MAX_IMBALANCE: f64 = 0.05;
-/// The same between a measured radial stress and the one that follows from the hoop stress,
-/// over the largest stress of the table.
+/// Largest difference between the measured radial stress and the one that follows from the hoop stress,
+/// relative to the largest stress of the table.
 const MAX_CONTRADICTION: f64 = 0.1;
 
 impl ResidualStress {
-    /// The hoop stress is taken as the truth: the radial stress is its integral from the free
-    /// rim, r σ_rr = −∫_r^b σ_θθ dr, whereas the hoop stress would be a derivative of the
-    /// radial one, which no measurement bears. A free bore wants ∫ σ_θθ dr = 0; at a collar
-    /// the blade goes on inwards and takes what is left.
+    /// The hoop stress is used: the radial stress is its integral from the free rim, r σ_rr = −∫_r^b σ_θθ dr,
+    /// whereas a derivative of measured radial stress would be too inaccurate. A free bore requires ∫ σ_θθ dr
+    /// = 0; at a collar, the blade inside it carries the remainder.
     pub(super) fn new(
         rows: &[ResidualStressRow],
         blade: &Blade,
@@ -140,7 +139,7 @@ fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
     if blade.profile.is_none() {
         return hoop_pa.integral(from, to);
     }
-    // Both are straight between these: two Gauss points are exact.
+    // Both functions are linear between these radii, so two Gauss points are exact.
     let mut ends = [blade.edges_m(), hoop_pa.knots_m().to_vec()].concat();
     ends.retain(|r| from < *r && *r < to);
     ends.extend([from, to]);
@@ -157,7 +156,7 @@ fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
     pieces.sum()
 }
 
-/// The same of a stress of one everywhere.
+/// As [`force`], of a unit stress.
 fn even_force(blade: &Blade) -> f64 {
     match Profile::new(&[(blade.outer_radius_m, 1.0)]).filter(|_| blade.profile.is_some()) {
         Some(one) => force(&one, blade, blade.inner_radius_m),

@@ -1,4 +1,4 @@
-//! The run-up, and where its deflection is read.
+//! The run-up, and the probe at which its deflection is read.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,15 +48,15 @@ pub struct ProbeFile {
 /// A validated run-up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunUp {
-    /// Speeds.
+    /// Range of speeds.
     pub speeds: SpeedRange,
-    /// Time it takes.
+    /// Duration.
     pub duration_s: f64,
     /// Lateral force at the rim.
     pub force_n: f64,
     /// Angle of the force.
     pub angle_rad: f64,
-    /// Whether the blade stretches.
+    /// Whether the model includes stretching of the middle surface.
     pub stretching: bool,
 }
 

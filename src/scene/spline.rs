@@ -1,4 +1,4 @@
-//! The splined bore: what its teeth are like and how they touch the arbor's.
+//! The splined bore: its teeth and their contact with the arbor.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,25 +50,25 @@ fn papers_clearance_m() -> f64 {
 pub(crate) struct Spline {
     /// Number of spline teeth.
     pub teeth: usize,
-    /// Angle of a flank to the radius through it.
+    /// Angle between a flank and the radius through it.
     pub pressure_angle_rad: f64,
     /// K of the contact force K x^{3/2}.
     pub contact_stiffness_n_per_m_3_2: f64,
     /// C of the contact force C ẋ^{3/2}.
     pub contact_damping_n_s_3_2_per_m_3_2: f64,
-    /// Gap at every flank of the centred blade.
+    /// Gap at every flank while the blade is centred.
     pub clearance_m: f64,
-    /// Where the flanks touch.
+    /// Radius of the contact.
     pub pitch_radius_m: f64,
     /// Direction of the weight, if it acts in the plane of the blade.
     pub weight_angle_rad: Option<f64>,
 }
 
-/// Teeth are simulated one by one; no spline has more.
+/// Teeth are simulated individually; no spline has more.
 const MAX_TEETH: u32 = 200;
-/// Beyond it a flank is rather a stop in the radius than a tooth that drives.
+/// A flank with a larger angle acts as a radial stop and does not drive.
 const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
-/// A contact stiffer or more viscous than this is rigid to all digits of a double.
+/// In double precision a contact with a larger coefficient is rigid.
 const MAX_CONTACT: f64 = 1e18;
 
 impl Spline {
@@ -118,7 +118,7 @@ impl Spline {
                 typed.contact_damping_n_s_3_2_per_m_3_2,
                 (0.0, MAX_CONTACT),
             )?,
-            // A gap wider than the bore's radius would let the arbor fall out of it.
+            // With a gap wider than the bore radius the blade would fall off the arbor.
             clearance_m: within("spline.clearance_m", typed.clearance_m, (0.0, bore))?,
             pitch_radius_m: within(
                 "spline.pitch_radius_m",

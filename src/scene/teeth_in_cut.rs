@@ -1,18 +1,18 @@
-//! Where the teeth in the cut are.
+//! Positions of the teeth in the cut.
 
-/// The teeth in the cut at a time, one pitch apart around its middle.
+/// The teeth that cut at the same time, one pitch apart, symmetric about the middle of the cut.
 #[derive(Debug, Clone, Copy)]
 pub struct TeethInCut {
     /// Angle of the middle of the cut.
     pub angle_rad: f64,
-    /// How many.
+    /// Number of teeth.
     pub count: u32,
-    /// Angle from tooth to tooth.
+    /// Angle between successive teeth.
     pub pitch_rad: f64,
 }
 
 impl TeethInCut {
-    /// Arc of the rim that they take.
+    /// Angle that the teeth span, one pitch for each.
     pub fn arc_rad(&self) -> f64 {
         f64::from(self.count) * self.pitch_rad
     }

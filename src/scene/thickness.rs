@@ -30,17 +30,17 @@ pub struct RimFile {
     pub radius_m: Option<f64>,
 }
 
-/// Rows of a profile: each adds functions to the basis.
+/// Largest number of rows of a profile; each row adds basis functions.
 const MAX_ROWS: usize = 8;
 /// A step to a tenth leaves a thousandth of the bending stiffness.
 const RATIOS: (f64, f64) = (0.1, 10.0);
-/// Teeth of more blades' mass leave nothing of the blade to compute with.
+/// With heavier teeth the blade itself no longer influences the result.
 const MOST_BLADES: f64 = 10.0;
-/// Heavier than any saw.
+/// No tooth is heavier.
 const MAX_TOOTH_KG: f64 = 1e3;
 
-/// Validated thickness: that of the hub up to the first row, straight between the rows, constant
-/// beyond the last. Two rows of one radius make a step, and so does a first row unlike the hub.
+/// Validated thickness: that of the hub up to the first row, linear between the rows, constant beyond the
+/// last. Two rows at one radius are a step, and so is a first row whose thickness is not that of the hub.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ThicknessProfile {
     hub_m: f64,
@@ -52,14 +52,14 @@ pub(crate) struct ThicknessProfile {
 /// Validated mass on a circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RimMass {
-    /// Of all teeth together.
+    /// Mass of all teeth together.
     pub mass_kg: f64,
     /// Distance from the axis.
     pub radius_m: f64,
 }
 
 impl ThicknessProfile {
-    /// `None` without rows. `blade` is the blade of uniform thickness.
+    /// Validates a profile; `None` without rows. `blade` is the blade of uniform thickness.
     pub(super) fn new(rows: &[ThicknessRow], blade: &Blade) -> Result<Option<Self>, SceneError> {
         let key = "blade.profile";
         if rows.is_empty() {
@@ -89,7 +89,7 @@ impl ThicknessProfile {
         &self.rows[..self.count]
     }
 
-    /// Thickness at a radius; at a step that of its inner side.
+    /// Thickness at a radius; at a step, that of the inner side.
     pub fn at_m(&self, radius_m: f64) -> f64 {
         self.between(
             self.rows().partition_point(|(r, _)| *r < radius_m),
@@ -97,7 +97,7 @@ impl ThicknessProfile {
         )
     }
 
-    /// Thickness just outside a radius.
+    /// Thickness at a radius; at a step, that of the outer side.
     fn outside_m(&self, radius_m: f64) -> f64 {
         self.between(
             self.rows().partition_point(|(r, _)| *r <= radius_m),
@@ -118,7 +118,7 @@ impl ThicknessProfile {
         }
     }
 
-    /// Radii at which it is not smooth, ascending.
+    /// Radii at which the thickness is not smooth, ascending.
     fn knots_m(&self) -> Vec<f64> {
         let mut knots: Vec<f64> = self.rows().iter().map(|(radius, _)| *radius).collect();
         knots.dedup();
@@ -166,7 +166,7 @@ fn check_thickness(key: &str, thickness_m: f64, blade: &Blade) -> Result<(), Sce
 }
 
 impl RimMass {
-    /// `None` where there is no mass.
+    /// Validates the mass of the teeth; `None` if there is none.
     pub(super) fn new(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
         let Some(typed) = file.blade.rim else {
             return Ok(None);
@@ -206,7 +206,7 @@ impl RimMass {
 }
 
 impl BladeFile {
-    /// Least and largest thickness as typed.
+    /// Smallest and largest thickness as typed.
     pub fn thickness_range_m(&self) -> (f64, f64) {
         let rows = self.profile.iter().map(|row| row.thickness_m);
         rows.fold((self.thickness_m, self.thickness_m), |(low, high), own| {
@@ -216,13 +216,13 @@ impl BladeFile {
 }
 
 impl Blade {
-    /// Thickness at a radius; at a step that of its inner side.
+    /// Thickness at a radius; at a step, that of the inner side.
     pub fn thickness_at_m(&self, radius_m: f64) -> f64 {
         self.profile
             .map_or(self.thickness_m, |profile| profile.at_m(radius_m))
     }
 
-    /// Thickness over [`Blade::thickness_m`].
+    /// Ratio of the thickness to [`Blade::thickness_m`].
     pub fn thickness_ratio(&self, radius_m: f64) -> f64 {
         self.profile
             .map_or(1.0, |profile| profile.at_m(radius_m) / self.thickness_m)
@@ -235,7 +235,7 @@ impl Blade {
         })
     }
 
-    /// Whether mass and stiffness are those of a plate of one thickness.
+    /// Whether the blade has uniform thickness and no mass at the rim.
     pub fn is_plain(&self) -> bool {
         self.profile.is_none() && self.rim.is_none()
     }
@@ -248,8 +248,7 @@ impl Blade {
         knots
     }
 
-    /// The edges of the moving ring and, ascending between them, the radii at which its thickness or
-    /// its load jumps.
+    /// The edges of the moving ring and the radii between them at which thickness or load jumps, ascending.
     pub fn edges_m(&self) -> Vec<f64> {
         let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
         let teeth = self.rim.map(|rim| rim.radius_m).filter(|r| *r < outer);
@@ -260,7 +259,7 @@ impl Blade {
         edges
     }
 
-    /// Least and largest thickness of the moving ring.
+    /// Smallest and largest thickness of the moving ring.
     pub fn thickness_range_m(&self) -> (f64, f64) {
         let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
         let mut range = (self.thickness_at_bore_m(), self.thickness_at_bore_m());
@@ -288,8 +287,8 @@ impl Blade {
     /// ∫ r^p dm of the plate, p = 0 or 2: three Gauss points are exact between edges.
     fn mass_moment(&self, power: i32) -> f64 {
         if self.profile.is_none() {
-            // An annulus in closed form: a blade of one thickness gives the same digits whether or
-            // not it could have a profile.
+            // A closed form, so that a blade of uniform thickness gives the same digits with and without a
+            // profile.
             let (a, b) = (self.inner_radius_m, self.outer_radius_m);
             let mass = self.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a);
             return if power == 0 {

@@ -1,7 +1,7 @@
-//! Numbers of a scene that no saw has, and the unit that they seem to be in.
+//! Finds numbers of a scene that no saw has, and the unit that they seem to be in.
 //!
-//! In goes a scene as typed; out come sentences that name the key, its value, what saws have, and
-//! the remedy. Such a number is possible: it is computed, but told before any verdict.
+//! Each message names the key, its value, the usual range and the remedy. Such numbers are possible and are
+//! computed, but the message precedes every verdict.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,7 +11,7 @@ use super::SceneFile;
 use super::quantity::Quantity;
 use crate::text::{shown, shown_to};
 
-/// What people write instead, and what one of it is in the unit of the quantity.
+/// Units that are used by mistake, each with its value in the unit of the quantity.
 const MISTAKEN: [(&str, &str, f64); 15] = [
     ("m", "mm", 1e-3),
     ("m", "cm", 1e-2),
@@ -31,17 +31,17 @@ const MISTAKEN: [(&str, &str, f64); 15] = [
 ];
 const RADIANS: &str = "radians";
 
-/// Speeds of the rim of saws that run: from steel cut dry by carbide to far past what blades for
-/// wood are allowed. Slower cold saws exist; what they do is no matter of critical speeds.
+/// Rim speeds of running saws: from dry cutting of steel by carbide to far above the limit of wood saws.
+/// Slower cold saws exist, but critical speeds do not limit them.
 const RIM_M_PER_S: (f64, f64) = (2.0, 300.0);
-/// The speed of the rim of most saws for wood and stone.
+/// Rim speed of most saws for wood and stone.
 const TYPICAL_RIM_M_PER_S: f64 = 60.0;
-/// Speeds at which the saw runs.
+/// Speeds at which a saw runs.
 const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
-/// Speeds up to which it is looked at.
+/// Largest speeds of an analysis.
 const ENDS: [&str; 3] = ["sweep.to_rpm", "runup.to_rpm", "measured.rows[].rpm"];
 
-/// Angles that may have any value, so that no range tells radians.
+/// Angles whose range includes every value, so that it does not reveal radians.
 const ANGLES: [&str; 5] = [
     "guides[].angle_deg",
     "cut.angle_deg",
@@ -49,21 +49,21 @@ const ANGLES: [&str; 5] = [
     "runup.angle_deg",
     "spline.weight_angle_deg",
 ];
-/// Angles are set in steps like this.
+/// Usual step between angles.
 const ANGLE_STEP_DEG: f64 = 5.0;
-/// Fewer decimals of a number in radians tell nothing.
+/// A number in radians with fewer decimals may be a round one by chance.
 const LEAST_DECIMALS: usize = 2;
-/// Whoever types degrees types multiples of this.
+/// Angles typed in degrees are multiples of this.
 const TYPED_DEG: f64 = 0.25;
-/// Guides at as many angles are not all within a few degrees of the same place.
+/// From this number of guides on, angles that all lie within a few degrees are suspicious.
 const MANY_ANGLES: usize = 3;
 
-/// Where the numbers of saws lie.
+/// Usual range of a quantity.
 struct Usual {
     from: f64,
     to: f64,
     typical: f64,
-    /// The same in words.
+    /// The range as text.
     words: String,
 }
 
@@ -74,13 +74,13 @@ struct Unusual {
     unit: &'static str,
     /// Why it is unusual.
     why: String,
-    /// Another unit that it may be in, and what that would be in its own.
+    /// Another unit that the number may be in, and its value when converted from it.
     meant: Option<(&'static str, f64)>,
 }
 
 impl SceneFile {
-    /// What to say of the numbers that no saw has: a sentence each, and one for all that look like
-    /// the same other unit.
+    /// The messages: one for each number that no saw has, and a single one for those that seem to be in the
+    /// same unit.
     pub fn unusual_numbers(&self) -> Vec<String> {
         let mut alike: Vec<Vec<Unusual>> = Vec::new();
         for one in out_of_range(self).into_iter().chain(in_radians(self)) {
@@ -95,7 +95,7 @@ impl SceneFile {
     }
 }
 
-/// What to say of a speed that is no number of the scene, called `label`, of the quantity of a path.
+/// The message for a speed that is not part of the scene; `label` is its name, `path` that of its quantity.
 pub fn unusual_number(scene: &SceneFile, label: &str, path: &str, value: f64) -> Option<String> {
     let usual = Usual::of(scene, Quantity::of(path)?);
     Some(
@@ -110,7 +110,7 @@ fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
     let largest_rpm = rows.map(|row| row.rpm).fold(0.0, f64::max);
     let judged = |(path, value): (String, f64)| {
         let quantity = Quantity::of(&path)?;
-        // Slower measurements than the last one are as usual as rest is.
+        // A measurement at a lower speed than the last is as usual as one at rest.
         let is_slower = quantity.path == "measured.rows[].rpm" && value < largest_rpm;
         let usual = Usual::of(scene, quantity);
         (!is_slower).then(|| usual.judged(&path, value, quantity.unit))?
@@ -119,7 +119,7 @@ fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
 }
 
 impl Usual {
-    /// What a quantity is in saws like that of a scene.
+    /// The usual range of a quantity for a saw of this size.
     fn of(scene: &SceneFile, quantity: &Quantity) -> Self {
         let (from, to) = quantity.usual;
         let (is_run, is_end) = (RUNS.contains(&quantity.path), ENDS.contains(&quantity.path));
@@ -164,8 +164,8 @@ impl Usual {
         })
     }
 
-    /// The other unit that makes a usual number of an unusual one, and that number: the one that is
-    /// nearest to what is typical.
+    /// The unit from which a conversion makes the number usual, with the converted value: the one nearest to
+    /// typical values.
     fn meant(&self, value: f64, unit: &str) -> Option<(&'static str, f64)> {
         let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == unit);
         let meant = of_unit.map(|(_, other, factor)| (*other, value * factor));
@@ -200,12 +200,12 @@ impl Unusual {
         } else {
             " "
         };
-        // Conversions bring digits that mean nothing.
+        // Digits that result from the conversion alone are dropped.
         format!("{}{space}{}", shown_to(7, value), self.unit)
     }
 }
 
-/// One sentence of numbers that look like the same other unit.
+/// One message for numbers that seem to be in the same unit.
 fn together(group: &[Unusual]) -> String {
     if let [one] = group {
         return one.sentence();
@@ -223,7 +223,7 @@ fn together(group: &[Unusual]) -> String {
     format!("these numbers look like {unit}: {}", each.join(", "))
 }
 
-/// Angles that are round numbers of degrees once they are taken for radians.
+/// Angles that are round numbers of degrees when read as radians.
 fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
     let typed = numbers(scene);
     let of_path = |general: &str| -> Vec<(String, f64)> {
@@ -244,8 +244,8 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
     suspect.flatten().map(unusual).collect()
 }
 
-/// Whether angles of one kind are radians: within one turn, none of them a number of degrees that
-/// people type, and one a round number of degrees when it is converted, or many different ones.
+/// Whether angles of one kind are in radians: they lie within one turn, none is a usual number of degrees,
+/// and one is a round number of degrees when converted, or there are many different ones.
 fn seem_radians(angles: &[(String, f64)]) -> bool {
     let is_within = |value: f64| value.abs() <= TAU + 0.01;
     let is_typed = |value: f64| (value / TYPED_DEG).fract() == 0.0;
@@ -259,7 +259,7 @@ fn seem_radians(angles: &[(String, f64)]) -> bool {
         && (is_many || distinct.iter().any(|value| is_round_in_radians(*value)))
 }
 
-/// Whether a number is a round one of degrees in radians, to the decimals that it has.
+/// Whether a number, to its decimals, is a round number of degrees in radians.
 fn is_round_in_radians(value: f64) -> bool {
     let text = value.to_string();
     let decimals = text
@@ -278,7 +278,7 @@ fn numbers(scene: &SceneFile) -> Vec<(String, f64)> {
     found
 }
 
-/// Every number below a value, with its path.
+/// Every number below a JSON value, with its path.
 fn leaves(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
     match value {
         Value::Number(number) => found.extend(number.as_f64().map(|value| (path, value))),

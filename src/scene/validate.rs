@@ -1,5 +1,4 @@
-//! From a [`SceneFile`] to a [`Scene`]: every number checked, in SI units
-//! and radians, ready to compute with.
+//! Validates a [`SceneFile`]: the [`Scene`] that results is in SI units and radians.
 
 use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
 use super::cut::Cut;
@@ -14,7 +13,7 @@ use super::{
 };
 use crate::text::shown;
 
-/// A chart that is off by more than a tenth says nothing, and no basis reaches 1e-8.
+/// A diagram with errors above a tenth is of no use, and no basis reaches 1e-8.
 const TOLERANCES: (f64, f64) = (1e-7, 0.1);
 
 impl TryFrom<SceneFile> for Scene {

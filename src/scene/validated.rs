@@ -1,12 +1,12 @@
-//! A [`Scene`]: a saw whose numbers have all been checked, in SI units and radians.
+//! A [`Scene`]: a validated saw, in SI units and radians.
 
 use super::{
     Accuracy, Cut, ExcitationLine, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp,
     SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
 };
 
-/// A validated saw. It holds the scene as typed and the numbers made from it, which is why it
-/// cannot be changed: [`Scene::edited`] makes another one.
+/// A validated saw. It holds the scene as typed and the numbers derived from it and therefore cannot be
+/// changed; [`Scene::edited`] makes another one.
 ///
 /// ```compile_fail
 /// let mut saw = sawflutter::scene::Scene::paper();
@@ -37,15 +37,15 @@ pub struct Blade {
     pub inner_radius_m: f64,
     /// Outer radius b.
     pub outer_radius_m: f64,
-    /// Thickness h; with a profile that of the hub, to which mass and stiffness are referred.
+    /// Thickness h; for a profile, the hub's thickness, to which mass and stiffness are referred.
     pub thickness_m: f64,
-    /// Thickness over the radius, where it is not the same everywhere.
+    /// Thickness over the radius if it is not uniform.
     pub(crate) profile: Option<ThicknessProfile>,
     /// Mass of teeth and tips.
     pub(crate) rim: Option<RimMass>,
     /// Material.
     pub material: Material,
-    /// What happens at r = a.
+    /// Boundary condition at r = a.
     pub bore: Bore,
 }
 
@@ -54,7 +54,7 @@ pub struct Blade {
 pub enum Bore {
     /// Spline: free in bending and in plane.
     Free,
-    /// Collar: clamped in bending, in plane as stated.
+    /// Collar: clamped in bending; the condition in plane is that of the scene.
     Clamped(InPlane),
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct Damping {
     pub material_retardation_time_s: f64,
     /// Air resistance per area, in the frame of the air.
     pub air_n_s_per_m3: f64,
-    /// Speed at which the air turns, over that of the blade.
+    /// Ratio of the rotation speed of the air to that of the blade.
     pub air_rotation_share: f64,
 }
 
@@ -79,7 +79,7 @@ pub struct SpeedRange {
 }
 
 impl Scene {
-    /// The same saw with changes to what the user typed, validated again.
+    /// The saw with changes to the scene as typed, validated again.
     ///
     /// ```
     /// use sawflutter::scene::Scene;
@@ -98,7 +98,7 @@ impl Scene {
         Scene::try_from(file)
     }
 
-    /// The same saw, looked at over other speeds.
+    /// The saw with another range of speeds.
     ///
     /// # Errors
     /// [`SceneError`] where no sweep may have this range.
@@ -111,40 +111,40 @@ impl Scene {
         })
     }
 
-    /// The same saw without the forces of the cut on its chart.
+    /// The saw with a Campbell diagram that excludes the forces of the cut.
     ///
     /// # Errors
-    /// None that this scene has not had: it is validated again.
+    /// Those of [`Scene::edited`]; a valid scene raises none.
     pub fn idling(&self) -> Result<Scene, SceneError> {
         self.edited(|file| file.cut.iter_mut().for_each(|cut| cut.chart_rpm = None))
     }
 
-    /// What the user typed.
+    /// The scene as typed.
     pub fn file(&self) -> &SceneFile {
         &self.file
     }
 
-    /// The part of the blade that moves.
+    /// The moving part of the blade.
     pub fn blade(&self) -> &Blade {
         &self.blade
     }
 
-    /// Guide pads with a stiffness or a damping.
+    /// Guide pads that have stiffness or damping.
     pub(crate) fn guides(&self) -> &[Guide] {
         &self.guides
     }
 
-    /// Damping, if any number of it is not zero.
+    /// Damping, if any coefficient is not zero.
     pub(crate) fn damping(&self) -> Option<Damping> {
         self.damping
     }
 
-    /// Membrane stress from heat, roll tension or as measured.
+    /// Membrane stress from heat, roll tension or measurement.
     pub(crate) fn membrane(&self) -> Option<&Membrane> {
         self.membrane.as_ref()
     }
 
-    /// Contact between bore and arbor, if its motion is asked for.
+    /// Contact between bore and arbor, if its motion is to be simulated.
     pub(crate) fn spline(&self) -> Option<&Spline> {
         self.spline.as_ref()
     }
@@ -154,27 +154,28 @@ impl Scene {
         &self.excitation
     }
 
-    /// Speeds asked for; `None` leaves the choice to the program.
+    /// Range of speeds as given; `None` if the program chooses it.
     pub fn sweep(&self) -> Option<SpeedRange> {
         self.sweep
     }
 
-    /// Speed at which the saw is run.
+    /// Operating speed.
     pub fn operating_rad_per_s(&self) -> Option<f64> {
         self.operating_rad_per_s
     }
 
-    /// Speed for accuracy, by its name.
+    /// Name of the accuracy.
     pub fn accuracy(&self) -> Accuracy {
         self.file.accuracy
     }
 
-    /// Relative error allowed of critical speeds and onsets: that given, or that of the name.
+    /// Tolerance, the relative error allowed for critical speeds and onsets: as given, or that of the
+    /// accuracy.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Growth rate from which a band counts as flutter of the saw.
+    /// Growth rate from which on a band counts as flutter.
     pub fn flutter_threshold_per_s(&self) -> f64 {
         self.flutter_threshold_per_s
     }
@@ -189,7 +190,7 @@ impl Scene {
         self.runup.as_ref()
     }
 
-    /// Where the deflection is read.
+    /// Position at which the deflection is read.
     pub(crate) fn probe(&self) -> &Probe {
         &self.probe
     }

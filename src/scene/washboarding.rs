@@ -1,4 +1,4 @@
-//! Washboarding: the lateral force on a tooth that cuts the surface which the one before has left.
+//! Washboarding: the lateral force on a tooth that cuts the surface left by the preceding tooth.
 
 use std::f64::consts::TAU;
 
@@ -39,23 +39,23 @@ fn full_overlap() -> f64 {
 pub(crate) struct Washboarding {
     /// Lateral cutting stiffness k of all teeth in the cut together.
     pub stiffness_n_per_m: f64,
-    /// μ.
+    /// Overlap μ.
     pub overlap: f64,
-    /// Angles from tooth to tooth that repeat around the blade; a single one of even teeth.
+    /// Angles between successive teeth, repeated around the blade; a single value for even teeth.
     pub pitches_rad: Vec<f64>,
     /// Number of all teeth.
     pub teeth: u32,
     /// Angle of the middle of the arc.
     pub angle_rad: f64,
-    /// The arc.
+    /// Angle that the arc spans.
     pub arc_rad: f64,
 }
 
-/// Stiffer than any wood, and than any blade to the side.
+/// No wood and no blade is laterally stiffer.
 pub(crate) const MAX_CUTTING_STIFFNESS: f64 = 1e9;
-/// How far the pitches may miss a whole turn: what people round to.
+/// Allowed difference between the sum of the pitches and a whole turn, for rounded input.
 const ROUNDED_DEG: f64 = 0.05;
-/// Teeth nearer than this share of the mean pitch are one.
+/// Teeth closer than this share of the mean pitch act as one.
 const LEAST_PITCH: f64 = 0.05;
 
 impl Washboarding {
@@ -87,14 +87,14 @@ impl Washboarding {
         })
     }
 
-    /// The delays τ at a speed, in s: a place of the wood is cut by each tooth once a turn, so that
-    /// each counts as much as every other.
+    /// The delays τ at a speed, in s. Each tooth cuts a given place of the wood once a turn, so all delays
+    /// have equal weight.
     pub fn delays_s(&self, speed_rad_per_s: f64) -> Vec<f64> {
         let of = |pitch: &f64| pitch / speed_rad_per_s;
         self.pitches_rad.iter().map(of).collect()
     }
 
-    /// Teeth that pass in a second, times 2π.
+    /// Tooth passing frequency times 2π.
     pub fn tooth_passing_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
         f64::from(self.teeth) * speed_rad_per_s
     }
@@ -104,7 +104,7 @@ impl Washboarding {
         self.pitches_rad.len() == 1
     }
 
-    /// A spring of 1 N/m on the arc of the rim, as the undelayed force is one of k.
+    /// A spring of 1 N/m on the arc of the rim; the undelayed force is k times that of this spring.
     pub fn unit_spring(&self) -> Wood {
         Wood {
             angle_rad: self.angle_rad,
@@ -116,7 +116,7 @@ impl Washboarding {
     }
 }
 
-/// One pitch of even teeth; else those given, made to fill the turn exactly.
+/// The pitch of even teeth, or the given pitches, scaled to a whole turn.
 fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneError> {
     let mean_deg = 360.0 / f64::from(teeth);
     if typed.is_empty() {
@@ -168,7 +168,7 @@ mod tests {
         cut.map(|cut| cut.washboarding.expect("washboarding"))
     }
 
-    /// 42 teeth, four of them in the cut, at 100 rad/s.
+    /// The saw has 42 teeth, four of them in the cut, and turns at 100 rad/s.
     #[test]
     fn teeth_give_the_arc_and_the_delays() {
         let even = with(|_| ()).unwrap();
@@ -176,7 +176,7 @@ mod tests {
         assert!((even.arc_rad - 4.0 * TAU / 42.0).abs() < 1e-12);
         let delays = even.delays_s(100.0);
         assert!(delays.len() == 1 && (delays[0] - TAU / 4200.0).abs() < 1e-12);
-        // 8 + 10 degrees are 5 % more than two of 42 pitches, 8.07 + 9.07 are rounded.
+        // 8° + 10° exceed two of 42 pitches by 5 %; 8.07° + 9.07° differ by rounding only.
         assert!(with(|w| w.pitches_deg = vec![8.0, 10.0]).is_err());
         let uneven = with(|w| w.pitches_deg = vec![8.07, 9.07]).unwrap();
         let turn = 21.0 * uneven.pitches_rad.iter().sum::<f64>();

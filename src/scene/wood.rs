@@ -1,4 +1,4 @@
-//! The wood that leans against the blade in the kerf.
+//! The wood that touches the blade in the kerf.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,11 +30,11 @@ pub struct WoodFile {
 /// Validated wood in the kerf.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wood {
-    /// Angle of its middle.
+    /// Angle of the middle of the contact.
     pub angle_rad: f64,
-    /// Its arc.
+    /// Angle that the contact spans.
     pub arc_rad: f64,
-    /// From the rim towards the axis; zero for an arc of the rim.
+    /// Extent from the rim towards the axis; zero for contact along the rim only.
     pub depth_m: f64,
     /// Stiffness of the whole contact.
     pub stiffness_n_per_m: f64,
@@ -43,7 +43,7 @@ pub(crate) struct Wood {
 }
 
 impl Wood {
-    /// `None` without stiffness and damping.
+    /// Validates the contact; `None` without stiffness and damping.
     pub(super) fn new(
         typed: &WoodFile,
         teeth: &TeethInCut,

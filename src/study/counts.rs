@@ -1,4 +1,4 @@
-//! Counts of saws that belong together: all of a study, or those of a point of its grid.
+//! Counts and statistics of a group of saws: all of a study, or those of one point of its grid.
 
 use std::io;
 use std::path::Path;
@@ -10,14 +10,14 @@ use super::saw::{Outcome, Saw};
 use super::statistics::interval;
 use crate::scene::rpm;
 
-/// Most bars of a histogram that can be told apart.
+/// More bars of a histogram cannot be distinguished.
 const MOST_BARS: usize = 40;
 
-/// Saws that belong together.
+/// A group of saws.
 pub(super) struct Counts<'a> {
     study: &'a Study,
     grid: Vec<GridEntry>,
-    /// How many there are.
+    /// Number of saws.
     pub saws: usize,
     refused: usize,
     failed: usize,
@@ -28,7 +28,8 @@ pub(super) struct Counts<'a> {
 }
 
 impl<'a> Counts<'a> {
-    /// None yet, of this place in the grid (all of it where that is empty); `folder` takes what does not fit into memory.
+    /// An empty group for a point of the grid; without `grid`, for all saws. Values that do not fit into
+    /// memory are written to `folder`.
     pub fn new(study: &'a Study, grid: Vec<GridEntry>, folder: &Path) -> Self {
         Counts {
             study,
@@ -73,12 +74,12 @@ impl<'a> Counts<'a> {
         Ok(())
     }
 
-    /// How many were analysed.
+    /// Number of saws that were analysed.
     pub fn analysed(&self) -> usize {
         self.saws - self.refused - self.failed
     }
 
-    /// What there is to say of them.
+    /// The statistics of the group.
     pub fn report(mut self) -> io::Result<Group> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
         let passing = self.study.limits().map(|_| self.passing());
@@ -96,8 +97,7 @@ impl<'a> Counts<'a> {
     fn passing(&self) -> Passing {
         let (study, saws) = (self.study, self.saws);
         let confidence = study.file().confidence;
-        // In several points of the grid the deviations are the same, so that saws are not
-        // independent.
+        // Different points of the grid have the same deviations, so their saws are not independent.
         let is_drawn = study.file().saws.is_some() && saws == study.drawn();
         let criteria = study.criteria_of_nothing().into_iter().zip(&self.kept);
         Passing {
@@ -133,8 +133,7 @@ fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Spe
     })
 }
 
-/// Twice the cube root of the number of saws makes the bars (Rice's rule): their heights
-/// scatter as little as their number allows.
+/// The number of bars is twice the cube root of the number of saws (Rice's rule).
 fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
     let Some((from, to)) = values.range() else {
         return Ok(None);
@@ -143,7 +142,7 @@ fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
     let bars = bars.clamp(1, MOST_BARS);
     let mut counts = vec![0; bars];
     values.each(&mut |rpm| {
-        // A range without length is one bar.
+        // A range of zero length has one bar.
         let share = if to > from {
             (rpm - from) / (to - from)
         } else {

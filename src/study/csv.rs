@@ -1,4 +1,4 @@
-//! `study.csv`, one row a saw; the rows of the log are the same.
+//! `study.csv`, with one row for each saw; the log has the same rows.
 
 use std::io::{self, Write};
 
@@ -6,10 +6,10 @@ use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
 use super::table::Table;
 
-/// Names of the outcomes in the column `status`.
+/// Values of the column `status`.
 pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
 
-/// The saws as comma-separated values.
+/// A table of saws as comma-separated values.
 #[derive(Debug)]
 pub struct CsvTable<'a, W: Write> {
     study: &'a Study,
@@ -20,7 +20,7 @@ impl<'a, W: Write> CsvTable<'a, W> {
     /// A table without saws.
     ///
     /// # Errors
-    /// What writing the names of the columns raises.
+    /// The error of writing the column names.
     pub fn new(study: &'a Study, out: W) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(columns(study))?;
@@ -68,7 +68,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         .collect()
 }
 
-/// The cells of a saw. Numbers are written with the digits that give the same bits again.
+/// The cells of a saw. Numbers have as many digits as reading the same bits back requires.
 pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     let mut cells = vec![saw.index.to_string()];
     cells.extend(saw.values.iter().map(f64::to_string));
@@ -93,7 +93,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     cells
 }
 
-/// The saw of a row; `None` where it is none of this study's.
+/// The saw of a row; `None` if the row does not belong to this study.
 pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Option<Saw> {
     let index: usize = cells.next()?.parse().ok()?;
     let mut values = Vec::new();

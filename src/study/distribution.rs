@@ -1,4 +1,4 @@
-//! From an even number between 0 and 1 to a value of a distribution.
+//! Distributions: from a uniform number between 0 and 1 to a value.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -6,25 +6,26 @@ use super::file::{DistributionFile, StudyError};
 use crate::scene::RefusedValue;
 use crate::text::shown;
 
-/// Beyond these a normal distribution is a uniform one, or none that is cut off.
+/// A narrower truncation makes a normal distribution nearly uniform; a wider one has no effect.
 const TRUNCATION: (f64, f64) = (0.1, 8.0);
-/// More values than anybody lists.
+/// Largest number of listed values.
 const MAX_VALUES: usize = 10_000;
 
-/// A distribution about a known value.
+/// A distribution whose nominal value is known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Distribution {
-    /// Evenly from a value to another.
+    /// Uniform between two values.
     Uniform(f64, f64),
-    /// Mean, standard deviation, share of the uncut distribution below the lower cut.
+    /// Truncated normal: mean, standard deviation, share of the untruncated distribution below the lower
+    /// limit.
     Normal(f64, f64, f64),
-    /// Each of these.
+    /// Every value of a list.
     Grid(Vec<f64>),
 }
 
 impl Distribution {
-    /// Validates a distribution of a number whose value in the scene is `nominal`; `key` is the
-    /// place of the distribution in the study.
+    /// Validates the distribution of a number whose value in the scene is `nominal`; `key` is the path of the
+    /// distribution in the study.
     pub fn new(file: &DistributionFile, nominal: f64, key: &str) -> Result<Self, StudyError> {
         match file {
             DistributionFile::Tolerance { plus_minus } => {
@@ -69,8 +70,7 @@ impl Distribution {
         }
     }
 
-    /// The value below which the share `share`, within 0 and 1, of all values lies; of a grid,
-    /// its first value.
+    /// The quantile of `share`, between 0 and 1; for a list of values, the first value.
     pub fn at(&self, share: f64) -> f64 {
         match self {
             Distribution::Uniform(from, to) => from + share * (to - from),
@@ -139,13 +139,13 @@ mod tests {
             r#"{"kind": "normal", "mean": 0, "standard_deviation": 1, "truncated_at_deviations": 2}"#,
         )
         .unwrap();
-        // The library's Φ has ten digits; of tolerances three are known.
+        // The library's Φ has ten digits; tolerances are known to three.
         for (share, exact) in [(0.0, -2.0), (1.0, 2.0)] {
             let error = cut.at(share) - exact;
             assert!(error.abs() < 1e-9, "{share}: {error:e}");
         }
         let below = 0.022_750_131_948_179_195;
-        // Φ(−1) = 0.15865525393145707 of the uncut one is this share of the cut one.
+        // The share of the truncated distribution below −σ follows from Φ(−1) = 0.15865525393145707.
         let share = (0.158_655_253_931_457_07 - below) / (1.0 - 2.0 * below);
         let error = cut.at(share) + 1.0;
         assert!(error.abs() < 1e-9, "{error:e}");

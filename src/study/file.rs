@@ -114,31 +114,31 @@ impl std::fmt::Display for ParameterFile {
     }
 }
 
-/// 0.3 % of the saws lie beyond.
+/// The limits that 0.3 % of the saws exceed.
 fn default_truncation() -> f64 {
     3.0
 }
 
-/// Why a study was refused.
+/// Reason for which a study was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// Not JSON, or not a study: wrong type, unknown or missing key.
+    /// The text is not JSON or not a study: wrong type, unknown or missing key.
     #[error("{key}: {message}")]
     Syntax {
         /// JSON path of the key.
         key: String,
-        /// What is wrong with it, with the remedy and the line.
+        /// Description of the error, with remedy and line.
         message: String,
     },
-    /// A value that no study has.
+    /// A value is outside its range.
     #[error(transparent)]
     Value(#[from] RefusedValue),
-    /// The scene, as it stands or without a number that is to vary.
+    /// The scene is refused, as typed or with a varied number.
     #[error("{key}: {source}")]
     Scene {
-        /// JSON path of the study's key that asks for it.
+        /// JSON path of the key of the study that causes this.
         key: String,
-        /// What the scene is refused for.
+        /// The error of the scene.
         source: SceneError,
     },
     /// The saw without deviations cannot be analysed.
@@ -147,7 +147,7 @@ pub enum StudyError {
 }
 
 impl StudyFile {
-    /// Reads a study from its JSON text.
+    /// Reads a study from JSON text.
     ///
     /// # Errors
     /// [`StudyError::Syntax`] with the JSON path of the offending key.

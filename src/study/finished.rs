@@ -1,12 +1,13 @@
-//! Which saws are finished.
+//! Set of the saws that are finished.
 
 use std::ops::Range;
 
-/// Saws of a block.
+/// Number of saws in a block.
 pub(super) const BLOCK: usize = 1 << 16;
 const WORD: usize = 64;
 
-/// Numbers of saws, a bit each while their block is begun, and next to nothing before and after.
+/// A set of saw numbers. A block in progress takes a bit for each saw; a block that is empty or full takes
+/// almost no memory.
 #[derive(Debug, Clone)]
 pub struct Finished {
     count: usize,
@@ -22,7 +23,7 @@ enum Block {
 }
 
 impl Finished {
-    /// None of so many saws.
+    /// The empty set, for `count` saws.
     pub fn none_of(count: usize) -> Self {
         Finished {
             count,
@@ -31,12 +32,12 @@ impl Finished {
         }
     }
 
-    /// Saws that are finished.
+    /// Number of finished saws.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Saws in all.
+    /// Number of all saws.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -53,7 +54,7 @@ impl Finished {
         }
     }
 
-    /// A saw is finished; false where it was before.
+    /// Adds a saw; returns whether it is new.
     pub fn insert(&mut self, index: usize) -> bool {
         let (number, place) = (index / BLOCK, index % BLOCK);
         let length = BLOCK.min(self.count - number * BLOCK);
@@ -80,7 +81,7 @@ impl Finished {
         true
     }
 
-    /// The numbers of all that are missing.
+    /// The numbers of all unfinished saws.
     pub fn into_missing(self) -> impl Iterator<Item = usize> + Send {
         let mut next = 0;
         std::iter::from_fn(move || {
@@ -90,11 +91,11 @@ impl Finished {
         })
     }
 
-    /// The first saws from a number on that are missing, without a gap and at most so many.
+    /// The first run of consecutive unfinished saws from number `from` on, of at most `most` saws.
     pub fn missing(&self, from: usize, most: usize) -> Option<Range<usize>> {
         let mut first = from;
         while first < self.count && self.has(first) {
-            // A full block is skipped at once.
+            // A full block is skipped as a whole.
             first = match self.blocks[first / BLOCK] {
                 Block::Full => (first / BLOCK + 1) * BLOCK,
                 _ => first + 1,
@@ -111,7 +112,7 @@ mod tests {
     use super::*;
     use std::collections::BTreeSet;
 
-    /// Against a set of numbers, across the edges of blocks.
+    /// The set agrees with a `BTreeSet`, also across the boundaries of blocks.
     #[test]
     fn saws_are_finished_once_and_the_missing_ones_are_found() {
         let count = 2 * BLOCK + 100;

@@ -1,4 +1,4 @@
-//! What a log belongs to: its first line.
+//! The inputs of a study, which its log repeats in its first line.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use super::file::StudyFile;
 use super::plan::Study;
 use crate::scene::SceneFile;
 
-/// Everything that the result of a saw depends on.
+/// Everything on which the result of a saw depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inputs {
@@ -20,7 +20,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Those of a study.
+    /// The inputs of a study.
     pub fn of(study: &Study) -> Self {
         Inputs {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -29,7 +29,8 @@ impl Inputs {
         }
     }
 
-    /// What differs in another's, in words: "`scene.guides[0].radius_m` is 0.2 there and 0.25 here".
+    /// Describes the first difference to other inputs: "`scene.guides[0].radius_m` is 0.2 there and 0.25
+    /// here".
     pub fn difference(&self, here: &Inputs) -> Option<String> {
         let value = |inputs: &Inputs| serde_json::to_value(inputs).unwrap_or_default();
         difference("", &value(self), &value(here))

@@ -1,9 +1,8 @@
-//! The log of a study: every finished saw, so that a run that was stopped goes on where it was.
+//! The log of a study: it lists every finished saw, so that a stopped run can be resumed.
 //!
-//! The first line is what the saws belong to ([`Inputs`]), the second names the columns, and
-//! each further one is a saw, written in one piece when it is done, or the kind of processor that
-//! has computed some of them. A line without its end was cut off by what stopped the run, and
-//! counts for nothing.
+//! The first line holds the inputs of the study ([`Inputs`]), the second the names of the columns. Each
+//! further line is a saw, written in one piece when it is finished, or the kind of a processor that has
+//! computed saws. A last line without line end was truncated when the run stopped, and is ignored.
 
 use std::collections::BTreeSet;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -18,70 +17,70 @@ use super::inputs::Inputs;
 use super::plan::{Shard, Study};
 use super::saw::Saw;
 
-/// Saws that a machine that loses its power may lose.
+/// Time after which new lines are forced to the disk; a power failure loses only those of this time.
 const UNSYNCED: Duration = Duration::from_secs(1);
 
-/// Why a log was refused.
+/// Reason for which a log was refused.
 #[derive(Debug, thiserror::Error)]
 pub enum LogError {
-    /// The system refused to read or write.
+    /// The system could not read or write the log.
     #[error("cannot use the log {}: {source}", path.display())]
     Io {
-        /// The log.
+        /// Path of the log.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// Another run is writing to it.
+    /// Another run is writing to the log.
     #[error(
         "another run is writing to {}; wait for it, or name another folder",
         path.display()
     )]
     Busy {
-        /// The log.
+        /// Path of the log.
         path: PathBuf,
     },
-    /// It was begun with other inputs.
+    /// The log was begun with other inputs.
     #[error(
         "{} belongs to another study: {difference}; name another folder, or remove this log and its saws",
         path.display()
     )]
     Other {
-        /// The log.
+        /// Path of the log.
         path: PathBuf,
         /// Key and values that differ.
         difference: String,
     },
-    /// It is no log of this program.
+    /// The file is not a log of this program.
     #[error("{} is no log of a study; name another folder", path.display())]
     Foreign {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// A row that is none of the study's.
+    /// A row does not belong to the study.
     #[error("a row is none of this study: {row}")]
     NoRow {
         /// The row.
         row: String,
     },
-    /// The tables of its saws cannot be written.
+    /// The tables of the saws cannot be written.
     #[error("cannot write the tables of the saws: {0}")]
     Tables(#[source] std::io::Error),
 }
 
-/// What a line of a log says after the first two.
+/// Content of a line after the first two.
 #[derive(Debug)]
 pub(super) enum Line {
     /// A saw.
     Saw(Saw),
-    /// A kind of processor that has computed saws of this log.
+    /// Kind of a processor that has computed saws of this log.
     Processor(String),
 }
 
-/// How the line of a processor begins.
+/// Start of a line that names a processor.
 const PROCESSOR: &str = "# processor: ";
 
-/// A log that is written to. No other run can write to it at the same time.
+/// A log open for writing. It is locked against other runs.
 #[derive(Debug)]
 pub struct Log {
     file: File,
@@ -92,7 +91,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Name of the log of a part of a study.
+    /// File name of the log of a part of a study.
     pub fn name(shard: Shard) -> String {
         match shard {
             Shard::WHOLE => "study.log".into(),
@@ -100,10 +99,10 @@ impl Log {
         }
     }
 
-    /// Every log in a folder, by name.
+    /// Every log in a folder, sorted by name.
     ///
     /// # Errors
-    /// [`LogError::Io`] where the folder cannot be read.
+    /// [`LogError::Io`] if the folder cannot be read.
     pub fn all_in(folder: &Path) -> Result<Vec<PathBuf>, LogError> {
         let entries = std::fs::read_dir(folder).map_err(io(folder))?;
         let mut logs = Vec::new();
@@ -118,17 +117,17 @@ impl Log {
         Ok(logs)
     }
 
-    /// Opens the log of a part of a study in a folder, or begins it. Whoever computes everything
-    /// takes what the logs of parts have; a part keeps to itself, for the others may be at work.
+    /// Opens or creates the log of a part of a study in a folder. The run of the whole study also reads the
+    /// logs of parts; a part reads only its own, because other parts may be running.
     ///
     /// # Errors
-    /// [`LogError`] where a log belongs to another study, or another run writes to it.
+    /// [`LogError`] if a log belongs to another study, or another run writes to it.
     pub fn open(folder: &Path, shard: Shard, study: &Study) -> Result<Self, LogError> {
         let path = folder.join(Self::name(shard));
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
         let mut file = options.open(&path).map_err(io(&path))?;
-        // Where files cannot be locked, runs are not told apart.
+        // On file systems without locks simultaneous runs are not detected.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(LogError::Busy { path });
         }
@@ -145,7 +144,7 @@ impl Log {
         };
         let end = match scan(&path, &file, study, &mut |_, line| keep(true, line))? {
             Some(end) => end,
-            // New, or stopped before it was begun in earnest.
+            // The log is new, or its run stopped before the header was complete.
             None => begin(&mut file, study).map_err(io(&path))?,
         };
         file.set_len(end).map_err(io(&path))?;
@@ -167,13 +166,13 @@ impl Log {
         })
     }
 
-    /// Saws that there are, in this log and, where it is that of the whole study, in those of
-    /// parts beside it.
+    /// The finished saws: those in this log and, for the whole study, those in the logs of parts in the same
+    /// folder.
     pub fn finished(&self) -> &Finished {
         &self.finished
     }
 
-    /// Adds a saw, unless there is one of its number.
+    /// Adds a saw unless it is in the log already.
     ///
     /// # Errors
     /// [`LogError::Io`].
@@ -182,11 +181,12 @@ impl Log {
             .map(|_| ())
     }
 
-    /// Adds rows of saws as [`rows_of`] gives them, but for those of which there is one; how many
-    /// are new.
+    /// Adds rows of saws made by [`rows_of`], without those that are in the log already; returns the number
+    /// of added rows.
     ///
     /// # Errors
-    /// [`LogError::Io`]; [`LogError::NoRow`] where one is none of this study, and none is added.
+    /// [`LogError::Io`]; [`LogError::NoRow`] if a row does not belong to this study, and then no row is
+    /// added.
     pub fn append_rows(&mut self, study: &Study, rows: &[u8]) -> Result<usize, LogError> {
         let mut saws = Vec::new();
         for line in rows.split_inclusive(|byte| *byte == b'\n') {
@@ -195,7 +195,7 @@ impl Log {
             })?;
             saws.push((saw.index, line));
         }
-        // A saw can be twice in these rows, too.
+        // The rows themselves may contain duplicates.
         let mut seen = BTreeSet::new();
         saws.retain(|(index, _)| !self.finished.has(*index) && seen.insert(*index));
         let lines: Vec<&[u8]> = saws.iter().map(|(_, line)| *line).collect();
@@ -206,7 +206,7 @@ impl Log {
         Ok(saws.len())
     }
 
-    /// Notes the kind of processor that computes saws of this log, once.
+    /// Records the kind of processor that computes saws of this log, once.
     ///
     /// # Errors
     /// [`LogError::Io`].
@@ -220,7 +220,7 @@ impl Log {
         Ok(())
     }
 
-    /// Adds whole lines.
+    /// Appends complete lines.
     fn append_lines(&mut self, lines: &[u8]) -> Result<(), LogError> {
         let written = self.file.write_all(lines).and_then(|()| {
             if self.synced.elapsed() > UNSYNCED {
@@ -233,7 +233,7 @@ impl Log {
     }
 }
 
-/// What a log belongs to.
+/// Reads the inputs of the study to which a log belongs.
 ///
 /// # Errors
 /// [`LogError`] where it is none.
@@ -252,7 +252,7 @@ pub fn read_inputs(path: &Path) -> Result<Inputs, LogError> {
         })
 }
 
-/// Longer than the first line of any log: a scene with its tables.
+/// Longer than the first line of any log, which holds a scene with its tables.
 const LONGEST_LINE: u64 = 1 << 28;
 
 pub(super) fn io(path: &Path) -> impl Fn(std::io::Error) -> LogError {
@@ -277,7 +277,7 @@ fn header(study: &Study) -> String {
     format!("{inputs}\n{}", String::from_utf8_lossy(&names))
 }
 
-/// One line of comma-separated values, with its end.
+/// A line of comma-separated values, with line end.
 pub(super) fn line(cells: &[String]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Writing to memory cannot fail.
@@ -285,7 +285,7 @@ pub(super) fn line(cells: &[String]) -> Vec<u8> {
     writer.into_inner().unwrap_or_default()
 }
 
-/// Begins a log; its length.
+/// Writes the header of a log; returns its length.
 fn begin(file: &mut File, study: &Study) -> std::io::Result<u64> {
     let header = header(study);
     file.set_len(0)?;
@@ -295,7 +295,7 @@ fn begin(file: &mut File, study: &Study) -> std::io::Result<u64> {
     Ok(header.len() as u64)
 }
 
-/// Shows every whole line of a log that is only read, and where it stands.
+/// Calls a function with every complete line, and its position, of a log that is only read.
 pub(super) fn read(
     path: &Path,
     study: &Study,
@@ -305,8 +305,8 @@ pub(super) fn read(
     scan(path, &file, study, visit).map(|_| ())
 }
 
-/// Shows every whole line of a log after the first two, and where it stands; the end of the last
-/// whole line, or none where a log is not begun.
+/// Calls a function with every complete line after the header, and its position. Returns the end of the last
+/// complete line, or `None` if the header is incomplete.
 fn scan(
     path: &Path,
     file: &File,
@@ -319,7 +319,7 @@ fn scan(
     let mut limited = file.by_ref().take(header.len() as u64);
     limited.read_to_end(&mut begun).map_err(io(path))?;
     if begun != header.as_bytes() {
-        // A log is begun where anything comes after what it belongs to.
+        // The header is complete if anything follows the inputs.
         return match header.as_bytes().starts_with(&begun) {
             true => Ok(None),
             false => Err(differing(path, study)),
@@ -340,7 +340,7 @@ fn scan(
     }
 }
 
-/// In what the log is another study's.
+/// Describes how the inputs of a log differ from those of the study.
 fn differing(path: &Path, study: &Study) -> LogError {
     let difference = match read_inputs(path) {
         Ok(there) => there.difference(&Inputs::of(study)),
@@ -352,7 +352,7 @@ fn differing(path: &Path, study: &Study) -> LogError {
     }
 }
 
-/// What a whole line says; one that a broken disk has changed says nothing.
+/// Parses a complete line; `None` if it is damaged.
 fn parsed(line: &[u8], study: &Study) -> Option<Line> {
     match line.strip_prefix(PROCESSOR.as_bytes()) {
         None => row(line, study).map(Line::Saw),
@@ -363,17 +363,17 @@ fn parsed(line: &[u8], study: &Study) -> Option<Line> {
     }
 }
 
-/// Rows of saws, as [`Log::append_rows`] takes them.
+/// Rows of saws in the form that [`Log::append_rows`] accepts.
 pub fn rows_of(study: &Study, saws: &[Saw]) -> Vec<u8> {
     let lines = saws.iter().map(|saw| line(&record(study, saw)));
     lines.collect::<Vec<_>>().concat()
 }
 
-/// The saw of a whole line; none where it is not one of this study.
+/// The saw of a complete line; `None` if it does not belong to this study.
 pub(super) fn row(line: &[u8], study: &Study) -> Option<Saw> {
     let line = line.strip_suffix(b"\n")?;
     let saw = match line.contains(&b'"') {
-        // Hardly any line has quotes.
+        // Splitting at commas is faster and suffices for lines without quotes.
         false => saw(study, &mut std::str::from_utf8(line).ok()?.split(','))?,
         true => {
             let mut reader = csv::ReaderBuilder::new();

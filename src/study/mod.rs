@@ -1,7 +1,7 @@
-//! Many saws: what tolerances of making and grids of design do to the speeds of a saw.
+//! Studies of many saws: how manufacturing tolerances and grids of design numbers change the speeds of a saw.
 //!
-//! A [`Study`] names numbers of a scene and how they vary. Each of its [`Saw`]s is analysed on
-//! its own, written to a [`Log`] as soon as it is done, and summed up in a [`StudyReport`].
+//! A [`Study`] names numbers of a scene and their distributions. Each of its [`Saw`]s is analysed
+//! independently and written to a [`Log`] when it is finished; a [`StudyReport`] contains the statistics.
 //!
 //! ```
 //! use sawflutter::scene::{Accuracy, Scene};

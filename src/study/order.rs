@@ -1,4 +1,4 @@
-//! Exact order statistics of any number of values in little memory.
+//! Exact order statistics of any number of values in bounded memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use super::statistics::{between, rank};
 
-/// Values kept in memory, 8 MB.
+/// Number of values kept in memory, 8 MB.
 const KEPT: usize = 1 << 20;
-/// Bits of a value that are told apart in one pass over the disk.
+/// Bits of a value that one pass over the file resolves.
 const DIGIT: u32 = 8;
 
-/// Values, sorted where they fit into memory; those that do not are on the disk, and passes over
-/// them find the wanted ones digit by digit: the same numbers either way.
+/// A list of values. In memory it is sorted; on disk, passes over the file determine the wanted values digit
+/// by digit. The results are identical.
 #[derive(Debug)]
 pub(super) struct Values {
     memory: Vec<f64>,
@@ -24,7 +24,7 @@ pub(super) struct Values {
 }
 
 impl Values {
-    /// No values; `folder` takes those that memory does not.
+    /// An empty list; values that do not fit into memory are written to a file in `folder`.
     pub fn new(folder: &Path) -> Self {
         Values {
             memory: Vec::new(),
@@ -36,7 +36,7 @@ impl Values {
         }
     }
 
-    /// Adds a value, which is finite.
+    /// Adds a value, which must be finite.
     pub fn push(&mut self, value: f64) -> io::Result<()> {
         self.count += 1;
         let (low, high) = self.range.unwrap_or((value, value));
@@ -48,12 +48,12 @@ impl Values {
         Ok(())
     }
 
-    /// How many there are.
+    /// Number of values.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The least and the greatest.
+    /// Smallest and largest value.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
@@ -61,7 +61,7 @@ impl Values {
     fn spill(&mut self) -> io::Result<()> {
         let file = match &mut self.disk {
             Some(file) => file,
-            // Without a name: whatever ends the program, the system removes it.
+            // The file has no name, so that the system removes it however the program ends.
             none => none.insert(BufWriter::new(tempfile::tempfile_in(&self.folder)?)),
         };
         for value in self.memory.drain(..) {
@@ -70,7 +70,7 @@ impl Values {
         Ok(())
     }
 
-    /// Shows every value, in no order.
+    /// Calls a function with every value, in no particular order.
     pub fn each(&mut self, visit: &mut dyn FnMut(f64)) -> io::Result<()> {
         self.memory.iter().copied().for_each(&mut *visit);
         let Some(disk) = &mut self.disk else {
@@ -89,7 +89,7 @@ impl Values {
         Ok(())
     }
 
-    /// The values below which shares of all lie, `beyond` more being greater than any.
+    /// The quantiles of `shares`, where the list is extended by `beyond` values larger than any.
     pub fn quantiles(&mut self, beyond: usize, shares: &[f64]) -> io::Result<Vec<Option<f64>>> {
         let total = self.count + beyond;
         let ranks: Vec<_> = shares.iter().map(|share| rank(total, *share)).collect();
@@ -108,7 +108,7 @@ impl Values {
             .collect())
     }
 
-    /// The values of ranks, both ascending, from 0.
+    /// The values at some ranks, counted from 0; ranks and values ascend.
     pub fn ranked(&mut self, ranks: &[usize]) -> io::Result<Vec<f64>> {
         if self.disk.is_none() {
             self.memory.sort_unstable_by(f64::total_cmp);
@@ -116,7 +116,7 @@ impl Values {
         }
         let mut searches: Vec<Search> = ranks.iter().map(|rank| Search::new(*rank)).collect();
         for shift in (0..u64::BITS).step_by(DIGIT as usize).rev() {
-            // Searches with the same first digits share their counts; they are ascending.
+            // Searches with the same leading digits share their counts; searches ascend.
             let mut heads: Vec<u64> = searches.iter().map(|search| search.head).collect();
             heads.dedup();
             let mut counts = vec![[0_usize; 1 << DIGIT]; heads.len()];
@@ -136,10 +136,10 @@ impl Values {
     }
 }
 
-/// A value whose first digits are known.
+/// A search for a value whose leading digits are known.
 struct Search {
     head: u64,
-    /// Its rank among those with the same first digits.
+    /// Rank among the values with the same leading digits.
     rank: usize,
 }
 
@@ -162,7 +162,7 @@ fn above(key: u64, shift: u32) -> u64 {
     key.checked_shr(shift).unwrap_or(0)
 }
 
-/// Whole numbers in the order of the values, as `f64::total_cmp` has it.
+/// Maps values to integers of the same order as `f64::total_cmp`.
 fn key(value: f64) -> u64 {
     let bits = value.to_bits();
     match bits >> 63 {
@@ -183,8 +183,8 @@ mod tests {
     use super::*;
     use crate::study::statistics::quantile;
 
-    /// Values with repetitions, negative ones and many of one size, on disk and in memory,
-    /// against a sorted list.
+    /// Quantiles from disk and from memory equal those of a sorted list, for values with repetitions,
+    /// negative ones and many of one magnitude.
     #[test]
     fn on_the_disk_quantiles_are_those_of_a_sorted_list() {
         let mut state = 5_u64;
@@ -219,7 +219,7 @@ mod tests {
                     .collect();
                 assert_eq!(found, exact, "{count} {kept}");
                 assert_eq!(values.range(), Some((own[0], own[count - 1])));
-                // And again, after more of them.
+                // Quantiles remain right after more values are added.
                 values.push(-1e9).unwrap();
                 assert_eq!(values.ranked(&[0, count]).unwrap(), [-1e9, own[count - 1]]);
                 let mut sum = 0;

@@ -1,4 +1,4 @@
-//! `study.parquet`: the table of `study.csv`, with types.
+//! `study.parquet`: the table of `study.csv` with typed columns.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
 use super::table::Table;
 
-/// A column; saws that were not analysed have none of its values.
+/// A column; the values of saws that were not analysed are missing.
 enum Column {
     Integers(Vec<Option<i64>>),
     Numbers(Vec<Option<f64>>),
@@ -25,8 +25,8 @@ enum Column {
     Texts(Vec<Option<String>>),
 }
 
-/// The saws as an Apache Parquet file; its metadata holds the scene and the study under
-/// `sawflutter`. Saws that are added together are a row group.
+/// The saws as an Apache Parquet file, whose metadata holds scene and study under `sawflutter`. Saws that are
+/// added together form a row group.
 pub struct ParquetTable<'a, W: Write + Send> {
     study: &'a Study,
     writer: SerializedFileWriter<W>,
@@ -36,7 +36,7 @@ impl<'a, W: Write + Send> ParquetTable<'a, W> {
     /// A table without saws.
     ///
     /// # Errors
-    /// What writing raises.
+    /// The error of writing.
     pub fn new(study: &'a Study, out: W) -> io::Result<Self> {
         let inputs = serde_json::to_string(&Inputs::of(study)).map_err(io::Error::other)?;
         let properties = WriterProperties::builder()
@@ -72,7 +72,7 @@ impl<W: Write + Send> Table for ParquetTable<'_, W> {
     }
 }
 
-/// The columns in the order of their names.
+/// The columns, in the order of their names.
 fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
     let numbers = |of: &dyn Fn(&Saw) -> Option<f64>| Column::Numbers(saws.iter().map(of).collect());
     let speeds = |of: fn(&Found) -> Option<f64>| numbers(&|saw| saw.found().and_then(of));
@@ -163,7 +163,7 @@ fn write(open: &mut SerializedColumnWriter<'_>, column: &Column) -> Result<(), P
     Ok(())
 }
 
-/// The values there are, and a level a row: 1 where there is one, 0 where there is none.
+/// The present values, and for each row a definition level: 1 if its value is present, 0 if not.
 fn dense<T: Clone>(cells: &[Option<T>]) -> (Vec<T>, Vec<i16>) {
     let levels = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
     (cells.iter().flatten().cloned().collect(), levels)

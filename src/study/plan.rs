@@ -1,10 +1,10 @@
-//! A validated study: which saws there are.
+//! A validated study: the list of its saws.
 //!
-//! Saws are numbered through the grid, its first parameter slowest, and within each point of
-//! the grid through the points of a Sobol sequence with Owen's scrambling (Burley, Journal of
-//! Computer Graphics Techniques 9 (2020), 1), see `sequence.rs`. A saw depends on its number alone, so that any
-//! machine can compute any of them. Every point of the grid gets the same deviations: what
-//! differs between two of them is then due to the grid.
+//! Saws are numbered over the grid, whose first parameter varies slowest, and within each point of the grid
+//! over the points of a Sobol sequence with Owen's scrambling (Burley, Journal of Computer Graphics
+//! Techniques 9 (2020), 1), see `sequence.rs`. A saw depends on its number alone, so that any machine can
+//! compute any saw. Every point of the grid has the same deviations, so that differences between two points
+//! are due to the grid.
 
 use std::sync::OnceLock;
 
@@ -17,47 +17,48 @@ use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange,
 use crate::spectrum::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
-/// Saws of a study: as many as there are points but one, and a log of 600 GB.
+/// Largest number of saws; their log has about 600 GB.
 const MAX_SAWS: usize = u32::MAX as usize;
-/// Quantiles that a report lists.
+/// Largest number of quantiles in a report.
 const MAX_QUANTILES: usize = 100;
-/// Confidence below this is none; above, more saws are needed than a study has.
+/// Range of the confidence: below it, an interval says nothing; above it, a study has too few saws.
 const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
-/// A scene, what varies in it, and what it is held against.
+/// A scene, the numbers that vary, and the limits that each saw has to keep.
 #[derive(Debug, Clone)]
 pub struct Study {
     scene: Scene,
     file: StudyFile,
     limits: Option<Limits>,
     to_rad_per_s: f64,
-    /// The numbers that vary, in the order of the file.
+    /// The numbers that vary, with their distributions, in the order of the file.
     pub(super) varying: Vec<(Parameter, Distribution)>,
-    /// Saws in each point of the grid.
+    /// Number of saws in each point of the grid.
     drawn: usize,
     count: usize,
-    /// Of the saw without deviations, once a saw is analysed.
+    /// Basis of the saw without deviations, computed when first needed.
     basis: OnceLock<Option<Resolution>>,
 }
 
-/// One of several equal parts of a study, for a machine of its own.
+/// One of several equal parts of a study, for computation on different machines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which part, from 1.
+    /// Number of the part, from 1.
     pub number: usize,
-    /// How many there are.
+    /// Number of parts.
     pub of: usize,
 }
 
 impl Shard {
-    /// All in one.
+    /// The whole study as a single part.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
-    /// Whether a saw belongs to this part: every `of`-th does, so that all parts take as long.
+    /// Whether a saw belongs to this part: every `of`-th saw does, so that the parts take about the same
+    /// time.
     pub fn holds(&self, index: usize) -> bool {
         index % self.of == self.number - 1
     }
 
-    /// How many of so many saws belong to this part.
+    /// Number of saws in this part, of `saws` in all.
     pub fn count(&self, saws: usize) -> usize {
         (saws + self.of - self.number) / self.of
     }
@@ -90,7 +91,7 @@ impl Study {
         })
     }
 
-    /// The saw without deviations.
+    /// The scene without deviations.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -100,18 +101,18 @@ impl Study {
         &self.file
     }
 
-    /// What every saw is held against.
+    /// The limits that each saw has to keep.
     pub fn limits(&self) -> Option<&Limits> {
         self.limits.as_ref()
     }
 
-    /// Last speed looked at, the same for every saw.
+    /// Last speed of the sweep, the same for every saw.
     pub fn to_rad_per_s(&self) -> f64 {
         self.to_rad_per_s
     }
 
-    /// The basis that the saw without deviations takes, from which that of every saw is looked for: it is the same
-    /// whichever saws are computed, and in which order. `None` where that saw cannot be analysed.
+    /// The basis of the saw without deviations, from which the choice of the basis of every saw starts. It
+    /// does not depend on which saws are computed or in which order. `None` if that saw cannot be analysed.
     pub(super) fn basis(&self) -> Option<Resolution> {
         if let Some(known) = self.basis.get() {
             return *known;
@@ -122,7 +123,7 @@ impl Study {
         };
         let swept = self.scene.swept(range).ok()?;
         let found = match ChosenBasis::new(&swept, self.scene.tolerance()) {
-            // A run that is stopped says nothing about the next one.
+            // A cancelled run must not store a result.
             Err(AnalysisError::Spectrum(SpectrumError::Cancelled)) => return None,
             chosen => chosen.ok().map(|chosen| chosen.saw.plate.resolution),
         };
@@ -134,12 +135,12 @@ impl Study {
         self.count
     }
 
-    /// Saws in each point of the grid.
+    /// Number of saws in each point of the grid.
     pub fn drawn(&self) -> usize {
         self.drawn
     }
 
-    /// Values of the numbers that vary, of one saw.
+    /// Values of the varying numbers of a saw.
     pub fn values(&self, index: usize) -> Vec<f64> {
         let mut point = index / self.drawn;
         let mut values = vec![0.0; self.varying.len()];
@@ -160,7 +161,7 @@ impl Study {
         values
     }
 
-    /// The scene of one saw, over the speeds of the study.
+    /// The scene of a saw, over the speeds of the study.
     pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, crate::scene::SceneError> {
         let parameters = self.varying.iter().map(|(parameter, _)| parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
@@ -170,7 +171,7 @@ impl Study {
         })
     }
 
-    /// The limits that every saw is held against, as one without any event keeps them.
+    /// The criteria of the limits, evaluated for a saw without any critical speed or band.
     pub(super) fn criteria_of_nothing(&self) -> Vec<Criterion> {
         let nothing = Evidence {
             bands: &[],
@@ -215,7 +216,7 @@ fn varying(
             source,
         };
         let nominal = parameter.get(scene).map_err(unusable)?;
-        // Whole numbers, such as of teeth, do not vary.
+        // Integers, such as a number of teeth, cannot vary.
         scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
         let key = format!("parameters[{k}].distribution");
         let distribution = Distribution::new(&entry.distribution, nominal, &key)?;
@@ -224,7 +225,7 @@ fn varying(
     Ok(varying)
 }
 
-/// Saws in each point of the grid, and in all.
+/// Number of saws in each point of the grid, and of all saws.
 fn counts(
     file: &StudyFile,
     varying: &[(Parameter, Distribution)],
@@ -296,7 +297,7 @@ fn check_statistics(file: &StudyFile) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// What every saw is held against, from the block `limits` of the study.
+/// Validates the block `limits` of the study.
 fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
     let of_study = |refused: RefusedValue| RefusedValue {
         key: format!("limits.{}", refused.key),
@@ -322,15 +323,15 @@ mod tests {
         Study::new(Scene::paper(), file).unwrap()
     }
 
-    /// Points of the unit square, as the saws of a study.
+    /// The points of the saws of a study in the unit square.
     fn points(study: &Study) -> Vec<[f64; 2]> {
         let even = |v: &[f64]| [(v[0] - 7000.0) / 1000.0, (v[1] + 60.0) / 10.0];
         let saws = 0..study.count();
         saws.map(|index| even(&study.values(index))).collect()
     }
 
-    /// Clopper and Pearson's interval is meant for independent points. That Sobol's are spread
-    /// more evenly makes it hold the truth more often still, and the estimate better.
+    /// The interval of Clopper and Pearson assumes independent points. Sobol points are more even, so it
+    /// contains the true value more often than required, and the estimate is better.
     #[test]
     fn intervals_hold_the_truth_at_least_as_often_as_they_say() {
         const SEEDS: u32 = 300;
@@ -358,7 +359,7 @@ mod tests {
     fn seeds_draw_other_saws_and_parts_hold_each_saw_once() {
         assert_eq!(points(&study(3, 8)), points(&study(3, 8)));
         assert_ne!(points(&study(3, 8)), points(&study(4, 8)));
-        // The first saws of a longer study are those of a shorter one.
+        // A longer study begins with the saws of a shorter one.
         assert_eq!(points(&study(3, 64))[..8], points(&study(3, 8)));
         for index in 0..100 {
             let parts = (1..=7).map(|number| Shard { number, of: 7 });

@@ -1,7 +1,6 @@
-//! The kind of processor that computes: rounding differs between kinds.
+//! The kind of processor of this machine, because rounding differs between kinds.
 
-/// The processor of this machine: its instruction set, the widest vectors that it has, and its name
-/// where the system says it.
+/// Instruction set, widest vector extension and, if the system provides it, the name of the processor.
 pub fn processor() -> String {
     let name = std::fs::read_to_string("/proc/cpuinfo")
         .ok()

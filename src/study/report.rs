@@ -1,4 +1,4 @@
-//! The sum of a study: `study.json`.
+//! The statistics of a study: `study.json`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

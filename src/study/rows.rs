@@ -1,4 +1,4 @@
-//! The rows of logs in the order of the saws, whatever order they were written in.
+//! Reads the rows of logs in the order of the saws, in whatever order they were written.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -11,26 +11,25 @@ use super::log::{Line, Log, LogError, io, read, row};
 use super::plan::Study;
 use super::saw::Saw;
 
-/// Which saws the logs of a study have, and where. The rows themselves stay in the logs, and are
-/// read 65 536 at a time.
+/// Index of the rows in the logs of a study. The rows remain in the logs and are read 65 536 at a time.
 pub struct Rows<'a> {
     study: &'a Study,
     logs: Vec<PathBuf>,
     finished: Finished,
     processors: BTreeSet<String>,
-    /// Where the rows of each block of saws stand, in the order of the logs.
+    /// Positions of the rows of each block of saws, in the order of the logs.
     blocks: Vec<Vec<Extent>>,
 }
 
-/// Rows of one block of saws that follow each other in a log. Saws are given out in the order of
-/// their numbers, so that there are few.
+/// Consecutive rows of a log that belong to one block of saws. Saws are started in the order of their
+/// numbers, so there are few of these.
 struct Extent {
     log: usize,
     place: Range<u64>,
 }
 
 impl<'a> Rows<'a> {
-    /// Those of logs. Of a saw in several of them, the first counts.
+    /// Indexes logs. If a saw is in several of them, its first row counts.
     ///
     /// # Errors
     /// [`LogError`] where one cannot be read, or belongs to another study.
@@ -66,7 +65,7 @@ impl<'a> Rows<'a> {
         Ok(rows)
     }
 
-    /// Those of every log in a folder.
+    /// Indexes every log in a folder.
     ///
     /// # Errors
     /// [`LogError`].
@@ -74,7 +73,7 @@ impl<'a> Rows<'a> {
         Self::of(study, Log::all_in(folder)?)
     }
 
-    /// Which saws there are.
+    /// The finished saws.
     pub fn finished(&self) -> &Finished {
         &self.finished
     }
@@ -84,12 +83,12 @@ impl<'a> Rows<'a> {
         self.study
     }
 
-    /// Kinds of processors that have computed them, in the order of their names.
+    /// Kinds of processors that have computed the saws, sorted by name.
     pub fn processors(&self) -> impl Iterator<Item = &String> {
         self.processors.iter()
     }
 
-    /// Shows the saws in the order of their numbers, a block at a time.
+    /// Calls a function with the saws in the order of their numbers, block by block.
     ///
     /// # Errors
     /// [`LogError`], and what `visit` raises.

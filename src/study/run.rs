@@ -1,4 +1,4 @@
-//! Saws side by side.
+//! Analyses saws in parallel.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -8,13 +8,12 @@ use super::saw::Saw;
 use crate::spectrum::Cancellation;
 
 impl Study {
-    /// Analyses saws on so many threads (by default those of the current pool), each handed over as
-    /// soon as it is done, in the order of `indices` on one thread and in no order on several. Each
-    /// thread has a saw of its own: a second thread makes one saw 1.3 times as fast, but two saws take
-    /// no longer than one.
+    /// Analyses saws on some threads, by default those of the current pool, and passes each to `done` when it
+    /// is finished: in the order of `indices` on one thread, in any order on several. Each thread computes a
+    /// whole saw, because a second thread speeds up a single saw by a factor of only 1.3.
     ///
     /// # Errors
-    /// The first that `done` returns; it ends the run.
+    /// The first error that `done` returns; it ends the run.
     pub fn run<E: Send>(
         &self,
         threads: Option<usize>,
@@ -47,7 +46,7 @@ impl Study {
                 .map(|_| {
                     scope.spawn(|| match stop.pool(1) {
                         Ok(alone) => alone.install(work),
-                        // Where the system gives no more threads, saws share those there are.
+                        // If the system refuses another thread, the existing ones compute all saws.
                         Err(_) => work(),
                     })
                 })

@@ -8,49 +8,49 @@ use super::plan::Study;
 use crate::scene::{Scene, rpm};
 use crate::stability::{AnalysisError, Evidence, Onsets};
 
-/// A saw and what became of it.
+/// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Saw {
-    /// Its number in the study, from 0.
+    /// Number in the study, from 0.
     pub index: usize,
-    /// The numbers that vary, in the order of the study.
+    /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
-    /// What was found.
+    /// Result.
     pub outcome: Outcome,
 }
 
-/// What became of a saw.
+/// Result of a saw.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// It was analysed.
+    /// The saw was analysed.
     Analysed(Found),
-    /// No saw can have these numbers, for this reason.
+    /// The scene refuses these numbers, for this reason.
     Refused(String),
-    /// It could not be analysed, for this reason.
+    /// The analysis failed, for this reason.
     Failed(String),
 }
 
-/// Speeds of a saw, and whether it keeps its limits.
+/// Speeds of a saw, and the limits that it keeps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// Lowest critical speed; none where no wave has one.
+    /// Lowest critical speed; `None` if the blade has none.
     pub lowest_critical_rpm: Option<f64>,
-    /// Flutter speed; none within the speeds of the study.
+    /// Flutter speed; `None` if it exceeds the speeds of the study.
     pub flutter_rpm: Option<f64>,
-    /// Onset of the first flutter band of all, however slowly it grows.
+    /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
-    /// Which of the limits are kept, in their order; empty without limits.
+    /// Whether each limit is kept, in the order of the limits; empty without limits.
     pub kept: Vec<bool>,
-    /// Functions of the basis.
+    /// Number of basis functions.
     pub functions: usize,
     /// Estimated relative error of the critical speeds.
     pub estimated_relative_error: f64,
-    /// Speeds at which the Krein index did not match; expected 0.
+    /// Number of speeds at which the Krein index disagrees; 0 is expected.
     pub krein_violations: usize,
 }
 
 impl Outcome {
-    /// It could not be analysed, for a reason of any length and number of lines.
+    /// A failure whose reason is shortened to one line.
     pub fn failed(reason: &str) -> Self {
         Outcome::Failed(one_line(reason))
     }
@@ -64,7 +64,7 @@ impl Found {
 }
 
 impl Saw {
-    /// What was found, of a saw that was analysed.
+    /// The speeds, if the saw was analysed.
     pub fn found(&self) -> Option<&Found> {
         match &self.outcome {
             Outcome::Analysed(found) => Some(found),
@@ -74,8 +74,8 @@ impl Saw {
 }
 
 impl Study {
-    /// Analyses one saw. Whatever goes wrong is its outcome: one saw of thousands must not
-    /// take the others with it.
+    /// Analyses one saw. Every error becomes its result, so that it does not end the computation of other
+    /// saws.
     pub fn saw(&self, index: usize) -> Saw {
         let values = self.values(index);
         let outcome = match self.scene_of(&values) {
@@ -118,7 +118,7 @@ impl Study {
     }
 }
 
-/// A row of a log is a line.
+/// Joins lines, because a row of the log is a single line.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,27 +1,27 @@
-//! Even points: the saws that are drawn from distributions.
+//! Evenly distributed points for random saws.
 //!
-//! The Sobol sequence with Owen's scrambling of [`sobol_burley`] ends after 2¹⁶ points. Longer
-//! studies go on with blocks of 2¹⁶ points, each scrambled with a seed of its own: a replicated
-//! randomized net (Owen, Journal of Complexity 13 (1997), 83; L'Ecuyer and Lemieux, in Modeling
-//! Uncertainty (2002), 419). Every block is an unbiased estimate of the same share with the small
-//! variance of a net, and blocks are independent, so that the mean of b of them has that variance
-//! over b: never more than as many independent points have, and an interval for independent points
-//! stays on the safe side.
+//! The Sobol sequence with Owen's scrambling of [`sobol_burley`] ends after 2¹⁶ points. Longer studies
+//! continue with blocks of 2¹⁶ points, each scrambled with its own seed: a replicated randomized net (Owen,
+//! Journal of Complexity 13 (1997), 83; L'Ecuyer and Lemieux, in Modeling Uncertainty (2002), 419). Every
+//! block is an unbiased estimate with the small variance of a net, and blocks are independent, so the mean of
+//! b of them has this variance divided by b. This never exceeds the variance of as many independent points,
+//! so that an interval for independent points is conservative.
 
-/// Points of a block.
+/// Number of points in a block.
 const BLOCK: u64 = 1 << 16;
-/// Numbers of a point.
+/// Largest dimension of a point.
 pub(super) const DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
-/// Points of a sequence.
+/// Largest number of points.
 #[cfg(test)]
 const POINTS: u64 = 1 << 32;
-/// Half a step of the sequence's 24 bits: its numbers begin at 0, ours lie within 0 and 1.
+/// Half a step of the sequence's 24 bits. It shifts the coordinates, which begin at 0, into the open interval
+/// from 0 to 1.
 const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
-/// 2³² over the golden ratio. Its multiples up to 2¹⁶ stay as far as possible from each other and
-/// from 0 modulo 2³², so that no block of one seed is a block of another within 25 000 of it.
+/// 2³² over the golden ratio. Its multiples up to 2¹⁶ are as far as possible from each other and from 0
+/// modulo 2³², so that studies whose seeds differ by less than 25 000 share no block.
 const SEED_STEP: u32 = 0x9E37_79B9;
 
-/// A number of a point, within 0 and 1.
+/// A coordinate of a point, between 0 and 1, both excluded.
 pub(super) fn even(point: u64, dimension: u32, seed: u32) -> f64 {
     let (block, place) = (point / BLOCK, point % BLOCK);
     let own = seed.wrapping_add((block as u32).wrapping_mul(SEED_STEP));
@@ -42,15 +42,15 @@ mod tests {
         assert!(nearest.min() > Some(25_000));
     }
 
-    /// Share of the points of a sequence below the diagonal line x + y < limit.
+    /// Share of the points of a sequence with x + y < limit.
     fn share(points: std::ops::Range<u64>, seed: u32, limit: f64) -> f64 {
         let count = (points.end - points.start) as f64;
         let inside = points.filter(|&k| even(k, 0, seed) + even(k, 1, seed) < limit);
         inside.count() as f64 / count
     }
 
-    /// Every block fills the square, and their errors are independent: the error of eight
-    /// together is √8 times smaller, and less than a tenth of that of independent points.
+    /// Every block fills the square, and the errors of blocks are independent: the error of eight blocks
+    /// together is √8 times smaller than that of one, and less than a tenth of that of independent points.
     #[test]
     fn blocks_are_even_and_independent() {
         let (limit, seeds) = (0.7_f64, 40);
@@ -65,13 +65,14 @@ mod tests {
         let eight = mean_square(&|seed| share(0..8 * BLOCK, seed, limit));
         let independent = exact * (1.0 - exact) / BLOCK as f64;
         assert!(first < 0.01 * independent && last < 0.01 * independent);
-        // The mean of 40 squares scatters by √(2/40) = 22 %: three of these for each of two.
+        // The mean of 40 squares has a standard deviation of √(2/40) = 22 %; three of these are allowed for
+        // each of the two means.
         let ratio = 8.0 * eight / first;
         assert!((0.4..2.5).contains(&ratio), "{ratio}");
     }
 
-    /// In every pair of numbers each of 256 × 256 squares has one point of a block of 2¹⁶ where
-    /// the first two are paired, and each of 2¹⁶ stretches has one in every number alone.
+    /// In every pair of coordinates that the sequence is optimized for, each of 256 × 256 squares contains
+    /// one of 2¹⁶ points, and so does each of 2¹⁶ intervals of a single coordinate.
     #[test]
     fn each_block_is_a_net() {
         for block in [0, 1, 255, POINTS / BLOCK - 1] {

@@ -1,17 +1,16 @@
-//! Quantiles of speeds of which some lie beyond the sweep, and intervals of a probability.
+//! Quantiles of speeds of which some exceed the sweep, and confidence intervals of a probability.
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
-/// The rank from 0 below the value under which a share of `total` values lies, and how far on
-/// the way to the next rank that is (type 7 of Hyndman and Fan, The American Statistician 50
-/// (1996), 361). `None` where there are no values.
+/// The rank, counted from 0, of the quantile of `share` among `total` values, and its fractional part (type 7
+/// of Hyndman and Fan, The American Statistician 50 (1996), 361). `None` if there are no values.
 pub fn rank(total: usize, share: f64) -> Option<(usize, f64)> {
     let place = share * total.checked_sub(1)? as f64;
     let below = place.floor();
     Some((below as usize, place - below))
 }
 
-/// The value at a rank, between two ranks linearly; `value` is that of a whole rank.
+/// The value at a fractional rank, by linear interpolation; `value` returns the value at an integer rank.
 pub fn between((below, part): (usize, f64), value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
     let lower = value(below)?;
     if part == 0.0 {
@@ -20,17 +19,17 @@ pub fn between((below, part): (usize, f64), value: &dyn Fn(usize) -> Option<f64>
     Some(lower + part * (value(below + 1)? - lower))
 }
 
-/// The value below which a share of all lies, `sorted` ascending and `beyond` more that are
-/// greater than any. `None` where it lies among those beyond.
+/// The quantile of `sorted`, ascending, extended by `beyond` values that are larger than any. `None` if the
+/// quantile is one of these.
 #[cfg(test)]
 pub fn quantile(sorted: &[f64], beyond: usize, share: f64) -> Option<f64> {
     let rank = rank(sorted.len() + beyond, share)?;
     between(rank, &|rank| sorted.get(rank).copied())
 }
 
-/// The interval of Clopper and Pearson (Biometrika 26 (1934), 404) for a probability, of
-/// `passed` out of `of` independent trials: it holds the truth at least as often as the
-/// confidence says, for any probability and number of trials.
+/// The interval of Clopper and Pearson (Biometrika 26 (1934), 404) for a probability, from `passed` of `of`
+/// independent trials. It contains the true value at least as often as the confidence states, for any
+/// probability and number of trials.
 pub fn interval(passed: usize, of: usize, confidence: f64) -> [f64; 2] {
     let tail = 0.5 * (1.0 - confidence);
     let beta = |a: usize, b: usize, share: f64| {
@@ -65,8 +64,8 @@ mod tests {
         assert_eq!(quantile(&[], 0, 0.5), None);
     }
 
-    /// Closed forms at the ends: (α/2)^(1/n); and Clopper and Pearson's own definition, the
-    /// binomial tail of α/2, summed here term by term.
+    /// Reference: the closed form (α/2)^(1/n) at the ends, and the definition of Clopper and Pearson, a
+    /// binomial tail of α/2, summed term by term.
     #[test]
     fn the_interval_is_that_of_the_binomial_tails() {
         let [low, high] = interval(10, 10, 0.95);

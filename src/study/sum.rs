@@ -1,4 +1,4 @@
-//! From the logs to the tables of the saws and their sum, in one pass and bounded memory.
+//! Makes tables and statistics from the logs, in one pass and bounded memory.
 
 use std::path::Path;
 
@@ -8,8 +8,8 @@ use super::rows::Rows;
 use super::table::Table;
 use super::tally::Tally;
 
-/// Writes the tables of all saws and sums them up. `folder` takes what does not fit into memory;
-/// nothing stays there.
+/// Writes the tables of all saws and returns their statistics. Temporary files are in `folder` and are
+/// removed.
 ///
 /// # Errors
 /// [`LogError`] where a log cannot be read or a table cannot be written.

@@ -1,20 +1,20 @@
-//! Where the saws of a study are written to.
+//! Interface of the tables of a study.
 
 use std::io;
 
 use super::saw::Saw;
 
-/// A file that saws are written to, in the order of their numbers.
+/// A file to which saws are written in the order of their numbers.
 pub trait Table {
     /// Adds the next saws.
     ///
     /// # Errors
-    /// What writing raises.
+    /// The error of writing.
     fn add(&mut self, saws: &[Saw]) -> io::Result<()>;
 
-    /// Ends the file.
+    /// Completes the file.
     ///
     /// # Errors
-    /// What writing raises.
+    /// The error of writing.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }

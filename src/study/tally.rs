@@ -1,4 +1,4 @@
-//! Counts the saws of a study, one after the other: what a [`StudyReport`] says of them.
+//! Collects the statistics of a study for a [`StudyReport`], one saw after the other.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,18 +14,18 @@ use super::saw::{Found, Outcome, Saw};
 use crate::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
-/// Saws of which the report lists why they were not analysed; the table has them all.
+/// Number of failed saws that the report lists; the table contains all.
 const LISTED: usize = 20;
-/// Saws listed with the lowest speeds.
+/// Number of saws listed with the lowest speeds.
 const WORST: usize = 10;
-/// Points of the grid of which the report says more than the sum.
+/// Largest number of points of the grid for which the report has statistics of their own.
 const MAX_GROUPS: usize = 10_000;
-/// Points of the curve of reliability.
+/// Number of points of the curve of reliability.
 const CURVE: usize = 61;
-/// Shares of the saws that are to run, of which the speed is listed.
+/// Shares of saws for which the report gives the highest operating speed.
 const RELIABLE: [f64; 5] = [0.999, 0.99, 0.95, 0.9, 0.5];
 
-/// What is known of the saws so far.
+/// Statistics of the saws added so far.
 pub(super) struct Tally<'a> {
     study: &'a Study,
     folder: PathBuf,
@@ -41,7 +41,7 @@ pub(super) struct Tally<'a> {
 }
 
 impl<'a> Tally<'a> {
-    /// No saws; `folder` takes what does not fit into memory.
+    /// Statistics without saws. Values that do not fit into memory are written to `folder`.
     pub fn new(study: &'a Study, folder: &Path) -> Self {
         Tally {
             study,
@@ -58,7 +58,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Adds the next saw, in the order of their numbers.
+    /// Adds the next saw, in the order of the numbers.
     pub fn add(&mut self, saw: &Saw) -> io::Result<()> {
         self.all.add(saw)?;
         self.add_to_group(saw)?;
@@ -105,7 +105,7 @@ impl<'a> Tally<'a> {
         Ok(())
     }
 
-    /// What there is to say of all saws.
+    /// The report of all saws.
     pub fn report(mut self, processors: Vec<String>) -> io::Result<StudyReport> {
         let study = self.study;
         let reliability = self.reliability()?;
@@ -136,7 +136,7 @@ impl<'a> Tally<'a> {
         })
     }
 
-    /// None where no saw has a speed that it may not run at.
+    /// The curve of reliability; `None` if every saw may run at any speed of the study.
     fn reliability(&mut self) -> io::Result<Option<Reliability>> {
         let Some((from, to)) = self.allowed.range() else {
             return Ok(None);
@@ -152,7 +152,8 @@ impl<'a> Tally<'a> {
             }
         });
         let speeds: Vec<f64> = speeds.collect();
-        // Saws that may run below the first speed only, between it and the next, and so on.
+        // Number of saws whose highest operating speed lies below the first speed, between the first and the
+        // second, and so on.
         let mut below = vec![0_usize; points];
         self.allowed.each(&mut |allowed| {
             let above = speeds.partition_point(|speed| *speed <= allowed);
@@ -171,7 +172,7 @@ impl<'a> Tally<'a> {
         let curve = curve.collect();
         let mut fastest = Vec::new();
         for share in RELIABLE {
-            // So many saws may fall out. That is whole but for rounding: 1000 × (1 − 0.95).
+            // Number of saws that may fail. It is an integer except for rounding, as in 1000 × (1 − 0.95).
             let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
             let rank = out.checked_sub(saws - analysed);
             let rank = rank.filter(|rank| *rank < self.allowed.count());
@@ -195,7 +196,7 @@ fn margin(study: &Study) -> f64 {
         .map_or(OPERATING_LIMIT, |limits| limits.margin)
 }
 
-/// Up to this speed a saw keeps its margin and does not flutter; none within the speeds of the
+/// Highest speed at which a saw keeps its margin and does not flutter; `None` if it exceeds the speeds of the
 /// study.
 fn highest_operating_rpm(found: &Found, margin: f64) -> Option<f64> {
     let critical = found.lowest_critical_rpm.map(|rpm| margin * rpm);
@@ -214,7 +215,7 @@ impl Lowest {
         let Some(rpm) = speed else {
             return;
         };
-        // Of saws with the same speed the first comes first.
+        // Of saws with equal speeds the one with the smaller number is listed first.
         let place = self.0.partition_point(|other| other.rpm <= rpm);
         if place < WORST {
             self.0.truncate(WORST - 1);
@@ -228,7 +229,7 @@ impl Lowest {
     }
 }
 
-/// The grid's numbers of a saw.
+/// The values of the grid for a saw.
 fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
     let numbers = study.varying.iter().zip(&saw.values);
     numbers
@@ -241,11 +242,11 @@ fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
 }
 
 impl StudyReport {
-    /// Sums up the saws of a study, in the order of their numbers. Those of logs are summed up by
-    /// [`super::sum_up`], whatever their number.
+    /// The report of saws given in the order of their numbers. [`super::sum_up`] reads saws from logs without
+    /// holding them in memory.
     ///
     /// # Errors
-    /// Of more than a million saws, what the folder for temporary files raises.
+    /// With more than a million saws, the error of writing temporary files.
     pub fn new(study: &Study, saws: &[Saw]) -> std::io::Result<Self> {
         let mut tally = Tally::new(study, &std::env::temp_dir());
         saws.iter().try_for_each(|saw| tally.add(saw))?;

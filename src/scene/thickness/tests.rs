@@ -14,7 +14,7 @@ fn blade_with(list: &[(f64, f64)]) -> Result<Blade, SceneError> {
     scene.map(|scene| *scene.blade())
 }
 
-/// Hub 2.8 mm, from 0.2 m a taper to 2 mm at 0.3 m, there a step to 1.6 mm.
+/// The hub is 2.8 mm thick; a taper from 0.2 m leads to 2 mm at 0.3 m, where a step leads to 1.6 mm.
 #[test]
 fn thickness_is_that_of_the_hub_then_straight_between_rows_then_constant() {
     let blade = blade_with(&[(0.2, 2.8e-3), (0.3, 2.0e-3), (0.3, 1.6e-3)]).expect("a blade");
@@ -38,7 +38,7 @@ fn thickness_is_that_of_the_hub_then_straight_between_rows_then_constant() {
     assert!((least - 1.6e-3).abs() < 1e-15 && (largest - 2.8e-3).abs() < 1e-15);
 }
 
-/// A taper's volume by Pappus, and a step by hand.
+/// The volume of a taper follows from Pappus's theorem.
 #[test]
 fn the_mass_is_that_of_the_rings() {
     let step = blade_with(&[(0.2, 1.4e-3)]).expect("a blade");
@@ -50,7 +50,7 @@ fn the_mass_is_that_of_the_rings() {
     let inertia = 0.5 * plain.mass_kg() * (a * a + b * b);
     assert!((plain.polar_inertia_kg_m2() / inertia - 1.0).abs() < 1e-14);
     let taper = blade_with(&[(a, 2.8e-3), (b, 1.4e-3)]).expect("a blade");
-    // Trapezium with sides 2.8 and 1.4 mm: area times the way of its centroid.
+    // Trapezium with sides of 2.8 and 1.4 mm: area times the path of its centroid.
     let width = b - a;
     let area = 2.1e-3 * width;
     let centroid = a + width / 3.0 * (2.8 + 2.0 * 1.4) / (2.8 + 1.4);

@@ -25,7 +25,7 @@ fn numbers_in_other_units_are_recognized() {
     );
 }
 
-/// A blade of 0.71 m: 60 m/s at the rim are 1614 rpm.
+/// For a blade of 0.71 m, 60 m/s at the rim are 1614 rpm.
 #[test]
 fn speeds_in_other_units_are_recognized_by_the_speed_of_the_rim() {
     let file = Scene::paper().file().clone();
