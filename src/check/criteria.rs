@@ -1,4 +1,4 @@
-//! Each limit held against what was found, in numbers and in words.
+//! Compares each limit with the result, in numbers and in words.
 
 use super::Criterion;
 use super::limits::Limits;
@@ -10,7 +10,7 @@ use crate::stretched::Saturation;
 use crate::text::{shown, shown_to};
 
 impl Limits {
-    /// Every limit held against the critical speeds and bands of a saw.
+    /// Evaluates every limit on critical speeds and bands.
     pub fn criteria(&self, found: &Evidence<'_>) -> Vec<Criterion> {
         let lowest_critical = found.critical_rad_per_s.first().copied();
         let [flutter_speed, _] = flutter_onsets(found.bands, found.threshold_per_s);
@@ -39,7 +39,7 @@ impl Limits {
         criteria
     }
 
-    /// The operating speed as a share of the lowest critical one.
+    /// The ratio of the operating speed to the lowest critical speed.
     fn of_margin(&self, lowest_critical: Option<f64>) -> Criterion {
         let (operating, margin) = (self.operating_rad_per_s, self.margin);
         let asked = operating / margin;
@@ -67,7 +67,7 @@ impl Limits {
         }
     }
 
-    /// Whether the saw is stable where it runs.
+    /// Stability at the operating speed.
     fn of_operation(&self, found: &Evidence<'_>) -> Criterion {
         let operating = self.operating_rad_per_s;
         let verdict = found.verdict(operating);
@@ -93,7 +93,7 @@ impl Limits {
         }
     }
 
-    /// The speed at which the rim runs as fast as it may.
+    /// The speed at which the rim reaches its limit.
     pub(super) fn of_rim(&self, rim_radius_m: f64) -> Criterion {
         let found = self.max_rim_m_per_s / rim_radius_m;
         let operating = self.operating_rad_per_s;
@@ -109,11 +109,11 @@ impl Limits {
     }
 }
 
-/// Near one edge of a band flutter rises to this multiple of what it rises to at the largest growth.
+/// Ratio between the amplitude near one edge of a band and the amplitude at the speed of largest growth.
 const AT_AN_EDGE: f64 = std::f64::consts::SQRT_2;
 
 impl Limits {
-    /// The first band of flutter that rises further than it may.
+    /// The first flutter band whose amplitude exceeds its limit.
     pub(super) fn of_amplitude(
         &self,
         analysis: &Analysis,
@@ -123,7 +123,7 @@ impl Limits {
         let limit_mm = shown(1e3 * limit_m);
         let bands = analysis.chart.instabilities.iter().zip(saturations);
         let flutter = bands.filter(|(band, _)| band.kind == InstabilityKind::Flutter);
-        // Of one that is not known it is not said that it keeps the limit.
+        // A band of unknown amplitude does not keep the limit.
         let beyond = |(_, found): &(&Instability, &Option<Saturation>)| {
             found.is_none_or(|found| AT_AN_EDGE * found.amplitude_m > limit_m)
         };
@@ -159,12 +159,12 @@ impl Limits {
     }
 }
 
-/// A speed that was typed, without what the conversion to rad/s and back adds.
+/// A speed as typed, without the rounding error of conversion to rad/s and back.
 fn typed_rpm(rad_per_s: f64) -> String {
     shown_to(6, rpm(rad_per_s))
 }
 
-/// A speed that is not reached within the sweep is beyond all that is asked.
+/// A speed that is not reached within the sweep exceeds every limit.
 fn at_least(
     key: &'static str,
     name: &str,
@@ -183,7 +183,7 @@ fn at_least(
     }
 }
 
-/// Two numbers without decimals, or with as many as tell them apart.
+/// Two numbers without decimals, or with as many as are needed to distinguish them.
 fn apart(first: f64, second: f64) -> (String, String) {
     let with = |decimals: usize| {
         (
@@ -197,10 +197,10 @@ fn apart(first: f64, second: f64) -> (String, String) {
     told.filter(|_| first != second).unwrap_or_else(|| with(0))
 }
 
-/// Differences beyond the third decimal are those of rounding.
+/// Differences beyond the third decimal are rounding.
 const MOST_DECIMALS: usize = 4;
 
-/// A limit that no speed keeps: a side force moves the blade away.
+/// A criterion that no speed keeps, because nothing holds the blade against a side force.
 pub(super) fn without_stiffness(operating: f64) -> Criterion {
     Criterion {
         key: "held",
@@ -212,8 +212,8 @@ pub(super) fn without_stiffness(operating: f64) -> Criterion {
     }
 }
 
-/// Of every guide with a gap the speed at which the lateral forces of the cut press the blade
-/// through it. A blade past its lowest critical speed has no static deflection to hold against it.
+/// For every guide with a gap, the speed at which the lateral forces of the cut close it. Beyond the lowest
+/// critical speed a blade has no static deflection to compare.
 pub(super) fn of_gaps(
     scene: &Scene,
     plate: &Plate,

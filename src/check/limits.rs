@@ -1,4 +1,4 @@
-//! What a saw has to keep: as typed, in rpm, and validated, in rad/s.
+//! Limits that a saw has to keep: as typed, in rpm, and validated, in rad/s.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,11 +30,10 @@ fn default_margin() -> f64 {
 }
 
 impl LimitsFile {
-    /// The limits of a scene, and the usual one of the rim.
+    /// The limits of a scene, with the usual limit of the rim speed.
     ///
     /// # Errors
-    /// [`RefusedValue`] that names the number that no limit has, or the operating speed where
-    /// there is none.
+    /// [`RefusedValue`] that names the invalid limit, or the operating speed if it is missing.
     pub fn limits(&self, scene: &Scene) -> Result<Limits, RefusedValue> {
         let operating_rpm = scene.needed_operating_rpm(self.operating_rpm)?;
         if !(self.margin > 0.0 && self.margin <= 1.0) {
@@ -55,41 +54,41 @@ impl LimitsFile {
     }
 }
 
-/// What a saw has to keep, speeds in rad/s.
+/// Limits that a saw has to keep, with speeds in rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Speed at which it is run.
+    /// Operating speed.
     pub operating_rad_per_s: f64,
-    /// Largest share of the lowest critical speed that the operating speed may be.
+    /// Largest ratio of the operating speed to the lowest critical speed.
     pub margin: f64,
-    /// Least flutter speed.
+    /// Lower limit of the flutter speed.
     pub min_flutter_rad_per_s: Option<f64>,
-    /// Least first critical speed.
+    /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
-    /// Largest speed of the rim.
+    /// Largest rim speed.
     pub max_rim_m_per_s: f64,
-    /// Largest deflection that flutter may rise to in any band from rest to the operating speed, without damping.
+    /// Largest amplitude of flutter in any band up to the operating speed, without damping.
     pub max_amplitude_m: Option<f64>,
-    /// Whether a saw with numbers that no saw has may pass.
+    /// Whether a saw with unusual numbers may pass.
     pub accept_unusual: bool,
 }
 
-/// Saws for wood are run with 60 to 90 m/s at the rim, and makers of carbide-tipped blades allow no
-/// more than this.
+/// Saws for wood have rim speeds of 60 to 90 m/s, and manufacturers of carbide-tipped blades allow no more
+/// than this.
 pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
 
-/// The sweep reaches past the speeds asked for by this factor.
+/// Factor by which the sweep exceeds the speeds of the limits.
 const BEYOND: f64 = 1.02;
-/// Slopes of any saw would be far beyond what the model holds for.
+/// At a larger amplitude the slopes of any saw would exceed the validity of the model.
 const MAX_AMPLITUDE_MM: f64 = 1e3;
-/// Faster than sound in steel.
+/// This exceeds the speed of sound in steel.
 const MAX_RIM_M_PER_S: f64 = 1e4;
 
 impl Limits {
-    /// The same with another limit of the speed of the rim.
+    /// Replaces the limit of the rim speed.
     ///
     /// # Errors
-    /// [`RefusedValue`] where no rim has this speed.
+    /// [`RefusedValue`] if the limit is out of range.
     pub fn with_rim_speed(self, max_rim_m_per_s: f64) -> Result<Self, RefusedValue> {
         if max_rim_m_per_s > 0.0 && max_rim_m_per_s <= MAX_RIM_M_PER_S {
             return Ok(Limits {
@@ -103,10 +102,10 @@ impl Limits {
         Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))
     }
 
-    /// The same with a limit of how far flutter rises, in millimetres, where there is one.
+    /// Replaces the limit of the amplitude of flutter, in millimetres.
     ///
     /// # Errors
-    /// [`RefusedValue`] where it is no length of a blade.
+    /// [`RefusedValue`] if the limit is out of range.
     pub fn with_amplitude(self, max_amplitude_mm: Option<f64>) -> Result<Self, RefusedValue> {
         let Some(given) = max_amplitude_mm else {
             return Ok(self);
@@ -123,7 +122,7 @@ impl Limits {
         Err(RefusedValue::new(key, given, allowed, remedy))
     }
 
-    /// The usual 85 % rule and the usual speed of the rim at an operating speed, and nothing else.
+    /// The 85 % rule and the usual rim speed at an operating speed, without other limits.
     pub fn at(operating_rad_per_s: f64) -> Self {
         Limits {
             operating_rad_per_s,
@@ -136,7 +135,7 @@ impl Limits {
         }
     }
 
-    /// Numbers that no saw has: those of a scene, and speeds that are asked for and not in it.
+    /// Unusual numbers of a scene and of these limits.
     pub fn unusual_numbers(&self, scene: &Scene) -> Vec<String> {
         let file = scene.file();
         let operating_rpm = rpm(self.operating_rad_per_s);
@@ -167,8 +166,8 @@ impl Limits {
             .collect()
     }
 
-    /// How far a sweep has to go at least: past every speed asked for, so that a band that begins
-    /// there is seen to.
+    /// Smallest end of a sweep: it exceeds every speed of the limits, so that a band that begins there is
+    /// found.
     pub fn reach_rad_per_s(&self) -> f64 {
         let asked = [
             Some(self.operating_rad_per_s / self.margin),

@@ -1,4 +1,4 @@
-//! Pass or fail: a saw against limits that its designer sets.
+//! Compares a saw with limits that its designer sets.
 //!
 //! ```
 //! use sawflutter::check::{Check, Limits};
@@ -34,13 +34,13 @@ pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
 use static_deflection::{StaticDeflection, point};
 
-/// Why a saw could not be held against limits.
+/// Reason for which a check failed to run.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    /// No sweep reaches as far as the limits ask.
+    /// No sweep extends as far as the limits require.
     #[error("the limits were refused: {0}")]
     Scene(#[from] SceneError),
-    /// The saw could not be analysed.
+    /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
     /// The saw could not be analysed.
@@ -51,59 +51,59 @@ pub enum CheckError {
     Stretched(#[from] StretchedError),
 }
 
-/// One limit and what was found.
+/// A limit and its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// Which limit, in one word, for tables.
+    /// Identifier, used in tables.
     pub key: &'static str,
-    /// What is asked, in words.
+    /// Requirement, as text.
     pub name: String,
-    /// What the saw does, in words.
+    /// Result, as text.
     pub finding: String,
-    /// What was found, in rad/s; `None` where there is no such speed within the sweep.
+    /// Value found, in rad/s; `None` if it exceeds the sweep.
     pub found: Option<f64>,
-    /// What was asked, in rad/s.
+    /// Value required, in rad/s.
     pub asked: f64,
-    /// Whether it is kept.
+    /// Whether the limit is kept.
     pub passed: bool,
 }
 
-/// A saw held against limits.
+/// Result of comparing a saw with limits.
 #[derive(Debug)]
 pub struct Check {
-    /// Every limit of speeds that a study asks about too.
+    /// Limits of speeds, which studies use as well.
     pub criteria: Vec<Criterion>,
-    /// The speed of the rim, the amplitude of flutter where it is limited, the gap of every guide that has one, and of a blade that nothing holds its want of
-    /// stiffness.
+    /// Limits of the rim speed, the amplitude of flutter and the gaps of guides, and, for a blade that
+    /// nothing holds, its missing stiffness.
     pub of_rim_and_gaps: Vec<Criterion>,
-    /// Speeds in rad/s up to the lowest critical one, and the stiffness in N/m of the same point
-    /// there; empty where rigid motions are free.
+    /// Speeds in rad/s up to the lowest critical one, and the lateral stiffness in N/m of the rim at the
+    /// middle of the cut; empty if rigid motions are free.
     pub rim_stiffness_over_speed: Vec<(f64, f64)>,
-    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m.
+    /// Lateral stiffness of this point of the rim at rest, in N/m.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// The same at the operating speed; `None` from the first critical speed on: K(Ω) is not
-    /// positive definite there, and force over deflection may be anything, of either sign.
+    /// This stiffness at the operating speed; `None` from the first critical speed on: K(Ω) is not positive
+    /// definite there, and the ratio of force to deflection may have any value and sign.
     pub rim_stiffness_n_per_m: Option<f64>,
-    /// How far the flutter of each band rises; none where it was not asked.
+    /// Amplitude to which the flutter of each band rises; empty if it has no limit.
     pub saturations: Vec<Option<Saturation>>,
-    /// Numbers that no saw has, of the scene and of the limits.
+    /// Unusual numbers of the scene and of the limits.
     pub unusual_numbers: Vec<String>,
-    /// Whether a saw with such numbers may pass.
+    /// Whether a saw with unusual numbers may pass.
     pub accept_unusual: bool,
-    /// What the speeds were taken from.
+    /// Analysis from which the speeds were taken.
     pub analysis: Analysis,
 }
 
-/// A point dents the rim in waves of all lengths: what n diameters add falls with n³ only, so
-/// that critical speeds are right long before the stiffness of a point is.
+/// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
+/// The stiffness of a point therefore needs a larger basis than critical speeds do.
 const POINT_LOAD_BASIS: Resolution = Resolution {
     max_diameters: 30,
     radial_functions: 12,
 };
 
 impl Check {
-    /// Analyses a saw from rest to where its sweep ends, or further where the limits ask for more,
-    /// and compares: what is found is what an [`Analysis`] of the scene finds.
+    /// Analyses a saw from rest to the end of its sweep, or further if the limits require it, and compares.
+    /// The results equal those of an [`Analysis`] of the scene.
     ///
     /// # Errors
     /// [`CheckError`] when the saw cannot be analysed that far.
@@ -145,12 +145,12 @@ impl Check {
         })
     }
 
-    /// Every limit: those of speeds, of the rim and of the gaps.
+    /// All limits: of speeds, of the rim and of the gaps.
     pub fn all_criteria(&self) -> impl Iterator<Item = &Criterion> {
         self.criteria.iter().chain(&self.of_rim_and_gaps)
     }
 
-    /// Numbers that no saw has, where they keep the check from being passed.
+    /// Unusual numbers that prevent the check from passing.
     fn refused_numbers(&self) -> &[String] {
         match self.accept_unusual {
             true => &[],
@@ -158,13 +158,12 @@ impl Check {
         }
     }
 
-    /// Whether every limit is kept, by a saw whose numbers saws have, or that are accepted.
+    /// Whether every limit is kept and unusual numbers are absent or accepted.
     pub fn passed(&self) -> bool {
         self.refused_numbers().is_empty() && self.all_criteria().all(|criterion| criterion.passed)
     }
 
-    /// Numbers that no saw has, and the limits that are not kept, with their numbers in rpm: for
-    /// assertions.
+    /// Unusual numbers and limits that are not kept, with values in rpm, for assertions.
     pub fn failures(&self) -> Vec<String> {
         let failed = self.all_criteria().filter(|criterion| !criterion.passed);
         let failed = failed.map(Criterion::to_string);
@@ -176,7 +175,8 @@ impl Check {
     }
 }
 
-/// Of a scene from rest to the end of its sweep, or that of the program's choice, or further where as much is asked.
+/// The analysis of a scene from rest to the end of its sweep, given or chosen by the program, or further if
+/// required.
 fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckError> {
     let to = |end_rad_per_s: f64| {
         let range = (0.0, end_rad_per_s.max(least_end_rad_per_s));
@@ -198,8 +198,8 @@ impl std::fmt::Display for Criterion {
     }
 }
 
-/// 1/(φᵀ K(Ω)⁻¹ φ) with φ the functions at the rim: force over deflection of a point that
-/// stands in space, the saw turning under it. Zero where rigid motions are free.
+/// 1/(φᵀ K(Ω)⁻¹ φ) with the basis functions φ at the rim: force over deflection at a point fixed in space
+/// while the saw turns. Zero if rigid motions are free.
 fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {
     let point = point(plate, plate.blade.outer_radius_m, angle_rad);
     let system = GyroscopicSystem::of_plate(plate);
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
     use crate::scene::{Accuracy, rad_per_s};
 
-    /// Of a saw whose sweep the program ends, asked for far less, and for more.
+    /// The program ends the sweep of this saw; limits require much less, and more.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
     fn a_check_finds_what_an_analysis_finds() {

@@ -11,34 +11,34 @@ use crate::spectrum::orthonormal;
 use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
 
-/// Shares of the square of the lowest critical speed at which the response is solved on the full
-/// model. Between them it is a rational function of that square, which the projection on these
-/// responses follows.
+/// Squared speeds, relative to that of the lowest critical speed, at which the response is solved on the full
+/// model. In between it is a rational function of the squared speed, which the projection on these responses
+/// represents.
 const SOLVED_AT: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
-/// Speeds of the curve, evenly spread.
+/// Number of evenly spaced speeds of the curve.
 const SPEEDS: usize = 41;
-/// Share of the lowest critical speed at which the curve ends: there the deflection has no bound.
+/// End of the curve relative to the lowest critical speed, at which the deflection is unbounded.
 const LAST_SHARE: f64 = 0.99;
-/// Directions of the responses below this share of the longest are rounding.
+/// Directions of the responses that are shorter than this share of the longest are rounding.
 const LEAST: f64 = 1e-12;
-/// Relative error of the speed at which a gap is filled.
+/// Relative error of the speed at which a gap closes.
 const SPEED_TOLERANCE: f64 = 1e-12;
 
-/// How the blade gives way to forces that stand in space.
+/// Static response of the blade to forces fixed in space.
 pub struct StaticDeflection {
-    /// Projected on the responses.
+    /// System projected on the responses.
     system: GyroscopicSystem,
     basis: Mat<f64>,
-    /// One newton on the rim at the middle of the cut.
+    /// Load of one newton on the rim at the middle of the cut.
     rim: Col<f64>,
-    /// The lateral forces of the teeth in the cut.
+    /// Lateral forces of the teeth in the cut.
     cut: Option<Col<f64>>,
     to_rad_per_s: f64,
 }
 
 impl StaticDeflection {
-    /// Below a critical speed, at the rim at an angle, and under lateral forces of a cut in N a
-    /// tooth. `None` where rigid motions are free: nothing holds the blade then.
+    /// The response below a critical speed, at the rim at an angle, and under lateral forces of a cut in N
+    /// per tooth. `None` if rigid motions are free, so that nothing holds the blade.
     pub fn new(
         plate: &Plate,
         angle_rad: f64,
@@ -90,7 +90,7 @@ impl StaticDeflection {
         (0..SPEEDS).map(move |k| self.to_rad_per_s * k as f64 / last)
     }
 
-    /// Speeds in rad/s and the stiffness in N/m of the point of the rim there.
+    /// Speeds in rad/s and the stiffness in N/m of the point of the rim.
     pub fn rim_stiffness_n_per_m(&self) -> Vec<(f64, f64)> {
         let stiffness = |speed: f64| {
             let deflection = self.rim.transpose() * self.answer(&self.rim, speed);
@@ -99,16 +99,14 @@ impl StaticDeflection {
         self.speeds().map(stiffness).collect()
     }
 
-    /// Deflection at a point under the lateral forces of the cut at a speed, in m; `None` without
-    /// such forces.
+    /// Deflection at a point under the lateral forces of the cut, in m; `None` without such forces.
     pub fn in_cut_m(&self, point: &Col<f64>, speed_rad_per_s: f64) -> Option<f64> {
         let load = self.cut.as_ref()?;
         let reading = self.basis.transpose() * point;
         Some(reading.transpose() * self.answer(load, speed_rad_per_s))
     }
 
-    /// Lowest speed, in rad/s, at which that deflection is as large as a gap, `None` where it stays
-    /// smaller.
+    /// Lowest speed, in rad/s, at which this deflection equals a gap; `None` if it remains smaller.
     pub fn fills_gap_at(&self, point: &Col<f64>, gap_m: f64) -> Option<f64> {
         let look = |speed: f64| Look {
             at: speed,
@@ -130,8 +128,7 @@ impl StaticDeflection {
     }
 }
 
-/// The functions of a plate at a point: the load of one newton there, and the reading of a
-/// deflection.
+/// The basis functions at a point: the load of one newton there, and the reading of the deflection there.
 pub fn point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
     let values = plate.functions_at(radius_m, angle_rad);
     Col::from_fn(values.len(), |i| values[i])

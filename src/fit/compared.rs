@@ -9,29 +9,29 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rad_per_s};
 use crate::spectrum::{LowestModes, SpectrumError};
 
-/// Lowest frequencies in ascending order at some speeds.
+/// Lowest frequencies, ascending, at some speeds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BeforeAndAfter {
     /// Speeds.
     pub rpm: Vec<f64>,
-    /// Of the scene as it was, in Hz, a row for each speed.
+    /// Frequencies of the original scene in Hz, one row for each speed.
     pub before_hz: Vec<Vec<f64>>,
-    /// Of the fitted one, in Hz.
+    /// Frequencies of the fitted scene in Hz.
     pub fitted_hz: Vec<Vec<f64>>,
 }
 
-/// What a report of a fit shows beside the numbers found.
+/// Frequencies that the report of a fit shows.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Compared {
-    /// At the measured speeds, those included that were left out of the fit.
+    /// At the measured speeds, including those that were excluded from the fit.
     pub measured: BeforeAndAfter,
-    /// From rest to a little past the last fitted speed.
+    /// From rest to slightly beyond the last fitted speed.
     pub curves: BeforeAndAfter,
 }
 
-/// Speeds of the curves.
+/// Number of speeds of the curves.
 const CURVE_SPEEDS: usize = 121;
-/// They reach a little past the last fitted speed.
+/// End of the curves, relative to the last fitted speed.
 const BEYOND: f64 = 1.12;
 
 /// The `count` lowest frequencies at speeds in rpm, in Hz.

@@ -1,37 +1,37 @@
-//! Why nothing could be fitted.
+//! Errors of a fit.
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;
 
-/// Why nothing could be fitted.
+/// Reason for which a fit failed.
 #[derive(Debug, thiserror::Error)]
 pub enum FitError {
-    /// A line of the table that is not a row of numbers.
+    /// A line of the table is not a row of numbers.
     #[error("line {line} of the measured frequencies: {problem}")]
     Table {
         /// Line, from 1.
         line: u64,
-        /// What is wrong and what to do.
+        /// Description of the error, with remedy.
         problem: String,
     },
-    /// A table of nothing but speeds.
+    /// The table contains only speeds.
     #[error("there is no frequency in {source_name}; give a table with some")]
     Empty {
         /// Name of the table.
         source_name: String,
     },
-    /// More unknowns than the data can determine.
+    /// The data cannot determine so many unknowns.
     #[error(
         "{measured} measured frequencies do not determine {free} numbers; measure more, or free fewer numbers"
     )]
     TooFew {
-        /// Measured frequencies.
+        /// Number of measured frequencies.
         measured: usize,
-        /// Numbers that are free and move them.
+        /// Number of free numbers that have an effect.
         free: usize,
     },
-    /// Nothing to fit with.
+    /// No free number has an effect.
     #[error(
         "no number is free that moves a measured frequency; free another one, like guides[0].radius_m"
     )]
@@ -39,7 +39,7 @@ pub enum FitError {
     /// Every start was refused.
     #[error("none of {starts} starts between the bounds is a saw; narrow the bounds")]
     NoStart {
-        /// How many were tried.
+        /// Number of starts.
         starts: usize,
     },
     /// A scene was refused.

@@ -1,4 +1,4 @@
-//! Measured frequencies, and which computed ones they are held against.
+//! Measured frequencies, and their assignment to computed ones.
 
 use crate::scene::{MAX_RPM, Measured, MeasuredRow, rad_per_s};
 
@@ -8,9 +8,9 @@ use super::table::{Table, TableRow};
 /// Frequencies measured over speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
-    /// Who measured them, or the name of the file.
+    /// Person or file from which the data come.
     pub source: String,
-    /// One row a speed.
+    /// One row for each speed.
     pub rows: Vec<Row>,
 }
 
@@ -19,23 +19,22 @@ pub struct Measurement {
 pub struct Row {
     /// Rotation speed.
     pub rpm: f64,
-    /// (k, frequency in Hz): to be held against the k-th lowest computed frequency, k from 0.
+    /// (k, frequency in Hz): corresponds to the k-th lowest computed frequency, k from 0.
     pub pairs: Vec<(usize, f64)>,
 }
 
-/// Rows and frequencies beyond these are no table that a person measured.
+/// A table with more rows or frequencies was not measured by a person.
 const MAX_ROWS: usize = 1000;
 const MAX_COLUMNS: usize = 24;
-/// A range of speeds has to have a length, however little a frequency at rest needs of it.
+/// Smallest range of speeds; frequencies measured at rest need a range too.
 const LEAST_RPM: f64 = 100.0;
-/// As far as scenes go, in Hz.
+/// Largest frequency in Hz, as in scenes.
 const MAX_HZ: f64 = 1e9;
 
 impl Row {
-    /// Pairs the columns that hold a number with the computed frequencies of their places:
-    /// the numbers of a row are held in ascending order, whatever order they stand in, for a
-    /// reader of a spectrum cannot tell waves that have crossed. A blank third column says that
-    /// the third lowest frequency was not seen.
+    /// Assigns the columns that hold a number to the computed frequencies of these columns. The numbers of a
+    /// row are sorted first, because a spectrum does not show which waves have crossed. A blank third column
+    /// means that the third lowest frequency was not measured.
     pub fn new(rpm: f64, columns: &[Option<f64>]) -> Self {
         let places = columns.iter().enumerate().filter(|(_, hz)| hz.is_some());
         let mut numbers: Vec<f64> = columns.iter().copied().flatten().collect();
@@ -51,14 +50,14 @@ impl Row {
         rad_per_s(self.rpm)
     }
 
-    /// How many of the lowest computed frequencies it takes.
+    /// Number of lowest computed frequencies that the row needs.
     pub fn depth(&self) -> usize {
         self.pairs.last().map_or(0, |(place, _)| place + 1)
     }
 }
 
 impl Measurement {
-    /// The `measured` block of a scene.
+    /// Reads the block `measured` of a scene.
     pub fn of_scene(measured: &Measured) -> Self {
         let row = |row: &MeasuredRow| Row::new(row.rpm, &row.frequencies_hz);
         Measurement {
@@ -67,13 +66,12 @@ impl Measurement {
         }
     }
 
-    /// Reads a table: a speed in rpm, then frequencies in Hz or blanks, separated by commas,
-    /// semicolons, tabs or blanks. A first line of names says which column is the speed; lines
-    /// that begin with # are passed over.
+    /// Reads a table with a speed in rpm, followed by frequencies in Hz or blanks, separated by commas,
+    /// semicolons, tabs or spaces. A first line of names determines which column is the speed; lines that
+    /// begin with # are ignored.
     ///
     /// # Errors
-    /// [`FitError::Table`] with the line, the column and what is wrong with it, and
-    /// [`FitError::Empty`].
+    /// [`FitError::Table`] with line, column and description, and [`FitError::Empty`].
     pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
         let table = Table::read(text)?;
         let rows: Vec<Row> = table.rows.iter().map(row).collect::<Result<_, _>>()?;
@@ -95,7 +93,7 @@ impl Measurement {
         })
     }
 
-    /// The same up to a speed.
+    /// The rows up to a speed.
     pub fn up_to(&self, rpm: f64) -> Self {
         let within = self.rows.iter().filter(|row| row.rpm <= rpm);
         Measurement {
@@ -114,8 +112,8 @@ impl Measurement {
         self.rows.iter().fold(0.0, |top, row| row.rpm.max(top))
     }
 
-    /// End of a range of speeds that holds those measured: of a tap test at rest, of which every speed is zero, a
-    /// little above it.
+    /// End of a range of speeds that includes the measured ones; slightly above zero for measurements at
+    /// rest.
     pub(super) fn end_of_range_rpm(&self) -> f64 {
         match self.top_rpm() {
             rpm if rpm > 0.0 => rpm,
@@ -123,13 +121,12 @@ impl Measurement {
         }
     }
 
-    /// How many of the lowest frequencies any row takes.
+    /// Number of lowest computed frequencies that the rows need.
     pub fn depth(&self) -> usize {
         self.rows.iter().map(Row::depth).max().unwrap_or(0)
     }
 
-    /// The `measured` block of a scene that says the same: rows in ascending speed, without those in which
-    /// nothing was seen.
+    /// The block `measured` of a scene with these data: rows in ascending speed, without empty ones.
     pub fn as_scene_block(&self) -> Measured {
         let row = |row: &Row| {
             let mut frequencies_hz = vec![None; row.depth()];

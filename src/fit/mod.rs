@@ -1,10 +1,10 @@
-//! Calibration: numbers of a scene from frequencies measured over speed.
+//! Calibration: determines numbers of a scene from frequencies measured over speed.
 //!
-//! Least squares within bounds by the trust-region reflective method, from several starts; the
-//! starts are spread over the bounds on a coarse basis, and the best is refined on the basis
-//! that the scene's tolerance asks for. Frequencies are |Im λ|/2π in space, zero for a wave
-//! that diverges; the numbers of a row in ascending order are held against the lowest computed
-//! ones, as in the calibration of the paper's saw on its Table 5.
+//! The sum of squares is minimized within bounds by the trust-region reflective method from several starts,
+//! which are spread over the bounds. The search uses a coarse basis; the best results are refined on the
+//! basis that the scene's tolerance requires. Frequencies are |Im λ|/2π in space, and zero for a wave that
+//! diverges. The numbers of a row, sorted, correspond to the lowest computed ones, as in the calibration of
+//! the paper's saw with its Table 5.
 //!
 //! ```
 //! use sawflutter::fit::{Fit, Measurement, Options};
@@ -47,18 +47,18 @@ use solve::{Found, at_bound, statistics};
 pub(crate) use starts::Start;
 use starts::{refined, search};
 
-/// Confidence, starts and range of a fit.
+/// Confidence, starts and speeds of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Probability with which the intervals cover the truth.
+    /// Probability that an interval contains the true value.
     pub confidence: f64,
-    /// Starts: the scene's own numbers, and others spread between the bounds.
+    /// Number of starts: the original values, and others spread over the bounds.
     pub starts: usize,
-    /// Which others.
+    /// Seed of the other starts.
     pub seed: u64,
-    /// Rows past this speed are not fitted.
+    /// Rows beyond this speed are not fitted.
     pub to_rpm: f64,
-    /// A basis instead of the one that the scene's tolerance asks for.
+    /// A basis to use instead of the one that the tolerance of the scene requires.
     pub resolution: Option<Resolution>,
 }
 
@@ -74,15 +74,14 @@ impl Default for Options {
     }
 }
 
-/// More starts than these never found anything new.
+/// Largest number of starts; more never found another minimum.
 const MAX_STARTS: usize = 1000;
 
 impl Options {
-    /// The same, if a fit to a measurement can have them.
+    /// Checks the options for a fit to a measurement.
     ///
     /// # Errors
-    /// [`RefusedValue`] that names the option that no fit can have, or the last speed where nothing is
-    /// measured up to there.
+    /// [`RefusedValue`] that names the option, or the last speed if nothing is measured up to it.
     pub fn checked(self, measurement: &Measurement) -> Result<Self, RefusedValue> {
         if !(self.confidence > 0.0 && self.confidence < 1.0) {
             let (key, remedy) = ("confidence", "0.95 is usual");
@@ -104,73 +103,73 @@ impl Options {
     }
 }
 
-/// A number and what was found for it.
+/// A free number and its fitted value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedParameter {
-    /// Which, and between which bounds.
+    /// The number and its bounds.
     pub freed: Freed,
-    /// What the scene had.
+    /// Value in the scene.
     pub start: f64,
-    /// What fits best.
+    /// Fitted value.
     pub value: f64,
-    /// Where the truth is with the confidence asked for; `None` at a bound, and where the data do not determine this
-    /// number: they do not tell it from others, or leave it an interval wider than the distance between its bounds.
+    /// Confidence interval. `None` at a bound, and if the data do not determine this number: they do not
+    /// distinguish it from others, or the interval is wider than the distance between its bounds.
     pub interval: Option<(f64, f64)>,
-    /// Whether it rests on a bound.
+    /// Whether the value is a bound.
     pub at_bound: bool,
 }
 
 /// A scene fitted to measured frequencies.
 #[derive(Debug, Clone)]
 pub struct Fit {
-    /// The saw.
+    /// The fitted saw.
     pub scene: Scene,
-    /// As it was.
+    /// The original saw.
     pub before: Scene,
-    /// What was measured.
+    /// The measurement.
     pub measurement: Measurement,
-    /// Rows past this speed were not fitted.
+    /// Rows beyond this speed were not fitted.
     pub to_rpm: f64,
-    /// Probability with which the intervals cover the truth.
+    /// Probability that an interval contains the true value.
     pub confidence: f64,
-    /// Numbers found.
+    /// The free numbers and their fitted values.
     pub parameters: Vec<FittedParameter>,
-    /// Freed numbers that move no measured frequency, or none that the others do not move
-    /// as well: of angles that may all turn, one. They stay as they were.
+    /// Freed numbers that change no measured frequency, or whose effect other numbers have as well, such as
+    /// one of the angles if all guides may turn. They keep their values.
     pub without_effect: Vec<Freed>,
-    /// Correlation of the parameters, without a unit: one row and one column each.
+    /// Correlation of the parameters, with one row and one column for each.
     pub correlation: Vec<Vec<f64>>,
-    /// Measured numbers less free ones.
+    /// Number of measured frequencies minus number of free numbers.
     pub degrees_of_freedom: usize,
     /// Root mean square of computed minus measured frequencies.
     pub rms_hz: f64,
-    /// The same before.
+    /// This value before the fit.
     pub rms_before_hz: f64,
-    /// The basis.
+    /// Basis of the fit.
     pub resolution: Resolution,
-    /// Estimated relative error of its critical speeds; `None` where it was given.
+    /// Estimated relative error of the critical speeds; `None` if the basis was given.
     pub estimated_relative_error: Option<f64>,
-    /// Every start, on a coarser basis.
+    /// All starts, on a coarser basis.
     pub(crate) starts: Vec<Start>,
-    /// Computed frequencies, before and after.
+    /// Computed frequencies before and after the fit.
     pub(crate) compared: Compared,
 }
 
-/// Shares of the bounds at which a number is looked at for whether it moves anything.
+/// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
-/// Frequencies that move by less than this between them do not move, in Hz.
+/// Smaller changes of frequencies, in Hz, are no effect.
 const IDLE_HZ: f64 = 1e-5;
-/// Starts are told from each other, and parameters from idle ones, as well on this.
+/// This tolerance suffices to compare starts and to find numbers without effect.
 const COARSE_TOLERANCE: f64 = 1e-2;
 
 impl Fit {
-    /// Fits the freed numbers p of a scene to what was measured: the least Σ (f_k(p) − f̂_k)², f_k
-    /// the k-th lowest computed frequency of a row in Hz, f̂_k the measured one. Intervals are those
-    /// of the linearised problem with Student's t, (JᵀJ)⁻¹ times the variance of the residuals.
+    /// Fits the freed numbers p of a scene: minimizes Σ (f_k(p) − f̂_k)², with the k-th lowest computed
+    /// frequency f_k of a row in Hz and the measured one f̂_k. Intervals follow from the linearized problem
+    /// with Student's t; the covariance is (JᵀJ)⁻¹ times the variance of the residuals.
     ///
     /// # Errors
-    /// [`FitError`] where the measurement does not determine the freed numbers, or no start between
-    /// the bounds can be analysed.
+    /// [`FitError`] if the measurement does not determine the freed numbers, or no start between the bounds
+    /// can be analysed.
     pub fn new(
         scene: &Scene,
         measured: &Measurement,
@@ -230,7 +229,7 @@ impl Fit {
     }
 }
 
-/// Whether measured frequencies determine so many free numbers.
+/// Checks that the measured frequencies can determine so many free numbers.
 fn check_determined(free: usize, measured: usize) -> Result<(), FitError> {
     match free {
         0 => Err(FitError::NothingFree),
@@ -239,7 +238,7 @@ fn check_determined(free: usize, measured: usize) -> Result<(), FitError> {
     }
 }
 
-/// Parts the freed numbers into those that move a measured frequency and the others.
+/// Divides the freed numbers into those that change a measured frequency and the others.
 fn moving(
     scene: &Scene,
     measurement: &Measurement,
@@ -263,10 +262,11 @@ fn moving(
     effective(scene, freed, &LOOKED_AT, residuals, differ)
 }
 
-/// Half of the distance between the bounds: who gave them knew as much.
+/// Widest half of an interval as a share of the bounds: a wider interval contains no more information than
+/// the bounds.
 const WIDEST_HALF: f64 = 0.5;
 
-/// Every number with what was found for it, from shares of its bounds.
+/// The free numbers with their results, from shares of the bounds.
 fn parameters(
     scene: &Scene,
     freed: &[Freed],
@@ -292,7 +292,7 @@ fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
 }
 
-/// The basis for a tolerance up to the measured speeds, and its estimated error.
+/// The basis for a tolerance up to the measured speeds, with its estimated error.
 fn basis(
     scene: &Scene,
     measurement: &Measurement,
@@ -306,7 +306,7 @@ fn basis(
     Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))
 }
 
-/// The scene with what was found and a note of where it comes from.
+/// The scene with the fitted numbers, and a note on their origin.
 fn calibrated(
     scene: &Scene,
     measurement: &Measurement,

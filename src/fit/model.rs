@@ -1,4 +1,4 @@
-//! Computed frequencies of the measured speeds, and how they move with the freed numbers.
+//! Computed frequencies at the measured speeds, and their derivatives by the freed numbers.
 
 use basin::DenseMatrix;
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ use crate::system::GyroscopicSystem;
 
 use super::Measurement;
 
-/// A saw of which some numbers are free, on one basis.
+/// A saw with freed numbers, on one basis.
 pub struct Model<'a> {
     pub scene: &'a SceneFile,
     pub freed: &'a [Freed],
@@ -20,8 +20,8 @@ pub struct Model<'a> {
     pub resolution: Resolution,
 }
 
-/// Shares of the distance between the bounds: truncation is of the fourth power, and rounding
-/// of the matrices 1e-16/1e-3.
+/// Step of the differences as a share of the bounds: the truncation error is of fourth order, the rounding
+/// error of the matrices 1e-16/1e-3.
 const STEP: f64 = 1e-3;
 
 impl Model<'_> {
@@ -30,8 +30,8 @@ impl Model<'_> {
         Ok(Plate::new(&scene, self.resolution))
     }
 
-    /// Computed minus measured frequency of every pair, in Hz. Not a number where the scene
-    /// refuses these values together, which the solver takes for a step too far.
+    /// Computed minus measured frequency of every pair, in Hz. NaN if the scene refuses this combination of
+    /// values; the solver then shortens its step.
     pub fn residuals_hz(&self, shares: &[f64]) -> Result<Vec<f64>, SpectrumError> {
         match self.plate(shares) {
             Ok(plate) => self.residuals_of(&LowestModes::new(&plate), |_, _| ()),
@@ -39,14 +39,14 @@ impl Model<'_> {
         }
     }
 
-    /// The same of a saw whose numbers need not lie between the bounds.
+    /// The residuals of a saw whose numbers need not lie between the bounds.
     pub fn residuals_of_saw_hz(&self, saw: &Scene) -> Result<Vec<f64>, SpectrumError> {
         let lowest = LowestModes::new(&Plate::new(saw, self.resolution));
         self.residuals_of(&lowest, |_, _| ())
     }
 
-    /// The same as [`Model::residuals_hz`] with its derivative by every share, exact in the eigenvalues, see
-    /// [`matrix_slopes`].
+    /// As [`Model::residuals_hz`], with the derivative by every share, which is exact for the eigenvalues,
+    /// see [`matrix_slopes`].
     pub fn residuals_and_slopes(
         &self,
         shares: &[f64],
@@ -85,8 +85,8 @@ impl Model<'_> {
         Ok(modes.iter().map(frequency_hz).collect())
     }
 
-    /// Residuals; tells of every pair its speed and its mode. A basis too small to have the
-    /// mode has it at zero.
+    /// Residuals; calls a function with the speed and the mode of every pair. A mode that the basis lacks
+    /// counts as zero.
     fn residuals_of(
         &self,
         lowest: &LowestModes,
@@ -105,13 +105,13 @@ impl Model<'_> {
         Ok(residuals)
     }
 
-    /// d/d(share k) of the matrices of every component.
+    /// Derivative by share k of the matrices of every component.
     fn changed_components(
         &self,
         shares: &[f64],
         k: usize,
     ) -> Result<Vec<GyroscopicSystem>, SceneError> {
-        // Past a bound a value may be refused.
+        // Values beyond a bound may be refused, so differences are one-sided there.
         let differences = match shares[k] {
             share if share < 2.0 * STEP => Differences::Above,
             share if share > 1.0 - 2.0 * STEP => Differences::Below,
@@ -129,7 +129,7 @@ fn frequency_hz(mode: &Mode) -> f64 {
     mode.frequency_rad_per_s() / TAU
 }
 
-/// d|Im λ|/2π of a mode for a change of the matrices.
+/// Derivative of |Im λ|/2π of a mode for a change of the matrices.
 fn slope_hz(
     components: &[Component],
     changes: &[GyroscopicSystem],
@@ -145,7 +145,7 @@ fn slope_hz(
         change,
     );
     let slope = moved.im / TAU;
-    // Where two modes merge the slope is infinite; there is none to follow.
+    // Where two modes coalesce the slope is infinite and cannot be used.
     if slope.is_finite() { slope } else { 0.0 }
 }
 
@@ -172,7 +172,7 @@ mod tests {
                 radial_functions: 4,
             },
         };
-        // Inside, and so near to a bound that the differences are one-sided.
+        // One point inside, and one so near to a bound that differences are one-sided.
         for shares in [[0.3, 0.6, 0.5], [0.9995, 0.5, 0.0005]] {
             let (residuals, slopes) = model.residuals_and_slopes(&shares).unwrap();
             assert_eq!(residuals, model.residuals_hz(&shares).unwrap());

@@ -1,4 +1,4 @@
-//! The least-squares problem as `basin` wants it, and its statistics.
+//! The least-squares problem in the form that `basin` expects, and its statistics.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
@@ -11,7 +11,7 @@ use crate::spectrum::SpectrumError;
 
 use super::model::Model;
 
-/// Where a start has led to.
+/// Result of a start.
 #[derive(Debug, Clone)]
 pub struct Found {
     pub shares: Vec<f64>,
@@ -57,14 +57,14 @@ impl Jacobian for Problem<'_> {
     }
 }
 
-/// A step of less than this share of the bounds' distance is no news, nor is a sum of squares
-/// that falls by less than this share of itself.
+/// The search ends at steps smaller than this share of the distance between the bounds, and when the sum of
+/// squares falls by less than this share.
 const STEP_TOLERANCE: f64 = 1e-8;
 const COST_TOLERANCE: f64 = 1e-12;
 const MAX_STEPS: u64 = 100;
 
-/// The minimum that a start leads to (trust-region reflective, as in SciPy). `None` where the
-/// start itself is refused.
+/// The minimum reached from a start (trust-region reflective method, as in SciPy). `None` if the start itself
+/// is refused.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -97,32 +97,31 @@ pub fn minimum(model: &Model<'_>, start: &[f64]) -> Result<Option<Found>, Spectr
     }))
 }
 
-/// What the Jacobian at the minimum says of how well the numbers are known.
+/// Accuracy of the fitted numbers, from the Jacobian at the minimum.
 #[derive(Debug)]
 pub struct Spread {
-    /// Half width of the interval of each share; `None` where the data do not tell it from the
-    /// others, and at a bound.
+    /// Half width of the interval of each share; `None` at a bound, and if the data do not distinguish the
+    /// number from others.
     pub half_widths: Vec<Option<f64>>,
-    /// Correlation of each pair; zero where there is no interval.
+    /// Correlation of each pair; zero if one of them has no interval.
     pub correlation: Vec<Vec<f64>>,
-    /// Measured numbers less free ones.
+    /// Number of measured frequencies minus number of free numbers.
     pub degrees_of_freedom: usize,
 }
 
-/// Nearer to a bound than this a share rests on it: the solver stays strictly inside.
+/// A share nearer to a bound than this is taken for the bound, because the solver remains strictly inside.
 const AT_BOUND: f64 = 1e-4;
-/// Columns of the Jacobian of unit length that are dependent to this leave a combination of
-/// numbers open.
+/// If the columns of the Jacobian, scaled to unit length, are dependent to within this tolerance, a
+/// combination of numbers is undetermined.
 const DEPENDENT: f64 = 1e-6;
 
-/// Whether a share rests on a bound.
+/// Whether a share is taken for a bound.
 pub fn at_bound(share: f64) -> bool {
     !(AT_BOUND..=1.0 - AT_BOUND).contains(&share)
 }
 
-/// Linear theory at the minimum: s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and Student's distribution
-/// of m − p degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares at a
-/// bound count as known.
+/// Linear theory at the minimum: s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and Student's distribution of m − p
+/// degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares at a bound count as known.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.

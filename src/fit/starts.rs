@@ -9,20 +9,19 @@ use crate::campbell::Progress;
 use crate::scene::spread;
 use crate::spectrum::SpectrumError;
 
-/// A start and where it led.
+/// A start and its result.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Start {
-    /// Values it began with.
+    /// Initial values.
     pub from: Vec<f64>,
-    /// Values it reached, and the root mean square of what was left; `None` for a start that
-    /// is no saw.
+    /// Final values and the root mean square of the residuals; `None` if the start is not a valid saw.
     pub to: Option<(Vec<f64>, f64)>,
 }
 
-/// As many of the best starts, if they led to different places, are refined.
+/// Largest number of starts with different results that are refined.
 const REFINED: usize = 3;
 
-/// Follows every start, and gives the best few that led to different places, best first.
+/// Minimizes from every start; returns the best few of different results, best first.
 pub fn search(
     model: &Model<'_>,
     options: &Options,
@@ -67,7 +66,7 @@ pub fn search(
     Ok((starts, distinct))
 }
 
-/// The best of what candidates lead to on a finer basis.
+/// The best result of refining candidates on a finer basis.
 pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
     let refined: Vec<Option<Found>> = candidates
         .par_iter()

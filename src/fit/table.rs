@@ -1,9 +1,9 @@
-//! A table of measured frequencies as spreadsheets and instruments write it: separators, decimal
-//! commas and the order of the columns are read off the table itself.
+//! Reads tables of measured frequencies from spreadsheets and instruments. Separators, decimal commas and the
+//! order of the columns are determined from the table.
 
 use super::FitError;
 
-/// Rows of numbers or blanks, the speed first, then the frequencies in the order of their columns.
+/// Rows of numbers or blanks: first the speed, then the frequencies in the order of their columns.
 #[derive(Debug, PartialEq)]
 pub struct Table {
     pub rows: Vec<TableRow>,
@@ -14,7 +14,7 @@ pub struct Table {
 pub struct TableRow {
     /// Line in the file, from 1.
     pub line: u64,
-    /// Number of the column in the file, from 1, and its text; blanks at the end are left out.
+    /// Column number in the file, from 1, and text of each cell; blanks at the end are omitted.
     pub cells: Vec<(usize, String)>,
 }
 
@@ -23,10 +23,10 @@ fn wrong(line: u64, problem: String) -> FitError {
 }
 
 impl Table {
-    /// Reads a table. Lines that begin with # and blank ones are passed over.
+    /// Reads a table. Blank lines and lines that begin with # are ignored.
     ///
     /// # Errors
-    /// [`FitError::Table`] with the line and what is wrong with it.
+    /// [`FitError::Table`] with line and description.
     pub fn read(text: &str) -> Result<Self, FitError> {
         let separator = Separator::of(text);
         let mut records = separator.records(text)?;
@@ -43,7 +43,7 @@ impl Table {
     }
 }
 
-/// What stands between the cells.
+/// Separator between cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Separator {
     Mark(u8),
@@ -70,8 +70,8 @@ fn is_comment(line: &str) -> bool {
 }
 
 impl Separator {
-    /// The rarest mark wins that stands outside quotation marks: a comma may be decimal beside a
-    /// semicolon or a tab, and never the other way round.
+    /// The separator that occurs least often outside quotation marks has precedence: beside a semicolon or a
+    /// tab a comma may be decimal, but not the other way round.
     fn of(text: &str) -> Self {
         let mut quoted = false;
         let mut seen = [false; 3];
@@ -121,7 +121,7 @@ impl Separator {
                 }
             }
         }
-        // Spreadsheets write the separator into the first line.
+        // Some spreadsheets write the separator into the first line.
         let blank = |record: &Record| record.cells.is_empty();
         let hint = |record: &Record| record.cells[0].starts_with("sep=");
         records.retain(|record| !blank(record) && !hint(record));
@@ -129,12 +129,12 @@ impl Separator {
     }
 }
 
-/// Whether a text was meant as a number, with either decimal mark.
+/// Whether a text is meant as a number, with either decimal mark.
 fn number(cell: &str) -> Option<f64> {
     cell.replace(',', ".").parse().ok()
 }
 
-/// Which column is the speed, and in which order the frequencies stand.
+/// Column of the speed, and order of the frequencies.
 struct Header {
     names: usize,
     speed: usize,
@@ -142,7 +142,7 @@ struct Header {
 }
 
 impl Header {
-    /// Takes the names off the rows, where the first row has names, and a row of units below.
+    /// Removes the first row if it contains names, and a row of units below it.
     fn take(records: &mut Vec<Record>) -> Result<Option<Self>, FitError> {
         let Some(first) = records.first() else {
             return Ok(None);
@@ -188,7 +188,7 @@ impl Header {
             let small = name.to_lowercase();
             let foreign = ["rad/s", "khz", "krpm", "1/s", "rps", "rev/s", "(ms)", "[s]"];
             let other = foreign.iter().any(|unit| small.contains(unit));
-            // A whole word: there is one in Drehzahl.
+            // A whole word is required, since "Drehzahl" contains "zahl".
             let mut words = small.split(|c: char| !c.is_alphanumeric());
             let in_hz = column == speed && words.any(|word| word == "hz");
             if other || in_hz {
@@ -220,7 +220,7 @@ impl Header {
     }
 }
 
-/// A name of the speed, in the languages of those who build saws.
+/// Whether a name means the speed, in languages of saw manufacturers.
 fn is_speed(name: &str) -> bool {
     let small = name.to_lowercase();
     let words = [
@@ -230,7 +230,7 @@ fn is_speed(name: &str) -> bool {
     words.iter().any(|word| small.contains(word)) || small == "n" || name.contains('Ω')
 }
 
-/// A name of a frequency, in small letters: `f1`, `mode 2`, `frequency`, `(0,2)`, `3`.
+/// Whether a name in small letters means a frequency: `f1`, `mode 2`, `frequency`, `(0,2)`, `3`.
 fn is_frequency(small: &str) -> bool {
     let words = [
         "hz", "freq", "fréq", "mode", "peak", "wave", "eigen", "diameter",
@@ -245,7 +245,7 @@ fn is_frequency(small: &str) -> bool {
         || small.starts_with('(')
 }
 
-/// A unit that stands alone in its cell.
+/// Whether a cell contains only a unit.
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_matches(['[', ']', '(', ')']).to_lowercase();
     let units = [
@@ -254,15 +254,15 @@ fn is_unit(cell: &str) -> bool {
     units.contains(&bare.as_str())
 }
 
-/// The number that a name has outside its unit: 3 of `f3 (Hz)`.
+/// The number in a name, outside its unit: 3 of `f3 (Hz)`.
 fn last_number(name: &str) -> Option<u64> {
     let bare = name.split(['(', '[']).next().unwrap_or(name).trim_end();
     let digits = bare.len() - bare.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     bare[bare.len() - digits..].parse().ok()
 }
 
-/// Whether commas in numbers are decimal. Points and commas in one table, or commas that may part
-/// thousands, are refused.
+/// Whether commas in numbers are decimal. A table that contains both points and commas, or commas that may
+/// separate thousands, is refused.
 fn has_decimal_comma<'a>(
     cells: impl Iterator<Item = (u64, &'a String)>,
     separator: Separator,

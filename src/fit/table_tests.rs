@@ -1,4 +1,4 @@
-//! Goal: a table says the same, whatever program wrote it; what could mean two things is refused.
+//! A table is read the same, whatever program wrote it; an ambiguous one is refused.
 
 use super::*;
 
@@ -46,7 +46,7 @@ fn separators_decimal_commas_and_the_order_of_columns_are_read_off_the_table() {
 #[test]
 fn what_could_mean_two_things_is_refused_with_its_line() {
     for (text, line, expected) in [
-        // A decimal comma that is also the separator.
+        // A decimal comma that is also the separator is refused.
         ("rpm,f1\n1250,7,68\n", 2, "semicolons"),
         ("rpm;f1\n1.250;7,68\n", 2, "thousands"),
         ("rpm;f1\n1.250,5;7,68\n", 2, "both"),
@@ -70,7 +70,7 @@ fn what_could_mean_two_things_is_refused_with_its_line() {
     }
 }
 
-/// A row that has a number is one of numbers: its other cells are typing mistakes.
+/// A row that contains a number is data: its other cells are typing mistakes.
 #[test]
 fn a_first_row_with_a_typing_mistake_is_no_header() {
     let table = Table::read("O,7.68,9.5\n1000,7,9\n").unwrap();

@@ -1,5 +1,4 @@
-//! Branches of the Campbell diagram as the report has them, each with one number and one name in every
-//! output.
+//! Numbers and names of the branches of a Campbell diagram, unique in every output.
 
 use std::f64::consts::TAU;
 
@@ -13,14 +12,14 @@ use crate::spectrum::{
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
-/// Shapes less alike than this are not taken for the same wave: half is what a wave that
-/// travels has of one that stands.
+/// Shapes of lower likeness are not taken for the same wave. The likeness of a travelling and a standing wave
+/// is a half.
 const LEAST_LIKENESS: f64 = 0.4;
 
-/// The branches of an analysis by their numbers, which are their places and one.
+/// The branches of an analysis in the order of their numbers.
 pub struct Numbered<'a> {
     analysis: &'a Analysis,
-    /// Place of each branch of the chart.
+    /// Index, in this order, of each branch of the diagram.
     place: Vec<usize>,
     names: Vec<BranchName>,
 }
@@ -32,7 +31,7 @@ struct BranchName {
 }
 
 impl<'a> Numbered<'a> {
-    /// Numbers the branches by their first speeds, those of one speed by frequency.
+    /// Numbers the branches by their first speeds, and those that begin at the same speed by frequency.
     pub fn new(analysis: &'a Analysis) -> Self {
         let campbell = &analysis.chart.campbell;
         let start = |b: usize| {
@@ -58,12 +57,12 @@ impl<'a> Numbered<'a> {
         }
     }
 
-    /// The name of a number.
+    /// Name of the branch with this number.
     pub fn name(&self, number: usize) -> String {
         self.names[number - 1].words.clone()
     }
 
-    /// The branches as they are reported.
+    /// The entries of the report.
     pub fn entries(&self) -> Vec<BranchEntry> {
         let branches = self.campbell().branches.iter().zip(&self.place);
         let mut entries: Vec<BranchEntry> = branches
@@ -73,7 +72,7 @@ impl<'a> Numbered<'a> {
         entries
     }
 
-    /// The branch that begins with a mode at rest, counted among those that oscillate.
+    /// The branch that begins at a mode at rest; `index` counts the oscillating modes.
     pub fn of_mode_at_rest(&self, index: usize) -> Option<usize> {
         let first = self.campbell().samples.first();
         let first = first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
@@ -82,7 +81,7 @@ impl<'a> Numbered<'a> {
         self.at((0, oscillating.nth(index)?.0))
     }
 
-    /// The growing branch of a band and its mirror image, read off the speed of its peak.
+    /// Numbers of the growing branch of a band and of its mirror image, at the speed of largest growth.
     pub fn of_band(&self, band: &Instability) -> Vec<usize> {
         let growing = self.at_peak(band, self.growing_kind(band));
         let conservative = self.analysis.model.is_conservative();
@@ -95,7 +94,7 @@ impl<'a> Numbered<'a> {
         both.filter_map(|point| self.at(point)).collect()
     }
 
-    /// The waves that make a band, where the chart shows it.
+    /// Name of a band by its waves, if the diagram includes its speed.
     pub fn event(&self, band: &Instability) -> Option<EventName> {
         let point = self.at_peak(band, self.growing_kind(band))?;
         let growing = self.campbell().mode(point);
@@ -113,7 +112,7 @@ impl<'a> Numbered<'a> {
         }
     }
 
-    /// The mode of a kind that is nearest to that of the peak of a band, or to its mirror image.
+    /// The mode of a kind that is nearest to the mode of largest growth of a band, or to its mirror image.
     fn at_peak(&self, band: &Instability, kind: ModeKind) -> Option<(usize, usize)> {
         let index = self.nearest_sample(band.peak_rad_per_s)?;
         let modes = self.campbell().samples[index].modes.iter().enumerate();
@@ -135,7 +134,7 @@ impl<'a> Numbered<'a> {
         Some((index, partner))
     }
 
-    /// The branch that stands still at a critical speed.
+    /// The branch whose wave stands still at a critical speed.
     pub fn of_critical(&self, critical: &NamedCriticalSpeed) -> Option<usize> {
         let samples = &self.campbell().samples;
         let above = samples.partition_point(|s| s.speed_rad_per_s < critical.speed_rad_per_s);
@@ -149,8 +148,8 @@ impl<'a> Numbered<'a> {
         });
         let candidates: Vec<_> = candidates.collect();
         let best = candidates.iter().map(|c| c.0).fold(0.0, f64::max);
-        // The two waves of a harmonic of a free blade have one shape; the one that stands still is
-        // that whose frequency vanishes.
+        // The two waves of a harmonic of a free blade have the same shape; the one that stands still has zero
+        // frequency.
         let alike = candidates.iter().filter(|c| c.0 >= ALIKE * best);
         let found =
             alike.min_by(|x, y| x.1.mode.lambda.norm().total_cmp(&y.1.mode.lambda.norm()))?;
@@ -204,8 +203,8 @@ impl<'a> Numbered<'a> {
     }
 }
 
-/// Index of the point that a branch is named by: the first, or of a blade without guides the
-/// second, for the two waves of a harmonic cannot be told apart at rest.
+/// Index of the point whose mode names a branch: the first, or, for a blade without guides, the second,
+/// because the two waves of a harmonic cannot be distinguished at rest.
 fn naming_point(analysis: &Analysis, branch: &Branch) -> usize {
     usize::from(analysis.model.plate.is_axisymmetric() && branch.points.len() > 1)
 }
@@ -215,7 +214,7 @@ impl BranchName {
         let campbell = &analysis.chart.campbell;
         let point = branch.points[naming_point(analysis, branch)];
         let name = &campbell.mode(point).name;
-        // Guides let waves stand at rest.
+        // With guides, modes at rest are standing waves.
         let at_rest = campbell.samples[point.0].speed_rad_per_s == 0.0;
         let direction = match name.direction.on_blade() {
             _ if at_rest => None,
@@ -234,7 +233,7 @@ impl BranchName {
     }
 }
 
-/// Share of the largest likeness from which on shapes are alike.
+/// Shapes are alike if their likeness is at least this share of the largest.
 const ALIKE: f64 = 0.8;
 
 /// |xᵀq|² of a wave that stands and a mode, both of length one.
@@ -249,8 +248,8 @@ fn standing_likeness(
     product.norm_sqr()
 }
 
-/// The mode that one which grows in a damped blade has met: two that meet have λ = c ± g, nearly
-/// of one frequency and apart in growth. A wave that damping alone feeds has met none.
+/// The mode with which a growing mode of a damped blade has coalesced: the two eigenvalues are λ = c ± g, of
+/// nearly equal frequency and different growth. A wave that damping alone destabilizes has no such partner.
 fn damped_partner(modes: &[DescribedMode], growing: c64) -> Option<usize> {
     let off = |m: &DescribedMode| (m.mode.lambda.im - growing.im).abs();
     let decays = |m: &DescribedMode| m.mode.lambda.re < 0.0;

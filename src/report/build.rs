@@ -1,4 +1,4 @@
-//! From an analysis to its report.
+//! Makes the report of an analysis.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,13 +17,13 @@ use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
 use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError};
 
-/// Harmonics with a smaller share are left out of a mode's shape.
+/// Harmonics with a smaller share are omitted from the shape of a mode.
 const LEAST_SHARE: f64 = 1e-4;
-/// Two critical speeds closer than this, of one name, are a double one.
+/// Two critical speeds with the same name and a smaller relative distance are a double one.
 const DOUBLE: f64 = 1e-9;
 
 impl Analysis {
-    /// Everything found out, in the units and names of `report.json`.
+    /// The results of the analysis, in the units and with the names of `report.json`.
     pub fn report(&self) -> Report {
         let (analysis, scene) = (self, &self.scene);
         let model = &analysis.model;
@@ -97,7 +97,7 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
         .instabilities
         .iter()
         .find(|b| b.from_rad_per_s == onset)?;
-    // The reflected waves come first in the name, and last of the paths.
+    // In the name reflected waves come first; of the paths theirs come last.
     let waves = branches
         .event(band)
         .into_iter()
@@ -120,8 +120,8 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
 }
 
 impl SensitivityEntry {
-    /// Those of an analysis, with the eigenvalues at the operating speed, or at the start of the sweep
-    /// where the scene has none; the most influential on the lowest critical speed first.
+    /// Sensitivities of an analysis, with eigenvalues at the operating speed, or at the start of the sweep if
+    /// there is none; sorted by their influence on the lowest critical speed.
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -146,7 +146,7 @@ impl From<&Sensitivity> for SensitivityEntry {
     }
 }
 
-/// The modes at rest, each with its branch and its estimated error.
+/// The modes at rest, with branch and estimated error.
 fn rest_modes(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<RestMode> {
     let at_rest = &analysis.modes_at_rest;
     let errors = match &analysis.estimates {
@@ -169,7 +169,7 @@ fn rest_modes(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<RestMode> {
         .collect()
 }
 
-/// The bands, each with its branches and its estimated errors.
+/// The bands, with branches and estimated errors.
 fn instabilities(
     analysis: &Analysis,
     branches: &Numbered<'_>,
@@ -215,7 +215,7 @@ fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
     }
 }
 
-/// The deflection at the instant at which it is largest.
+/// The deflection at the moment of its maximum.
 fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
     let q = &described.shape;
     let turn: c64 = q.iter().map(|c| c * c).sum::<c64>().sqrt();
@@ -265,7 +265,7 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
     shape
 }
 
-/// Critical speeds up to the end of the sweep; the double ones of a free blade once.
+/// Critical speeds up to the end of the sweep; a double one of a free blade is listed once.
 fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<CriticalSpeedEntry> {
     let estimates = analysis.estimates.as_ref();
     let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
@@ -295,7 +295,7 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
 }
 
 impl InstabilityEntry {
-    /// A band, and where it counts.
+    /// A band, with the range in which its growth exceeds the threshold.
     pub(super) fn new(band: &Instability, threshold_per_s: f64) -> Self {
         let counted = band.counted(threshold_per_s).into_iter();
         InstabilityEntry {
@@ -318,7 +318,7 @@ impl InstabilityEntry {
 }
 
 impl InstabilityEntry {
-    /// The band with its waves and the numbers of its branches.
+    /// Adds waves and branch numbers to the band.
     pub(super) fn in_chart(
         band: &Instability,
         branches: &Numbered<'_>,

@@ -1,4 +1,4 @@
-//! What was checked of the list of bands, and what did not agree.
+//! Checks of the list of bands, and disagreements that they found.
 
 use std::f64::consts::TAU;
 
@@ -92,7 +92,7 @@ pub struct MismatchEntry {
 }
 
 impl CertificateEntry {
-    /// `range` is the sweep, in rad/s.
+    /// The certificate of a sweep over `range`, in rad/s.
     pub(super) fn new(
         chart: &StabilityChart,
         is_undamped: bool,
@@ -126,7 +126,7 @@ impl CertificateEntry {
         }
     }
 
-    /// Whether every check agrees.
+    /// Whether no check disagrees.
     pub fn is_clean(&self) -> bool {
         self.krein_violations == 0
             && self.miscounted_modes.is_empty()
@@ -135,7 +135,7 @@ impl CertificateEntry {
     }
 }
 
-/// Share of the sweep outside the stretches that are not proven, rounded down.
+/// Share of the sweep outside the unproven intervals, rounded down.
 fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64> {
     let unproven = certificate.unproven_rad_per_s.as_ref()?;
     let open: f64 = unproven.iter().map(|(a, b)| b - a).sum();
@@ -144,7 +144,7 @@ fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64
 }
 
 impl MiscountEntry {
-    /// "1 missing between 10.0 and 12.0 Hz".
+    /// Text such as "1 missing between 10.0 and 12.0 Hz".
     pub(super) fn in_words(&self) -> String {
         let what = if self.missing > 0 {
             "missing"
@@ -180,7 +180,7 @@ impl From<&Mismatch> for MismatchEntry {
     }
 }
 
-/// The sentence that every face shows.
+/// The statement shown in every output.
 pub(super) fn statement(
     certificate: &Certificate,
     is_undamped: bool,
@@ -228,7 +228,7 @@ pub(super) fn statement(
     }
 }
 
-/// What does not agree.
+/// Descriptions of all disagreements.
 fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
     let checked = certificate.speeds_checked;
     let differs = match is_undamped {
@@ -274,7 +274,7 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
     wrong
 }
 
-/// "1200.0 rpm" or "1200.0 to 1300.0 rpm".
+/// Text such as "1200.0 rpm" or "1200.0 to 1300.0 rpm".
 fn span(speeds_rad_per_s: &[f64]) -> String {
     let least = speeds_rad_per_s
         .iter()
@@ -292,7 +292,7 @@ mod tests {
     use super::*;
     use crate::scene::rad_per_s;
 
-    /// The same with everything that may not agree.
+    /// A certificate in which every check disagrees.
     fn contradicted(clean: Certificate) -> Certificate {
         Certificate {
             violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),

@@ -1,4 +1,4 @@
-//! `sawflutter check --json`: every limit and what was found.
+//! `check.json` and `sawflutter check --json`: every limit with its result.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,7 +90,7 @@ pub struct CriterionEntry {
 }
 
 impl CheckReport {
-    /// Reports a check.
+    /// The report of a check.
     pub fn new(scene: &Scene, limits: &Limits, check: &Check) -> Self {
         let analysis = &check.analysis;
         let to_rad_per_s = analysis.range_rad_per_s.1;
@@ -168,7 +168,7 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
 }
 
 impl CheckReport {
-    /// The rim stiffness in words, for the text and the figure.
+    /// Sentence about the rim stiffness, for text and figure.
     pub fn rim_stiffness_in_words(&self) -> String {
         if self.rim_stiffness_at_rest_n_per_m == 0.0 {
             return "no rim stiffness: nothing holds the blade's rigid motions".to_owned();

@@ -1,4 +1,4 @@
-//! `campbell.csv`: one row a branch and speed.
+//! `campbell.csv`, with one row for each branch and speed.
 
 use super::Report;
 

@@ -170,7 +170,8 @@ pub struct VerdictMapEntry {
 }
 
 impl CutRunEntry {
-    /// When the model ends, linear or with stretching, and the record with it.
+    /// Time at which the deflection exceeds the range of the model, linear or with stretching; the record
+    /// ends there.
     pub(crate) fn ends_s(&self) -> Option<f64> {
         let stretched = self.stretching.as_ref();
         self.linear_until_s
@@ -179,7 +180,7 @@ impl CutRunEntry {
 }
 
 impl CutReport {
-    /// Reports a cut.
+    /// The report of a cut.
     pub fn new(cutting: &Cutting) -> Self {
         let scene = &cutting.scene;
         let runs: Vec<CutRunEntry> = cutting
@@ -210,7 +211,7 @@ impl CutReport {
     }
 }
 
-/// Those of the scene, and speeds of the cut that it does not name.
+/// Unusual numbers of the scene, and of speeds of the cut that the scene does not list.
 fn unusual_numbers(scene: &Scene, cutting: &Cutting) -> Vec<String> {
     let named = |rpm: f64| {
         scene
@@ -248,7 +249,8 @@ impl CutRunEntry {
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
         let criteria = criteria(scene, computed);
         let (growth, decided_by) = worst(&criteria);
-        // With stretching the deflection is that of its record; moving loads are followed by the linear model.
+        // With stretching, the record determines the deflection; moving loads are computed by the linear
+        // model only.
         let leaves_model = match &history.stretched {
             Some(found) => found.valid_until_s.is_some(),
             None => history.linear_until_s.is_some() || passing.passing_deflection_m.is_none(),
@@ -305,8 +307,7 @@ impl CutRunEntry {
     }
 }
 
-/// Largest deflections at the probe until the forces end and after that, as far as the model
-/// holds.
+/// Largest deflections at the probe until the forces end and afterwards, while the model is valid.
 fn largest_deflections(history: &CutHistory) -> [Option<f64>; 2] {
     let (_, end_s) = history.forces_s;
     let valid_until_s = history.valid_until_s().unwrap_or(f64::INFINITY);

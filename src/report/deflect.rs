@@ -1,4 +1,4 @@
-//! `deflect.json`: where the blade stands while its speed slowly rises and falls.
+//! `deflect.json`: equilibria of the blade while its speed slowly rises and falls.
 
 use std::f64::consts::TAU;
 
@@ -136,7 +136,7 @@ pub struct TurnEntry {
 }
 
 impl DeflectReport {
-    /// Reports what was found.
+    /// The report of the equilibria.
     pub fn new(found: &Deflecting) -> Self {
         let chart = found.analysis.report();
         let to_hz = chart.campbell.complete_to_hz;
@@ -171,7 +171,8 @@ impl DeflectReport {
     }
 }
 
-/// Where the largest deflection first exceeds a limit, on a straight line between two equilibria.
+/// Speed at which the largest deflection first exceeds a limit, by linear interpolation between two
+/// equilibria.
 fn beyond_rpm(sweep: &SlowSweep, limit_m: f64) -> Option<f64> {
     let mut before: Option<&Reading> = None;
     for at in sweep.readings() {

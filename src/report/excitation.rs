@@ -1,4 +1,4 @@
-//! Lines at multiples of the rotation speed, and where they cross the branches.
+//! Excitation lines at multiples of the rotation speed, and their crossings with the branches.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,7 +45,7 @@ pub struct CrossingEntry {
 }
 
 impl ExcitationEntry {
-    /// `None` for a scene that asks for no line.
+    /// The lines of a scene; `None` if it has none.
     pub(super) fn new(
         scene: &Scene,
         crossings: &[Crossing],

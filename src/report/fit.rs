@@ -1,4 +1,4 @@
-//! `fit.json`: a calibrated saw, how well its numbers are known, and what is left.
+//! `fit.json`: the calibrated saw, confidence intervals of its numbers, and residuals.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -117,11 +117,11 @@ pub struct StartEntry {
     pub rms_hz: Option<f64>,
 }
 
-/// Numbers more alike than this are hardly told apart.
+/// Two numbers of higher correlation cannot be determined separately.
 const HIGH_CORRELATION: f64 = 0.95;
 
 impl FitReport {
-    /// Reports a fit.
+    /// The report of a fit.
     pub fn new(fit: &Fit) -> Self {
         FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -207,11 +207,11 @@ fn residuals(fit: &Fit) -> Vec<ResidualEntry> {
     entries
 }
 
-/// Root mean square of the residuals beyond this share of that of the measured frequencies: of the paper's Table 5
-/// a calibration leaves 4 %.
+/// Limit of the root mean square of the residuals, relative to that of the measured frequencies. A
+/// calibration of the paper's Table 5 leaves 4 %.
 const MISFIT: f64 = 0.2;
 
-/// What is to be said of a saw that does not have the measured frequencies.
+/// Warning for a saw whose frequencies differ considerably from the measured ones.
 fn misfit(fit: &Fit, used: &Measurement) -> Option<String> {
     let frequencies = used.rows.iter().flat_map(|row| &row.pairs);
     let squares: f64 = frequencies.map(|(_, hz)| hz * hz).sum();
@@ -224,7 +224,7 @@ fn misfit(fit: &Fit, used: &Measurement) -> Option<String> {
     })
 }
 
-/// Those of the scene, and of measurements that are not in it.
+/// Unusual numbers of the scene, and of measurements that it does not contain.
 fn unusual_numbers(fit: &Fit) -> Vec<String> {
     let scene = fit.scene.file();
     let mut told = scene.unusual_numbers();

@@ -1,25 +1,25 @@
-//! The map of a placement while its saws are computed, for the page that draws it.
+//! The map of a placement while its saws are computed, for the live page.
 
 use super::{GoalEntry, MapEntry};
 use crate::place::{Goal, GrowingMap};
 use crate::scene::rpm;
 
-/// The map as far as it is known, of a search that goes on.
+/// The part of a map that is known so far.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GrowingMapEntry {
-    /// What is made large.
+    /// The goal.
     pub goal: GoalEntry,
-    /// The map; nothing is known yet of the other cells.
+    /// The map; cells that are not computed are empty.
     pub map: MapEntry,
-    /// Which cells are computed, one row for each value of y.
+    /// Whether a cell is computed; one row for each value of y.
     pub is_computed: Vec<Vec<bool>>,
-    /// The samples from which the search begins: place along both axes, and the goal there, or none
-    /// where there is no saw that keeps the limit.
+    /// Initial samples: position along both axes, and the goal, `None` if there is no saw that keeps the
+    /// limit.
     pub samples: Vec<([f64; 2], Option<f64>)>,
 }
 
 impl GrowingMapEntry {
-    /// Of a search for a goal.
+    /// The entry for a search.
     pub(crate) fn new(goal: Goal, growing: &GrowingMap) -> Self {
         let samples = growing.samples.iter().map(|sample| {
             let kept = sample.outcome.as_ref().filter(|outcome| outcome.is_kept());

@@ -1,4 +1,4 @@
-//! A chart under the forces of a cut, beside the idling saw.
+//! The Campbell diagram under the forces of a cut, beside that of the idling saw.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,7 +38,7 @@ pub struct IdlingEntry {
 }
 
 impl InCutEntry {
-    /// `None` of the idling saw.
+    /// `None` for the idling saw.
     pub(super) fn new(analysis: &Analysis) -> Option<Self> {
         let cut = analysis.scene.cut()?;
         let run = cut.chart?;

@@ -1,4 +1,4 @@
-//! The membrane stress of a scene and what its heat does, in numbers for a reader.
+//! The membrane stress of a scene and the effects of heat.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -77,13 +77,13 @@ pub struct HeatCurveEntry {
     pub rpm: Vec<f64>,
 }
 
-/// Radii shown between two at which the stress is not smooth.
+/// Number of radii shown between two at which the stress is not smooth.
 const SHOWN: usize = 40;
-/// The two sides of a jump are shown this share of the radius away from it.
+/// Relative distance of the radii at which the two sides of a jump are shown.
 const ASIDE: f64 = 1e-9;
 
 impl MembraneEntry {
-    /// `None` for a scene that names no membrane stress.
+    /// `None` for a scene without membrane stress.
     pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
         let heat = analysis.heat.as_ref();

@@ -1,10 +1,9 @@
-//! The report: everything found out about a saw, complete enough that every
-//! figure can be drawn from it alone.
+//! The report: the results for a saw, complete enough to draw every figure from it alone.
 //!
-//! In goes an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a fit, a
-//! placement or the history of a cut; out comes what is written as JSON, in rpm, Hz and 1/s, with the
-//! names of modes in words. A report solves no eigenproblem: what it says was computed before. Only
-//! [`WhirlEntry`] and [`SensitivityEntry`] are computed when they are asked for.
+//! Reports are made from an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a
+//! fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
+//! and growth rates in 1/s. A report solves no eigenproblem; its contents were computed before. Only
+//! [`WhirlEntry`] and [`SensitivityEntry`] are computed on request.
 
 mod branches;
 mod build;

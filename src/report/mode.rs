@@ -58,11 +58,11 @@ pub struct ComplexEntry {
     pub im: Vec<f64>,
 }
 
-/// Harmonics with a smaller share of the energy cannot be seen moving.
+/// The motion of harmonics with a smaller share of the energy is not visible.
 const LEAST_SHARE: f64 = 1e-3;
 
 impl ModeEntry {
-    /// A mode at a speed.
+    /// The entry of a mode at a speed.
     pub fn new(plate: &Plate, speed_rad_per_s: f64, described: &DescribedMode) -> Self {
         let (mode, name) = (&described.mode, &described.name);
         let seen = name.harmonics.iter().filter(|h| h.share >= LEAST_SHARE);

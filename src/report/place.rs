@@ -1,4 +1,4 @@
-//! `place.json`: the place for the guides that is best at the worst of its tolerances, and a map.
+//! `place.json`: the placement that is best in the worst case of its tolerances, and a map.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -182,7 +182,7 @@ pub struct MapEntry {
 }
 
 impl PlaceReport {
-    /// Reports a placement.
+    /// The report of a placement.
     pub fn new(demands: &Demands, found: &Placement) -> Self {
         let neighbours = &found.neighbours;
         PlaceReport {
@@ -368,7 +368,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     warnings
 }
 
-/// Of all saws that were held against each other this one misses it by least.
+/// Message that no saw keeps the limit and that this one misses it by the smallest amount.
 fn limit_missed(found: &Placement) -> String {
     let worst = found.neighbours.worst.outcome.as_ref();
     let short = worst.map_or(0.0, |worst| rpm(worst.short_rad_per_s));

@@ -1,5 +1,5 @@
-//! The terms of the equation of motion that were assembled, whether the tolerance was reached, and
-//! remarks on the validity of the result.
+//! Terms of the equation of motion that were assembled, whether the tolerance was reached, and remarks on the
+//! validity of the result.
 
 use std::f64::consts::TAU;
 
@@ -11,10 +11,10 @@ use crate::text::{shown, shown_to};
 
 use super::CertificateEntry;
 
-/// Relative rounding from which a frequency is not to be trusted to six digits.
+/// Relative rounding from which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
 
-/// Stiffest pad of the saws that the error estimate was calibrated on.
+/// Stiffest pad in the calibration of the error estimate.
 const CALIBRATED_N_PER_M: f64 = 1e9;
 
 /// Terms of the equation of motion that were assembled.
@@ -77,7 +77,7 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     terms
 }
 
-/// Limits of the model that this scene comes near to.
+/// Warnings that this scene is near the limits of the model.
 pub fn warnings(
     scene: &Scene,
     analysis: &Analysis,
@@ -126,7 +126,7 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
     ))
 }
 
-/// A sweep that the program ends before twice the lowest critical speed.
+/// Warning that the program ends the sweep before twice the lowest critical speed.
 fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
     let (end, usual) = (analysis.range_rad_per_s.1, chosen_end(scene, lowest));

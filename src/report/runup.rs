@@ -1,4 +1,4 @@
-//! `runup.json`: the deflection of the saw while it runs up, and what explains it.
+//! `runup.json`: the deflection of the saw during a run-up, and its causes.
 
 use std::f64::consts::TAU;
 
@@ -105,7 +105,7 @@ pub struct ResponseEntry {
 }
 
 impl RunUpReport {
-    /// Reports a run-up.
+    /// The report of a run-up.
     pub fn new(found: &RunningUp) -> Self {
         let (scene, runup) = (&found.scene, &found.runup);
         let chart = found.analysis.report();
@@ -174,7 +174,7 @@ impl RunUpReport {
     }
 }
 
-/// The exponent that doubles a motion.
+/// Exponent of a motion that doubles.
 const DOUBLING: f64 = std::f64::consts::LN_2;
 
 fn first_doubling_rpm(bands: &[RunUpBand]) -> Option<f64> {
@@ -183,7 +183,7 @@ fn first_doubling_rpm(bands: &[RunUpBand]) -> Option<f64> {
     onsets.min_by(f64::total_cmp)
 }
 
-/// Largest deflection in the band over the largest in a stretch of the same length before.
+/// Ratio of the largest deflection in the band to that in an interval of equal length before it.
 fn seen_amplification(rpm: &[f64], deflection_m: &[f64], band: &InstabilityEntry) -> Option<f64> {
     let largest = |from: f64, to: f64| {
         let record = rpm.iter().zip(deflection_m);

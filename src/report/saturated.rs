@@ -1,4 +1,4 @@
-//! How far the flutter of each band rises, when it is asked for.
+//! Amplitude to which the flutter of each band rises, computed on request.
 
 use super::{InstabilityEntry, Report};
 use crate::deflect::saturations;
@@ -6,7 +6,7 @@ use crate::stability::Analysis;
 use crate::stretched::{Saturation, StretchedError};
 
 impl Report {
-    /// Adds how far the flutter of each band rises.
+    /// Adds the amplitude to which the flutter of each band rises.
     ///
     /// # Errors
     /// [`StretchedError`].
@@ -16,7 +16,7 @@ impl Report {
     }
 }
 
-/// One amplitude a band.
+/// Adds one amplitude to each band.
 pub(super) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Option<Saturation>]) {
     for (entry, found) in bands.iter_mut().zip(found) {
         entry.saturated_amplitude_m = found.map(|found| found.amplitude_m);

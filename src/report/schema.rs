@@ -1,4 +1,4 @@
-//! JSON schemas of the reports, for whoever reads them in another language.
+//! JSON schemas of the reports, for programs in other languages.
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -11,8 +11,8 @@ use super::{
 use crate::stability::Setting;
 use crate::study::StudyReport;
 
-/// The JSON schema of each report, by the command that writes it; `modes` is the list of modes
-/// at one speed.
+/// The JSON schema of each report, by the command that writes it; `modes` is that of the list of modes at one
+/// speed.
 pub fn json_schema() -> Value {
     json!({
         "analyze": of::<Report>(),
@@ -29,7 +29,7 @@ pub fn json_schema() -> Value {
     })
 }
 
-/// As the reports are written: what is always there is required.
+/// The schema of a report as written, in which keys that are always present are required.
 fn of<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::default().for_serialize();
     settings

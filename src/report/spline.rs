@@ -1,4 +1,4 @@
-//! The spline's part of `cut.json`.
+//! Results of the spline in `cut.json`.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,7 +46,7 @@ pub struct SplineEntry {
     pub y_m: Vec<f64>,
 }
 
-/// Points of an orbit that a reader can use: the simulation has tens of thousands.
+/// Number of points of a reported orbit; the simulation has tens of thousands.
 const ORBIT_POINTS: usize = 4000;
 
 impl SplineEntry {

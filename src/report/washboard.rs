@@ -1,4 +1,4 @@
-//! `washboard.json`: whether the cutting force, which depends on the surface left by the tooth before,
+//! `washboard.json`: whether the cutting force, which depends on the surface left by the preceding tooth,
 //! makes a motion of the blade grow.
 
 use std::f64::consts::TAU;
@@ -109,7 +109,7 @@ pub struct LobesEntry {
 }
 
 impl WashboardReport {
-    /// Reports what was found.
+    /// The report of a washboarding analysis.
     pub fn new(found: &Washboard) -> Self {
         let (run, washboarding) = (&found.run, &found.washboarding);
         let speed = run.speed_rad_per_s;
@@ -149,7 +149,7 @@ impl WashboardReport {
         }
     }
 
-    /// The fastest growing mode, where one grows.
+    /// The mode of fastest growth, if one grows.
     pub fn growing_mode(&self) -> Option<&WashboardModeEntry> {
         self.modes.first().filter(|mode| mode.growth_per_s > 0.0)
     }
@@ -196,7 +196,7 @@ fn warnings(found: &Washboard) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Those of the scene, and a speed of the cut that it does not name.
+/// Unusual numbers of the scene, and of a speed of the cut that it does not list.
 fn unusual_numbers(found: &Washboard) -> Vec<String> {
     let (scene, rpm) = (found.scene.file(), found.run.rpm);
     let is_asked = scene.operating_rpm != Some(rpm);

@@ -1,4 +1,4 @@
-//! The modes of one speed.
+//! The modes at one speed.
 
 use std::f64::consts::TAU;
 
@@ -49,7 +49,7 @@ pub struct WhirlMode {
 }
 
 impl WhirlEntry {
-    /// Every mode of the chart at a speed.
+    /// All modes of the diagram at a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.

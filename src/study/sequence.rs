@@ -71,8 +71,8 @@ mod tests {
         assert!((0.4..2.5).contains(&ratio), "{ratio}");
     }
 
-    /// In every pair of coordinates that the sequence is optimized for, each of 256 × 256 squares contains
-    /// one of 2¹⁶ points, and so does each of 2¹⁶ intervals of a single coordinate.
+    /// In the first two coordinates each of 256 × 256 squares contains one of the 2¹⁶ points of a block, and
+    /// in a single coordinate each of 2¹⁶ intervals does.
     #[test]
     fn each_block_is_a_net() {
         for block in [0, 1, 255, POINTS / BLOCK - 1] {

@@ -1,5 +1,5 @@
-//! The motions that washboarding is made of: all modes up to the tooth passing frequency and beyond,
-//! and the flexibility of the others.
+//! Reduced basis for washboarding: all modes up to the tooth passing frequency and beyond, and the static
+//! flexibility of the others.
 
 use std::f64::consts::TAU;
 
@@ -14,44 +14,46 @@ use crate::spectrum::SpectrumError;
 use crate::stability::{ChosenBasis, DENSE_LADDER};
 use crate::system::GyroscopicSystem;
 
-/// The saw in the cut on its lower modes.
+/// The saw in the cut, reduced to its lower modes.
 #[derive(Debug)]
 pub struct Motions {
     /// The saw in the cut.
     pub plate: Plate,
-    /// The shapes V that span the motions, N × m.
+    /// Shapes V that span the reduced model, N × m.
     pub shapes: Mat<f64>,
-    /// The saw on them.
+    /// The reduced system.
     pub system: GyroscopicSystem,
-    /// Bᵀ of the arc on them, transposed.
+    /// Bᵀ of the arc in the reduced coordinates, transposed.
     pub columns: Mat<f64>,
-    /// What the shapes left out give way to a force on the arc, Bᵀ(S⁻¹ − V(VᵀSV)⁻¹Vᵀ)B.
+    /// Static flexibility of the omitted shapes under forces on the arc, Bᵀ(S⁻¹ − V(VᵀSV)⁻¹Vᵀ)B.
     pub flexibility: DMatrix<f64>,
     pub complete_to_rad_per_s: f64,
     pub needed_to_rad_per_s: f64,
     pub estimated_relative_error: f64,
-    /// The largest xᵀPx of a shape.
+    /// Largest xᵀPx of a shape.
     most_moved: f64,
 }
 
-/// The modes reach beyond the tooth passing frequency of the fastest speed by this factor: a mode is
-/// driven when teeth pass at up to twice its frequency, and most of all right above it.
+/// Factor by which the modes extend beyond the tooth passing frequency of the fastest speed. A mode is driven
+/// while teeth pass at up to twice its frequency, and most strongly just above it.
 const BEYOND_TOOTH_PASSING: f64 = 1.05;
-/// Beyond the modes, damping alone is to withstand this many times the cutting stiffness; but they
-/// reach no farther than so many times the tooth passing frequency.
+/// Ratio to the cutting stiffness that damping alone has to withstand beyond the modes. The modes extend to
+/// at most this multiple of the tooth passing frequency.
 const WITHSTOOD: f64 = 3.0;
 const MOST_BEYOND: f64 = 2.0;
-/// Shapes reach beyond the modes that they are to span by this factor.
+/// Factor by which the shapes extend beyond the modes that they have to represent.
 const BEYOND_MODES: f64 = 1.2;
-/// More shapes than these would take minutes: eigenvalues of twice as many at each speed.
+/// More shapes would take minutes: each speed is an eigenproblem of twice this order.
 const MOST_SHAPES: usize = 110;
-/// Radial functions that the highest shape without nodal diameters needs beside those of its kind.
+/// Number of radial functions beyond the number of nodal circles of the highest shape without nodal
+/// diameters.
 const RADIAL_MARGIN: usize = 3;
-/// Share of |λ| that a mode has to lose to be damped at all.
+/// Smallest ratio of decay rate to |λ| of a damped mode.
 const LEAST_DAMPING: f64 = 1e-8;
 
 impl Motions {
-    /// Of an idling saw, put into its cut; for speeds up to `highest` times that of the cut.
+    /// The reduced model of the saw in its cut, for speeds up to `highest` times that of the cut; `scene`
+    /// describes the idling saw.
     pub fn new(
         idling: &Scene,
         cut: &Cut,
@@ -116,15 +118,15 @@ impl Motions {
         }
     }
 
-    /// Cutting stiffness up to which no mode beyond those kept grows, by its damping alone.
+    /// Cutting stiffness up to which damping alone prevents the growth of every omitted mode.
     pub fn safe_beyond_n_per_m(&self, washboarding: &Washboarding) -> f64 {
         let fed = washboarding.overlap * self.most_moved;
         withstood_n_per_m(&self.plate, self.complete_to_rad_per_s, fed)
     }
 }
 
-/// A mode of frequency ω that decays by δ is fed by no more than kμ xᵀPx/2ω: it cannot grow below
-/// 2ωδ/(μ xᵀPx), which rises with the frequency.
+/// The force feeds a mode of frequency ω and decay rate δ at a rate of at most kμ xᵀPx/2ω, so that it cannot
+/// grow below k = 2ωδ/(μ xᵀPx), which rises with the frequency.
 fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     let Some(damping) = plate.damping else {
         return 0.0;
@@ -137,8 +139,8 @@ fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     }
 }
 
-/// Frequency up to which all modes are to be there: past tooth passing, and to where damping alone
-/// withstands the force.
+/// Frequency up to which all modes are needed: above tooth passing, and up to where damping alone withstands
+/// the force.
 fn needed(
     plate: &Plate,
     washboarding: &Washboarding,
@@ -159,8 +161,8 @@ fn needed(
     Ok(needed)
 }
 
-/// The shapes of the blade in the frame that turns with it, S = K₀ + Ω²K_σ with what touches it, by
-/// their frequencies: without guides they are the modes at that speed.
+/// Shapes of the blade in its rotating frame, the eigenvectors of S = K₀ + Ω²K_σ with contacts, in order of
+/// their frequencies. Without guides they are the modes at this speed.
 struct Shapes {
     squares: Vec<f64>,
     vectors: Mat<f64>,
@@ -182,14 +184,14 @@ impl Shapes {
         })
     }
 
-    /// How many lie below a frequency.
+    /// Number of shapes below a frequency.
     fn up_to(&self, omega: f64) -> usize {
         self.squares
             .partition_point(|square| *square <= omega * omega)
     }
 
-    /// How many span the modes up to a frequency in space, and up to which they do so if these are too
-    /// many.
+    /// Number of shapes that represent the modes up to a frequency in space; if these are too many, the
+    /// largest allowed number, with the frequency up to which it suffices.
     fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> (usize, f64) {
         let turned = most_turned(plate, speed, complete_to);
         let kept = self.up_to(BEYOND_MODES * (complete_to + turned));
@@ -200,7 +202,8 @@ impl Shapes {
         (MOST_SHAPES, (highest / BEYOND_MODES - turned).max(0.0))
     }
 
-    /// What the shapes beyond some give way to forces on the arc: positive, for they are stiff.
+    /// Static flexibility, under forces on the arc, of the shapes beyond the first `kept`. It is positive
+    /// definite, because these shapes are stiff.
     fn flexibility_beyond(&self, kept: usize, moved: &Mat<f64>) -> DMatrix<f64> {
         let size = moved.ncols();
         DMatrix::from_fn(size, size, |i, j| {
@@ -211,7 +214,7 @@ impl Shapes {
     }
 }
 
-/// The largest xᵀPx of the lower shapes, xᵀx = 1.
+/// Largest xᵀPx of the lower shapes, with xᵀx = 1.
 fn most_moved(moved: &Mat<f64>, kept: usize) -> f64 {
     let each = (0..kept).map(|k| moved.row(k).squared_norm_l2());
     each.fold(0.0, f64::max)
@@ -226,7 +229,7 @@ fn arc(plate: &Plate, washboarding: &Washboarding) -> Mat<f64> {
     stiffness.unwrap_or_else(|| Mat::zeros(order, order))
 }
 
-/// The plate, or the first larger one that holds all modes up to a frequency.
+/// The plate, or the first larger one that represents all modes up to a frequency.
 fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Plate {
     let Resolution {
         max_diameters,
@@ -248,8 +251,8 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
     plate
 }
 
-/// Frequency in space up to which the basis has all modes: the backward wave of the most nodal
-/// diameters at the fastest speed, and the most nodal circles.
+/// Frequency in space up to which the basis represents all modes, limited by the backward wave with the most
+/// nodal diameters at the fastest speed, and by the most nodal circles.
 fn complete_to(plate: &Plate, fastest: f64) -> f64 {
     let last = plate.max_diameters();
     let circles = plate.basis.count().saturating_sub(RADIAL_MARGIN);
@@ -257,7 +260,7 @@ fn complete_to(plate: &Plate, fastest: f64) -> f64 {
     waves.min(body_frequency(plate, 0, circles, 0.0)).max(0.0)
 }
 
-/// Frequency on the blade of the shape of n nodal diameters and k nodal circles.
+/// Frequency in the body frame of the shape with n nodal diameters and k nodal circles.
 fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
     let block = plate.harmonics[n].body_frame_stiffness(speed);
     let values = block.self_adjoint_eigenvalues(Side::Lower);
@@ -265,8 +268,8 @@ fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
     square.unwrap_or(0.0).max(0.0).sqrt()
 }
 
-/// By how much the blade sees another frequency than space, at most, of the modes up to a frequency in
-/// space: n times the speed of a wave of n diameters.
+/// Largest difference between the frequency in the body frame and in space, nΩ for a wave of n diameters, of
+/// the modes up to a frequency in space.
 fn most_turned(plate: &Plate, speed: f64, complete_to: f64) -> f64 {
     let waves = 0..=plate.max_diameters();
     let within = waves.filter(|&n| {

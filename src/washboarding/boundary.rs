@@ -1,10 +1,10 @@
-//! Where a motion begins to grow.
+//! Onset of growth over the cutting stiffness.
 
-/// The least cutting stiffness at which a motion begins to grow.
+/// The smallest cutting stiffness at which a motion grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Boundary {
-    /// Zero where one grows without the delayed force.
+    /// Cutting stiffness; zero if a motion grows without the delayed force.
     pub stiffness_n_per_m: f64,
-    /// Its frequency in space.
+    /// Frequency of the motion in space.
     pub frequency_rad_per_s: f64,
 }

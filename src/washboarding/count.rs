@@ -1,4 +1,4 @@
-//! How many motions grow, by the argument principle; and from which stiffness on one does.
+//! Number of growing motions, by the argument principle, and the smallest stiffness at which one grows.
 
 use faer::c64;
 use std::f64::consts::PI;
@@ -8,7 +8,7 @@ use crate::spectrum::turn_along;
 use super::boundary::Boundary;
 use super::delayed::DelayedSaw;
 
-/// The eigenvalues of the loop gain along the imaginary axis.
+/// Eigenvalues of the loop gain along the imaginary axis.
 #[derive(Debug)]
 pub struct LoopGains<'a> {
     saw: &'a DelayedSaw,
@@ -22,22 +22,22 @@ struct Place {
     gains: Vec<c64>,
 }
 
-/// Places a turn of the delay.
+/// Number of frequencies per period of the delay term.
 const A_TURN: f64 = 16.0;
-/// More turns of the delay than these are not followed evenly: there a loop gain of any size is one
-/// next to a mode, where there are places.
+/// Largest number of periods of the delay that are sampled evenly. Beyond, a large loop gain occurs only near
+/// a mode, where further frequencies are sampled.
 const MOST_EVEN: f64 = 20_000.0;
-/// Places about the frequency of each mode, in units of its decay.
+/// Frequencies sampled about each mode, in units of its decay rate.
 const ABOUT_A_MODE: [f64; 7] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
-/// Share of its size by which a loop gain may change from place to place.
+/// Largest relative change of a loop gain between neighbouring frequencies.
 const LARGEST_CHANGE: f64 = 0.35;
 const MOST_HALVINGS: usize = 26;
-/// What is below the boundary by this share is looked at to confirm it.
+/// Relative distance below the boundary at which the count confirms it.
 const BELOW: f64 = 1e-3;
 
 impl<'a> LoopGains<'a> {
-    /// Up to where stiffnesses up to a ceiling have nothing that grows beyond. `None` where a mode of
-    /// the saw lies on the axis.
+    /// Samples the loop gains up to the frequency beyond which nothing grows for stiffnesses up to `ceiling`.
+    /// `None` if an eigenvalue of the saw lies on the imaginary axis.
     pub fn new(saw: &'a DelayedSaw, ceiling: f64) -> Option<Self> {
         let omegas = places(saw, ceiling);
         let mut followed = LoopGains {
@@ -55,7 +55,7 @@ impl<'a> LoopGains<'a> {
         Some(followed)
     }
 
-    /// Adds what it takes to tell which eigenvalue becomes which.
+    /// Adds frequencies until the eigenvalues at neighbouring ones can be matched.
     fn follow(&mut self, before: &Place, next: Place, halvings: usize) -> Option<()> {
         let least = 1.0 / self.ceiling;
         let clear = matched(before, &next).into_iter().all(|[x, y]| {
@@ -71,10 +71,10 @@ impl<'a> LoopGains<'a> {
         Some(())
     }
 
-    /// Eigenvalues in the right half plane. `None` where one lies on the axis.
+    /// Number of eigenvalues in the right half plane; `None` if one lies on the imaginary axis.
     ///
-    /// det(1 + kX) turns by −π for each beside those of the saw without delay, from zero to where
-    /// nothing lies beyond, less what is its argument there.
+    /// Relative to the saw without delay, each additional eigenvalue turns the argument of det(1 + kX) by −π
+    /// between zero and the last frequency; its argument at the last frequency is subtracted.
     pub fn growing(&self, stiffness: f64) -> Option<usize> {
         let angle = |gains: &[c64]| -> f64 {
             let factors = gains.iter().map(|gain| (1.0 + gain * stiffness).arg());
@@ -94,15 +94,15 @@ impl<'a> LoopGains<'a> {
         usize::try_from(self.saw.unstable_poles() as isize + more).ok()
     }
 
-    /// The least stiffness up to the ceiling at which an eigenvalue lies on the axis, −1/x_i for a
-    /// loop gain x_i that is real and negative; `None` where there is none. Of a saw of which nothing
-    /// grows without the force.
+    /// The smallest stiffness up to the ceiling at which an eigenvalue lies on the imaginary axis: −1/x_i for
+    /// a loop gain x_i that is real and negative. `None` if there is none. The saw must be stable without the
+    /// delayed force.
     pub fn boundary(&self) -> Option<Boundary> {
         let mut best: Option<Boundary> = self.standing();
         let mut crossings: Vec<Crossing> = self.crossings().collect();
         crossings.sort_by(|x, y| x.most_negative().total_cmp(&y.most_negative()));
         for crossing in crossings {
-            // Within a step a loop gain grows by no more than half.
+            // Within a step a loop gain grows by at most a half.
             let least = -1.0 / (1.5 * crossing.most_negative());
             if best.is_some_and(|best| best.stiffness_n_per_m <= least) {
                 break;
@@ -116,8 +116,8 @@ impl<'a> LoopGains<'a> {
         best.filter(|best| best.stiffness_n_per_m <= self.ceiling)
     }
 
-    /// Whether nothing grows right below a boundary, by the count; below the ceiling where there is
-    /// none.
+    /// Whether the count finds nothing growing just below a boundary, or just below the ceiling if there is
+    /// no boundary.
     pub fn confirms(&self, boundary: Option<Boundary>) -> bool {
         match boundary.map(|boundary| boundary.stiffness_n_per_m) {
             Some(stiffness) => self.growing(stiffness * (1.0 - BELOW)) == Some(0),
@@ -125,7 +125,7 @@ impl<'a> LoopGains<'a> {
         }
     }
 
-    /// A blade that is pressed aside without oscillation: real loop gains at rest in space.
+    /// Boundary of static displacement without oscillation, from the real loop gains at zero frequency.
     fn standing(&self) -> Option<Boundary> {
         let first = self.places.first().filter(|place| place.omega == 0.0)?;
         let real = first
@@ -153,7 +153,7 @@ impl<'a> LoopGains<'a> {
     }
 }
 
-/// A loop gain whose imaginary part changes its sign between two places.
+/// A loop gain whose imaginary part changes its sign between two frequencies.
 #[derive(Debug, Clone, Copy)]
 struct Crossing {
     ends: [f64; 2],
@@ -165,7 +165,7 @@ impl Crossing {
         self.gains[0].re.min(self.gains[1].re)
     }
 
-    /// Halves the interval to the last digit.
+    /// Bisects the interval to machine precision.
     fn found(mut self, saw: &DelayedSaw) -> Option<Boundary> {
         loop {
             let omega = 0.5 * (self.ends[0] + self.ends[1]);
@@ -196,7 +196,7 @@ impl Place {
     }
 }
 
-/// The gains of two places, each with the nearest one, the largest first.
+/// Pairs the gains of two frequencies by distance, the largest first.
 fn matched(first: &Place, second: &Place) -> Vec<[c64; 2]> {
     let mut own = first.gains.clone();
     own.sort_by(|x, y| y.norm().total_cmp(&x.norm()));
@@ -214,7 +214,7 @@ fn matched(first: &Place, second: &Place) -> Vec<[c64; 2]> {
     pairs
 }
 
-/// Frequencies to begin with: about each mode, and evenly over the turns of the delay.
+/// Initial frequencies: about each mode, and evenly over the periods of the delay.
 fn places(saw: &DelayedSaw, ceiling: f64) -> Vec<f64> {
     let to = saw.reach(ceiling);
     let step = (std::f64::consts::TAU / saw.delay.longest_s() / A_TURN).max(to / MOST_EVEN);
@@ -228,7 +228,7 @@ fn places(saw: &DelayedSaw, ceiling: f64) -> Vec<f64> {
     places.retain(|omega| (0.0..=to).contains(omega));
     places.sort_by(f64::total_cmp);
     places.dedup();
-    // Of stretches where every factor of the determinant is near one, the ends are enough.
+    // Intervals in which every factor of the determinant is close to one need no frequencies inside.
     let last = places.len() - 1;
     let matter: Vec<bool> = places
         .iter()

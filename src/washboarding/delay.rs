@@ -1,10 +1,11 @@
-//! The share of the cutting stiffness that acts at a frequency: what is cut less what is cut already.
+//! Share of the cutting stiffness that acts at a frequency, because the preceding tooth has already cut part
+//! of the surface.
 
 use faer::c64;
 
 use crate::scene::Washboarding;
 
-/// h(λ) = 1 − μ/p Σ e^(−λτ_j), over the p pitches that repeat around the blade: every tooth passes a
+/// h(λ) = 1 − μ/p Σ e^(−λτ_j) over the p pitches that repeat around the blade: every tooth passes a given
 /// place of the wood once a turn.
 #[derive(Debug, Clone)]
 pub struct Delay {
@@ -13,7 +14,7 @@ pub struct Delay {
 }
 
 impl Delay {
-    /// At a speed.
+    /// The delay at a speed.
     pub fn new(washboarding: &Washboarding, speed_rad_per_s: f64) -> Self {
         Delay {
             overlap: washboarding.overlap,
@@ -41,7 +42,7 @@ impl Delay {
         1.0 + self.overlap
     }
 
-    /// The longest delay.
+    /// Longest delay.
     pub fn longest_s(&self) -> f64 {
         self.delays_s.iter().copied().fold(0.0, f64::max)
     }

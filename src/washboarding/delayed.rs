@@ -1,7 +1,7 @@
-//! The saw with the delayed force of the cut at one speed.
+//! The saw with the delayed cutting force at one speed.
 //!
-//! det(L(λ) + k h(λ) BBᵀ) = det L(λ) · det(1 + k X(λ)), X = h G: eigenvalues are where the small
-//! determinant vanishes, and 1 + k x_i are its factors, x_i the eigenvalues of the loop gain X.
+//! det(L(λ) + k h(λ) BBᵀ) = det L(λ) · det(1 + k X(λ)) with X = h G. Eigenvalues are the zeros of the small
+//! determinant, whose factors are 1 + k x_i with the eigenvalues x_i of the loop gain X.
 
 use faer::{Mat, c64};
 use nalgebra::{DMatrix, Schur};
@@ -19,13 +19,13 @@ use super::transfer::Transfer;
 pub struct DelayedSaw {
     pub(super) transfer: Transfer,
     pub(super) delay: Delay,
-    /// ‖D‖, ‖K‖ and ‖BBᵀ‖, by which everything far out is bounded.
+    /// ‖D‖, ‖K‖ and ‖BBᵀ‖, for bounds at large |λ|.
     norms: [f64; 3],
 }
 
 impl DelayedSaw {
-    /// Of a system, the columns B of the arc with the flexibility of what is left out, and the delays at
-    /// a speed.
+    /// Makes the saw from a system, the columns B of the arc, the flexibility of the omitted shapes, and the
+    /// delays at a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] where the eigenproblem fails.
@@ -51,7 +51,7 @@ impl DelayedSaw {
         self.transfer.at(lambda) * self.delay.at(lambda)
     }
 
-    /// Eigenvalues of X(iω). `None` where it is not finite: on an eigenvalue of the saw.
+    /// Eigenvalues of X(iω); `None` if they are not finite because iω is an eigenvalue of the saw.
     pub fn gains(&self, omega: f64) -> Option<Vec<c64>> {
         const MOST_ITERATIONS: usize = 10_000;
         let gain = self.gain(c64::new(0.0, omega));
@@ -78,12 +78,12 @@ impl DelayedSaw {
         trace.is_finite().then_some(trace)
     }
 
-    /// Eigenvalues of the saw without the delayed force that lie in the right half plane.
+    /// Number of eigenvalues of the saw without the delayed force in the right half plane.
     pub fn unstable_poles(&self) -> usize {
         self.transfer.poles.iter().filter(|p| p.re > 0.0).count()
     }
 
-    /// The boundary of a saw of which something grows without the delayed force, at no stiffness.
+    /// The boundary at zero stiffness, if the saw is unstable without the delayed force.
     pub fn grows_without(&self) -> Option<Boundary> {
         let growing = self.transfer.poles.iter().filter(|pole| pole.re > 0.0);
         let fastest = growing.max_by(|x, y| x.re.total_cmp(&y.re))?;
@@ -93,19 +93,19 @@ impl DelayedSaw {
         })
     }
 
-    /// Whether k(X − hF) may be larger than ½ at iω for stiffnesses up to one; where it is not, every factor
-    /// 1 + k x_i has a positive real part, as F is positive and so is the real part of h.
+    /// Whether k(X − hF) may exceed ½ at iω for stiffnesses up to the given one. If it cannot, every factor 1
+    /// + k x_i has a positive real part, because F is positive definite and Re h ≥ 0.
     pub fn matters(&self, omega: f64, stiffness: f64) -> bool {
         let size = self.transfer.modal_bound(c64::new(0.0, omega));
         let part = stiffness * self.delay.bound() * size;
         part > 0.5 || part.is_nan()
     }
 
-    /// |λ| from which on nothing lies in the right half plane, however the phase of the delay falls:
-    /// there |h| ≤ 1 + μ and ‖L(λ)⁻¹‖ ≤ 1/(|λ|² − |λ|‖D‖ − ‖K‖), so that beyond the root of
-    /// |λ|² − |λ|‖D‖ − ‖K‖ = 2k(1 + μ)‖BBᵀ‖ the part kX − khF is no larger than ½. The real part of
-    /// 1 + khF is at least one, for that of h is not negative, and F is positive: every factor
-    /// 1 + k x_i has a positive real part.
+    /// |λ| beyond which no eigenvalue lies in the right half plane, whatever the phase of the delay: there
+    /// |h| ≤ 1 + μ and ‖L(λ)⁻¹‖ ≤ 1/(|λ|² − |λ|‖D‖ − ‖K‖), so that beyond the root of
+    /// |λ|² − |λ|‖D‖ − ‖K‖ = 2k(1 + μ)‖BBᵀ‖ the norm of kX − khF is at most ½. The real part of 1 + khF is
+    /// at least one, because Re h ≥ 0 and F is positive definite: every factor 1 + k x_i has a positive real
+    /// part.
     pub fn reach(&self, stiffness: f64) -> f64 {
         let [velocity, own, arc] = self.norms;
         let square = own + 2.0 * stiffness * self.delay.bound() * arc;

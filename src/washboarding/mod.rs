@@ -1,11 +1,12 @@
-//! Washboarding: a blade that the teeth set swinging, each on the surface left by the one before.
+//! Washboarding: vibration of the blade that arises because each tooth cuts the surface left by the preceding
+//! one.
 //!
-//! In goes a scene whose cut names `washboarding`; out comes a [`Washboard`]: whether a motion grows
-//! at the operating speed, which, and the least cutting stiffness at which one would, over the speed.
+//! A scene whose cut has the block `washboarding` gives a [`Washboard`]: whether a motion grows at the
+//! operating speed, its mode, and the smallest cutting stiffness for growth over the speed.
 //!
-//! The force on a tooth is −k (w(t) − μ w(t − τ)). The wood stands in space, and each tooth passes the
-//! same arc one tooth period after the one before it, so that in the frame fixed in space the delayed
-//! term does not change with time, and eigenvalues are those of
+//! The force on a tooth is −k (w(t) − μ w(t − τ)). The wood is fixed in space, and each tooth passes the same
+//! arc one tooth period after the preceding one. The delayed term is therefore constant in the frame fixed in
+//! space, and eigenvalues are those of
 //!
 //! λ² + λD(Ω) + K(Ω) + k h(λ) P, h(λ) = 1 − μ/p Σ e^(−λτ_j), P = ∫ φφᵀ dθ/arc on the arc of the rim.
 //!
@@ -45,7 +46,7 @@ use crate::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboardin
 use crate::spectrum::{Cancellation, SpectrumError};
 use crate::stability::AnalysisError;
 
-/// Why washboarding could not be looked at.
+/// Reason for which an analysis of washboarding failed.
 #[derive(Debug, thiserror::Error)]
 pub enum WashboardError {
     /// The scene is refused.
@@ -57,7 +58,7 @@ pub enum WashboardError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// Nothing to weigh the delayed force against.
+    /// The mode has no damping that could balance the delayed force.
     #[error(
         "damping is missing or too small for the mode of {frequency_hz:.1} Hz at {rpm:.0} rpm, but every mode must lose energy: a delayed force, however small, makes an undamped mode grow or leaves it at the limit; give damping.material_retardation_time_s (1e-6 s is of the order of steel) or damping.air_n_s_per_m3"
     )]
@@ -67,7 +68,7 @@ pub enum WashboardError {
         /// Frequency of the mode.
         frequency_hz: f64,
     },
-    /// So many modes that those which teeth drive are not among the ones looked at.
+    /// The saw has so many modes that those driven by the teeth are outside the computed ones.
     #[error(
         "blade.teeth at {rpm:.0} rpm drive modes between {:.0} and {:.0} Hz, but the blade has so many that only those up to {complete_hz:.0} Hz can be looked at; give a thicker blade, a lower speed or fewer teeth",
         0.5 * passing_hz, passing_hz
@@ -80,14 +81,14 @@ pub enum WashboardError {
         /// Frequency up to which modes are complete.
         complete_hz: f64,
     },
-    /// A rigid motion without stiffness.
+    /// A rigid motion has no stiffness.
     #[error(
         "guides is empty or too soft, but must hold the blade against every rigid motion; give a guide with a stiffness, cut.wood, or mount the blade on a collar"
     )]
     Loose,
 }
 
-/// Washboarding of a saw.
+/// Result of an analysis of washboarding.
 #[derive(Debug)]
 pub struct Washboard {
     /// The saw.
@@ -96,29 +97,28 @@ pub struct Washboard {
     pub plate: Plate,
     /// Speed, forces and feed of the cut.
     pub run: CutRun,
-    /// The delayed force.
+    /// Delayed force.
     pub(crate) washboarding: Washboarding,
     /// Frequency in space up to which the modes are complete.
     pub complete_to_rad_per_s: f64,
-    /// Frequency up to which they would have to be, for the fastest speed of the diagram.
+    /// Frequency up to which complete modes are needed at the fastest speed of the diagram.
     pub needed_to_rad_per_s: f64,
     /// Estimated relative error of the critical speeds in this basis.
     pub estimated_relative_error: f64,
-    /// Eigenvalues in the right half plane, by the argument principle; `None` where one lies on the
-    /// axis.
+    /// Number of eigenvalues in the right half plane, by the argument principle; `None` if one lies on the
+    /// imaginary axis.
     pub growing: Option<usize>,
-    /// The same without the delayed force.
+    /// This number without the delayed force.
     pub growing_without: usize,
-    /// Modes at the speed of the cut, the fastest growing first.
+    /// Modes at the speed of the cut, in descending order of growth.
     pub(crate) modes: Vec<WashboardMode>,
-    /// Least cutting stiffness at which a motion grows, at the speed of the cut.
+    /// Smallest cutting stiffness at which a motion grows, at the speed of the cut.
     pub(crate) boundary: Option<Boundary>,
-    /// The same over the speed.
+    /// This boundary over the speed.
     pub(crate) lobes: Vec<LobePoint>,
-    /// Cutting stiffness up to which it was looked for.
+    /// Largest cutting stiffness of the search.
     pub ceiling_n_per_m: f64,
-    /// Least cutting stiffness at which a mode beyond `complete_to_rad_per_s` may grow, by its
-    /// damping alone.
+    /// Smallest cutting stiffness at which a mode above `complete_to_rad_per_s` may grow, given its damping.
     pub safe_beyond_n_per_m: f64,
 }
 
@@ -127,27 +127,27 @@ pub struct Washboard {
 pub(crate) struct LobePoint {
     /// Rotation speed.
     pub speed_rad_per_s: f64,
-    /// Least cutting stiffness at which a motion grows; `None` where there is none up to the ceiling.
+    /// Smallest cutting stiffness at which a motion grows; `None` if it exceeds the ceiling.
     pub boundary: Option<Boundary>,
-    /// Whether the count says that nothing grows right below it.
+    /// Whether the count confirms that nothing grows just below it.
     pub confirmed: bool,
 }
 
-/// The diagram reaches from and to these shares of the speed of the cut.
+/// Range of the diagram, relative to the speed of the cut.
 const DIAGRAM: [f64; 2] = [0.6, 1.25];
-/// Speeds of the diagram.
+/// Number of speeds in the diagram.
 const SPEEDS: usize = 121;
-/// Where one mode follows on another, the speeds between are halved so many times.
+/// Number of times that the interval between two speeds is halved if the critical mode changes in between.
 const HALVINGS: usize = 3;
-/// Relative change of the frequency from speed to speed that is another mode.
+/// Relative change of the frequency between two speeds that indicates another mode.
 const JUMP: f64 = 0.03;
-/// Boundaries are looked for up to this many times the cutting stiffness, and not beyond what the
-/// modes that are left out withstand.
+/// Ceiling of the search, relative to the cutting stiffness. The search also ends where omitted modes may
+/// grow.
 const CEILING: f64 = 1e3;
 
 impl Washboard {
-    /// Looks at the washboarding of a saw at one speed of the scene's cut, see [`Cut::at_rpm`](crate::scene::Cut::at_rpm), and
-    /// around it.
+    /// Analyses the washboarding of a saw at and around one speed of the scene's cut, see
+    /// [`Cut::at_rpm`](crate::scene::Cut::at_rpm).
     ///
     /// # Errors
     /// [`WashboardError`].
@@ -188,7 +188,7 @@ impl Washboard {
         })
     }
 
-    /// Speeds of which the count does not say that nothing grows below the boundary.
+    /// Number of speeds whose boundary the count does not confirm.
     pub fn unconfirmed(&self) -> usize {
         self.lobes.iter().filter(|point| !point.confirmed).count()
     }
@@ -240,7 +240,7 @@ fn lobes(
 }
 
 impl LobePoint {
-    /// Whether another mode begins to grow at the next speed.
+    /// Whether another mode becomes critical at the next speed.
     fn jumps_to(&self, next: &LobePoint) -> bool {
         match (self.boundary, next.boundary) {
             (None, None) => false,
@@ -253,7 +253,7 @@ impl LobePoint {
     }
 }
 
-/// B of BBᵀ = P, without the columns that are rounding beside the largest.
+/// B of BBᵀ = P, without columns that are rounding compared with the largest.
 fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
     const LEAST: f64 = 1e-8;
     let order = arc.nrows();

@@ -1,4 +1,4 @@
-//! The modes with the delayed force, and the pattern that each leaves on the board.
+//! Modes with the delayed force, and the pattern that each leaves on the board.
 
 use std::f64::consts::TAU;
 
@@ -16,35 +16,35 @@ use crate::spectrum::{ModeName, classify, split};
 pub(crate) struct WashboardMode {
     /// λ, Im λ ≥ 0.
     pub lambda: c64,
-    /// λ without the delayed force; `None` for a mode that only the delay makes.
+    /// λ without the delayed force; `None` for a mode that exists only because of the delay.
     pub without: Option<c64>,
-    /// Its name.
+    /// Name.
     pub name: ModeName,
-    /// What it leaves on the board; `None` for teeth that are not evenly spaced.
+    /// Pattern left on the board; `None` for unevenly spaced teeth.
     pub pattern: Option<Pattern>,
 }
 
-/// The waves that a motion leaves on the board.
+/// Waves that a motion leaves on the board.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pattern {
-    /// The multiple of the tooth passing frequency next to the frequency of the motion.
+    /// Multiple of the tooth passing frequency that is nearest to the frequency of the motion.
     pub multiple: u32,
-    /// The frequency less that multiple, in rad/s.
+    /// Difference between the frequency and this multiple, in rad/s.
     pub beside_rad_per_s: f64,
-    /// Length of a wave along the feed; `None` without a feed, and where each tooth leaves the same.
+    /// Wavelength along the feed; `None` without a feed, or if all teeth leave the same surface.
     pub pitch_m: Option<f64>,
 }
 
-/// Modes that are told of at least.
+/// Smallest number of modes listed.
 const TOLD: usize = 8;
-/// A motion this near to tooth passing, relative to it, leaves the same with every tooth.
+/// Relative distance to a multiple of tooth passing below which all teeth leave the same surface.
 const SAME: f64 = 1e-9;
 
 impl Pattern {
-    /// Each tooth passes a place of the kerf a tooth period after the one before and a feed per tooth
-    /// farther on. From tooth to tooth the motion of frequency ω has turned by ωτ, which cannot be
-    /// told from its difference to the next multiple of 2π: along the feed v the surface has the wave
-    /// length 2πv/|ω − m·2π/τ|.
+    /// Each tooth passes a place of the kerf a tooth period after the preceding one and one feed per tooth
+    /// farther on. From tooth to tooth the phase of a motion of frequency ω advances by ωτ, of which only the
+    /// difference to the nearest multiple of 2π is visible: along the feed v the surface has the wavelength
+    /// 2πv/|ω − m·2π/τ|.
     pub fn new(omega: f64, tooth_passing: f64, feed_m_per_s: Option<f64>) -> Self {
         let multiple = (omega / tooth_passing).round();
         let beside = omega - multiple * tooth_passing;
@@ -59,7 +59,7 @@ impl Pattern {
     }
 }
 
-/// Those of largest growth up to where the modes are complete, and all that grow.
+/// All growing modes, and those of largest growth among the complete ones.
 pub fn described(
     motions: &Motions,
     saw: &DelayedSaw,
@@ -102,7 +102,7 @@ fn mode(
     })
 }
 
-/// x of (L(λ) + k h(λ) B(1 + k h(λ) F)⁻¹Bᵀ) x = 0 by inverse iteration, ‖x‖ = 1.
+/// Solution x, ‖x‖ = 1, of (L(λ) + k h(λ) B(1 + k h(λ) F)⁻¹Bᵀ) x = 0 by inverse iteration.
 fn shape(motions: &Motions, washboarding: &Washboarding, speed: f64, lambda: c64) -> Col<c64> {
     const BESIDE: f64 = 1e-9;
     const STEPS: usize = 3;

@@ -1,8 +1,8 @@
-//! Eigenvalues with the delayed force, from those without it.
+//! Eigenvalues with the delayed force, starting from those without it.
 //!
-//! Newton's method on det(1 + kX(λ)) Π(λ − λ_k), which is smooth at the eigenvalues λ_k of the saw
-//! without the force, for all of them at once; that no two come to the same root is Aberth's term.
-//! References: O. Aberth, Math. Comp. 27 (1973), 339–344.
+//! Newton's method is applied to det(1 + kX(λ)) Π(λ − λ_k), which is smooth at the eigenvalues λ_k of the saw
+//! without the force, for all roots at once. Aberth's term prevents two iterations from converging to the
+//! same root (O. Aberth, Math. Comp. 27 (1973), 339–344).
 
 use faer::c64;
 
@@ -13,23 +13,24 @@ use super::delayed::DelayedSaw;
 pub struct Root {
     /// λ.
     pub lambda: c64,
-    /// The eigenvalue without the force that the search began at; `None` for one that only the
-    /// delay makes.
+    /// Eigenvalue without the force from which the search started; `None` for one that exists only because of
+    /// the delay.
     pub without: Option<c64>,
 }
 
 const MOST_STEPS: usize = 80;
-/// Relative change at which a root has been found.
+/// Relative change below which the iteration has converged.
 const CONVERGED: f64 = 1e-11;
-/// Relative imaginary part of a real value.
+/// Relative imaginary part below which a value is real.
 const REAL: f64 = 1e-12;
-/// Relative distance that the determinant itself may tell of a root.
+/// Relative distance up to which the determinant itself identifies a root.
 const NEAR: f64 = 1e-6;
-/// A first step beside the eigenvalue without the force, where the function has a pole and a zero.
+/// Relative distance of the first iterate from the eigenvalue without the force, at which the function has a
+/// pole and a zero.
 const BESIDE: f64 = 1e-7;
 
-/// The roots next to all eigenvalues without the force, and as many that only the delay makes as it takes
-/// to have all that grow, if it is known how many do.
+/// The roots that start at the eigenvalues without the force, and roots that exist only because of the delay
+/// until all growing ones are found, if their number is known.
 pub fn roots_with_all_growing(
     saw: &DelayedSaw,
     stiffness: f64,
@@ -48,7 +49,7 @@ pub fn roots_with_all_growing(
     found
 }
 
-/// Eigenvalues in the right half plane that some roots stand for.
+/// Number of eigenvalues in the right half plane that some roots represent.
 pub fn right_of_axis(found: &[Root]) -> usize {
     let growing = found.iter().filter(|root| root.lambda.re > 0.0);
     growing
@@ -56,7 +57,7 @@ pub fn right_of_axis(found: &[Root]) -> usize {
         .sum()
 }
 
-/// The roots next to all eigenvalues without the force; those that were not found are left out.
+/// The roots that start at the eigenvalues without the force, without those that did not converge.
 fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
     let all = &saw.transfer.poles;
     let own: Vec<usize> = (0..all.len()).filter(|&k| all[k].im >= 0.0).collect();
@@ -89,7 +90,7 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
     found.map(|(pair, _)| root(pair)).collect()
 }
 
-/// A root in the right half plane beside the known ones, from any of some places.
+/// A further root in the right half plane, searched from several starting points.
 fn another(
     saw: &DelayedSaw,
     stiffness: f64,
@@ -121,7 +122,7 @@ fn another(
     None
 }
 
-/// Whether the determinant vanishes there: Newton's step for it alone is none.
+/// Whether the determinant vanishes: Newton's step for the determinant alone is negligible.
 fn is_root(saw: &DelayedSaw, stiffness: f64, lambda: c64) -> bool {
     let slope = saw.logarithmic_slope(stiffness, lambda);
     // On the root itself the matrix is singular.
@@ -136,7 +137,7 @@ fn first_guess(saw: &DelayedSaw, stiffness: f64, pole: usize) -> c64 {
     let lambda = saw.transfer.poles[pole];
     let moved = -saw.delay.at(lambda) * saw.transfer.mobility(pole) * stiffness;
     let beside = c64::new(BESIDE * lambda.norm().max(1.0), 0.0);
-    // What moves farther than to the next mode has no first order.
+    // First-order perturbation is not valid for a step longer than to the next mode.
     match moved.is_finite() && moved.norm() < 0.1 * lambda.norm() {
         true => lambda + moved + beside,
         false => lambda + beside,
@@ -167,7 +168,7 @@ fn step(
     let others: c64 = others.map(|other| (lambda - other).inv()).sum();
     let slope = saw.logarithmic_slope(stiffness, lambda)? + poles - others;
     let step = slope.inv();
-    // No step is longer than to the axis and a good deal beyond.
+    // A step leads at most to the imaginary axis and moderately beyond.
     let longest = 0.3 * lambda.norm();
     let size = step.norm();
     if !step.is_finite() {

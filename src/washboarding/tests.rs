@@ -1,4 +1,4 @@
-//! One degree of freedom against lobe theory, and the limits of the delayed force.
+//! Tests with one degree of freedom against lobe theory, and of limiting cases of the delayed force.
 
 use std::f64::consts::TAU;
 
@@ -62,7 +62,7 @@ fn saw(frequencies: &[f64], overlap: f64, delays_s: &[f64]) -> DelayedSaw {
     DelayedSaw::new(&system, arc, &washboarding, 1.0).unwrap()
 }
 
-/// The lowest of all lobes at a delay, by bisection of each lobe's own closed form.
+/// The lowest of all lobes at a delay, by bisection of the closed form of each lobe.
 fn exact_boundary(delay_s: f64) -> [f64; 2] {
     let mut best = [f64::INFINITY, 0.0];
     for lobe in 0..12 {
@@ -110,8 +110,8 @@ fn the_boundary_of_one_mode_is_that_of_lobe_theory() {
     }
 }
 
-/// Every growing eigenvalue that is counted is one that Newton's method finds, and satisfies the
-/// equation; of several modes, with one delay and with two, past several boundaries.
+/// Newton's method finds every growing eigenvalue that is counted, and each satisfies the equation; with
+/// several modes, with one delay and with two, beyond several boundaries.
 #[test]
 fn what_is_counted_is_found() {
     let modes = [300.0, 310.0, 700.0, 1100.0];
@@ -135,7 +135,7 @@ fn what_is_counted_is_found() {
     assert!(growing > 20, "{growing}");
 }
 
-/// λ = λ_k − k h(λ_k) φ²/2λ_k…: what a small stiffness does is what is proportional to it.
+/// λ = λ_k − k h(λ_k) φ²/2λ_k…: the effect of a small stiffness is proportional to it.
 #[test]
 fn without_stiffness_nothing_is_moved() {
     let saw = saw(&[300.0, 700.0], 1.0, &[0.018]);
@@ -155,7 +155,7 @@ fn without_stiffness_nothing_is_moved() {
     }
 }
 
-/// Without overlap the force is that of a spring, whose modes are those of a matrix.
+/// Without overlap the force is that of a spring, so the modes are those of a matrix.
 #[test]
 fn without_overlap_it_is_a_spring() {
     let modes = [300.0, 310.0, 700.0];
@@ -179,7 +179,7 @@ fn without_overlap_it_is_a_spring() {
     assert_eq!((gains.boundary(), gains.growing(CEILING)), (None, Some(0)));
 }
 
-/// The surface that teeth leave one after the other is the wave of the pitch told.
+/// The surface left by successive teeth is a wave of the reported pitch.
 #[test]
 fn the_pattern_is_what_the_teeth_leave() {
     let (passing, feed) = (TAU * 1500.0, 0.8);

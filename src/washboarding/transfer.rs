@@ -1,4 +1,4 @@
-//! What the arc of the cut answers to forces on it, as the sum over the modes of the saw.
+//! Response of the arc of the cut to forces on it, as a sum over the modes of the saw.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
@@ -8,13 +8,13 @@ use crate::scene::rpm;
 use crate::spectrum::{SpectrumError, companion_eigenpairs, time_scale};
 use crate::system::GyroscopicSystem;
 
-/// G(λ) = Bᵀ L(λ)⁻¹ B = F + Σ_k b_k c_k/(λ − λ_k) over all 2m eigenvalues of the saw without delay, F
-/// being the flexibility of the shapes that are left out; r × r, in m/N where P = BBᵀ is that of 1 N/m.
+/// G(λ) = Bᵀ L(λ)⁻¹ B = F + Σ_k b_k c_k/(λ − λ_k) over all 2m eigenvalues of the saw without delay, with the
+/// flexibility F of the omitted shapes; r × r, in m/N if P = BBᵀ is that of 1 N/m.
 #[derive(Debug)]
 pub struct Transfer {
-    /// λ_k, each complex one followed by its conjugate.
+    /// λ_k; each complex one is followed by its conjugate.
     pub poles: Vec<c64>,
-    /// b_k c_k, r × r by columns, one after the other.
+    /// b_k c_k, r × r, column by column.
     residues: Vec<c64>,
     /// ‖b_k‖ ‖c_k‖.
     sizes: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// Of a system at a speed; B has r columns, F is r × r.
+    /// Modal sum of a system at a speed; B has r columns, F is r × r.
     ///
     /// # Errors
     /// [`SpectrumError`] where the eigenproblem fails.
@@ -81,14 +81,14 @@ impl Transfer {
         [self.at(lambda), self.sum(slope)]
     }
 
-    /// Trace of b_k c_k: by how much −kh times it moves λ_k at first.
+    /// Trace of b_k c_k. To first order, the force moves λ_k by −kh times this value.
     pub fn mobility(&self, pole: usize) -> c64 {
         let size = self.flexibility.nrows();
         let block = &self.residues[pole * size * size..];
         (0..size).map(|i| block[i * (size + 1)]).sum()
     }
 
-    /// No less than ‖G(λ) − F‖.
+    /// An upper bound of ‖G(λ) − F‖.
     pub fn modal_bound(&self, lambda: c64) -> f64 {
         let terms = self.poles.iter().zip(&self.sizes);
         terms
@@ -110,16 +110,16 @@ impl Transfer {
     }
 }
 
-/// Every eigenvalue of a system, and its state.
+/// All eigenvalues of a system, with eigenvectors.
 struct States {
-    /// Each complex one followed by its conjugate.
+    /// Each complex eigenvalue is followed by its conjugate.
     poles: Vec<c64>,
-    /// (q, λq/s) of all by columns, s the scale of time.
+    /// (q, λq/s) of all eigenvalues by columns, with the time scale s.
     states: Mat<c64>,
 }
 
 impl States {
-    /// `None` where the solver finds fewer or more than there are.
+    /// `None` if the solver returns another number of eigenvalues.
     fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
@@ -153,7 +153,7 @@ mod tests {
     use crate::scene::{DampingFile, Scene, rad_per_s};
     use crate::system::dynamic_stiffness;
 
-    /// Against one factorization of L(λ) at each place.
+    /// Reference: a factorization of L(λ) at each λ.
     #[test]
     fn the_sum_over_modes_is_the_inverse() {
         let scene = Scene::paper().edited(|saw| {

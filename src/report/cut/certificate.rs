@@ -1,4 +1,4 @@
-//! Growing modes of a cut held against counts on the full model.
+//! Compares the growing modes of a cut with counts on the full model.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ pub struct CutCertificateEntry {
     pub differing_growths: usize,
 }
 
-/// Growth rates of two ways to the same eigenvalue differ by no more than this share of them, and by rounding.
+/// Relative tolerance, besides rounding, between growth rates that two methods give for one eigenvalue.
 const ALIKE: f64 = 1e-5;
 const ROUNDING_PER_S: f64 = 1e-5;
 
@@ -59,7 +59,7 @@ impl CutCertificateEntry {
         }
     }
 
-    /// Whether every check agrees.
+    /// Whether no check disagrees.
     pub fn is_clean(&self) -> bool {
         self.krein_violations == 0
             && self.miscounted_modes.is_empty()
@@ -67,18 +67,18 @@ impl CutCertificateEntry {
     }
 }
 
-/// The saw in the cut or without its forces.
+/// The saw with or without the forces of the cut.
 struct State<'a> {
     name: &'a str,
     found: &'a GrowingModes,
-    /// Largest growth that the criteria go by.
+    /// Largest growth used by the criteria.
     reported_per_s: f64,
 }
 
 impl State<'_> {
     fn differs(&self) -> bool {
         let [found, reported] = [self.found.growth_per_s.unwrap_or(0.0), self.reported_per_s];
-        // Of what decays the fastest may be beyond the modes looked at.
+        // A motion that decays faster than all examined modes has no reported growth; zero is used.
         let reported = reported.max(0.0);
         (found - reported).abs() > ALIKE * reported + ROUNDING_PER_S
     }

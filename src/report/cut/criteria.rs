@@ -1,4 +1,4 @@
-//! What says whether a cut is stable.
+//! Criteria that decide whether a cut is stable.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -60,10 +60,10 @@ pub struct CutCriterionEntry {
     pub frequency_hz: Option<f64>,
 }
 
-/// What the two verdicts may differ by in growth.
+/// Relative difference that is allowed between the growth rates of two methods.
 const AGREEMENT: f64 = 0.02;
 
-/// What each criterion says of one speed.
+/// The result of each criterion at one speed.
 pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterionEntry> {
     let CuttingRun {
         history,
@@ -78,7 +78,7 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
         frequency_hz: growing_hz(growth),
     };
     let fitted = history.fitted.map(|fitted| CutCriterionEntry {
-        // Rounding of a motion that neither grows nor decays has no frequency.
+        // A motion that neither grows nor decays, except for rounding, has no frequency.
         frequency_hz: growing_hz(fitted)
             .filter(|_| Verdict::of(scene, fitted.growth_per_s) == Verdict::Unstable),
         ..entry(CutCriterion::TimeHistory, fitted)
@@ -102,7 +102,7 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
     .collect()
 }
 
-/// The worst of the verdicts, and the first of the fastest criteria that give it.
+/// The worst verdict, and the criterion of fastest growth that gives it (the first of equals).
 pub(super) fn worst(criteria: &[CutCriterionEntry]) -> (Verdict, CutCriterion) {
     let unstable = |entry: &CutCriterionEntry| entry.verdict == Verdict::Unstable;
     let verdict = match criteria.iter().any(unstable) {
@@ -123,7 +123,7 @@ pub(super) fn worst(criteria: &[CutCriterionEntry]) -> (Verdict, CutCriterion) {
     (verdict, criterion)
 }
 
-/// Whether a time history says what the eigenvalues say.
+/// Whether a time history agrees with the eigenvalues.
 pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
     let of = |growth: Growth| Verdict::of(scene, growth.growth_per_s);
     let apart = (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs();
@@ -199,7 +199,7 @@ mod tests {
         growths.iter().map(entry).collect()
     }
 
-    /// The threshold is 0.25 1/s: one criterion above it is enough, and names itself.
+    /// The threshold is 0.25 1/s. One criterion above it suffices and is named.
     #[test]
     fn item_3_the_worst_criterion_decides() {
         use CutCriterion::{Eigenvalues, MovingToothLoads, OutOfCut, TimeHistory};
@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    /// What is not known to be stable is not called so.
+    /// A growth rate that is not a number is not called stable.
     #[test]
     fn item_3_what_is_not_a_number_is_not_stable() {
         let scene = Scene::paper();

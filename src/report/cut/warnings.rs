@@ -1,4 +1,4 @@
-//! Remarks on the forces and on the validity of a cut.
+//! Remarks on the forces and the validity of a cut.
 
 use std::f64::consts::TAU;
 
@@ -6,8 +6,7 @@ use super::{CutCriterion, CutRunEntry, CutVerdict, Verdict};
 use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
-/// Beyond this many thicknesses a plate stretches as it bends, and is stiffer than a linear
-/// one.
+/// Beyond this many thicknesses a plate stretches as it bends and is stiffer than the linear model.
 const SMALL_THICKNESSES: f64 = 1.0;
 
 pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
@@ -58,7 +57,7 @@ fn without_lateral_force(run: &CutRunEntry) -> Option<String> {
     })
 }
 
-/// Where the teeth excite a resonance that neither standing nor mean loads have.
+/// Remark if moving teeth excite a resonance that stationary and mean loads do not.
 fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
     let passing = &run.tooth_passing;
     let others = passing
@@ -68,7 +67,7 @@ fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
     let alone = run.decided_by == CutCriterion::MovingToothLoads
         && run.verdict == CutVerdict::Unstable
         && others < 0.5 * passing.passing_growth_per_s;
-    // A shift of the tooth frequency by the growth rate leaves the resonance.
+    // The resonance ends where the tooth frequency is shifted by the growth rate.
     let width_rpm = run.rpm * passing.passing_growth_per_s / (TAU * passing.tooth_frequency_hz);
     alone.then(|| {
         format!(
@@ -92,7 +91,7 @@ fn one_digit(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Where the moving loads alone deflect the blade so far.
+/// Remark if the moving loads alone cause this deflection.
 fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     if run.stretching.is_some() {
         return run.tooth_passing.passing_deflection_m.is_none().then(|| format!(
@@ -111,7 +110,7 @@ fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     })
 }
 
-/// How long after the beginning or the end of the forces.
+/// Time after the start or the end of the forces, as text.
 fn moment(run: &CutRunEntry, until_s: f64) -> String {
     match until_s > run.forces_to_s {
         true => format!("{} after the cut", seconds(until_s - run.forces_to_s)),
