@@ -1,20 +1,20 @@
-//! Axes: from values to places on the sheet, and where the ticks go.
+//! Axes: conversion of values to positions on the sheet, and ticks.
 
 use serde::Serialize;
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
 
-/// How values are spread along an axis.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Spread {
-    /// Evenly.
+    /// Linear scale.
     Linear,
-    /// By the signed square root, which keeps zero and the sign, and shows small
-    /// values beside large ones. Unlike a logarithm it needs no cut-off near zero.
+    /// Scale by the signed square root, which preserves zero and the sign and shows small values beside large
+    /// ones. Unlike a logarithm it needs no cut-off near zero.
     SignedRoot,
-    /// By the logarithm, for positive values over decades.
+    /// Logarithmic scale, for positive values over decades.
     Logarithmic,
 }
 
@@ -37,8 +37,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis from the first value at the first place to the last at the last.
-    /// A range without length, or without numbers, is widened.
+    /// An axis from the first value at the first position to the last at the last. An empty or non-finite
+    /// range is widened.
     pub fn new(values: [f64; 2], places: [f64; 2], spread: Spread) -> Self {
         let values = proper_range(values);
         Self {
@@ -53,12 +53,12 @@ impl Axis {
         self.values
     }
 
-    /// First and last place.
+    /// First and last position.
     pub fn places(&self) -> [f64; 2] {
         self.places
     }
 
-    /// How the values are spread.
+    /// Scale.
     pub fn spread(&self) -> Spread {
         self.spread
     }
@@ -68,14 +68,14 @@ impl Axis {
         self.values[0] <= value && value <= self.values[1]
     }
 
-    /// Place of a value.
+    /// Position of a value.
     pub fn at(&self, value: f64) -> f64 {
         let [from, to] = self.values.map(|v| self.spread.of(v));
         let share = (self.spread.of(value) - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
-    /// Round values at least `apart` from each other on the sheet.
+    /// Round values at a distance of at least `apart` on the sheet.
     pub fn ticks(&self, apart: f64) -> Vec<f64> {
         match self.spread {
             Spread::Linear => self.even_ticks(apart),
@@ -84,7 +84,7 @@ impl Axis {
         }
     }
 
-    /// What is written at a tick.
+    /// Text at a tick.
     pub fn label(&self, tick: f64) -> String {
         match self.spread {
             Spread::Logarithmic if !(1e-3..1e5).contains(&tick) => power_of_ten(tick),
@@ -97,7 +97,7 @@ impl Axis {
         let most = ((self.places[1] - self.places[0]).abs() / apart).max(1.0);
         let step = round_up((to - from) / most);
         let (first, last) = ((from / step).ceil(), (to / step).floor());
-        // A slip of rounding must not lose the tick at the end.
+        // Rounding must not drop the tick at the end.
         let last = if (last + 1.0) * step <= to + 1e-9 * step {
             last + 1.0
         } else {
@@ -107,7 +107,7 @@ impl Axis {
         (0..=count).map(|i| (first + i as f64) * step).collect()
     }
 
-    /// 1, 2, 5, 10, … where there is room, else powers of ten.
+    /// 1, 2, 5, 10, … if there is room, otherwise powers of ten.
     fn decades(&self, apart: f64) -> Vec<f64> {
         let [from, to] = self.values.map(|value| self.spread.of(value));
         let decade = (self.places[1] - self.places[0]).abs() / (to - from);
@@ -123,7 +123,7 @@ impl Axis {
             .collect()
     }
 
-    /// 1, 3, 10, 30, … of either sign, as far as there is room, the largest first.
+    /// 1, 3, 10, 30, … of either sign while there is room, the largest first.
     fn root_ticks(&self, apart: f64) -> Vec<f64> {
         let mut ticks = vec![0.0];
         for end in self.values {
@@ -151,7 +151,7 @@ impl Axis {
     }
 }
 
-/// The range, widened where it has no length or is none of numbers.
+/// The range, widened if it is empty or not finite.
 pub fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     const LARGEST: f64 = 1e12;
     let from = if from.is_finite() {
@@ -175,7 +175,7 @@ pub fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     [from - half, from + half]
 }
 
-/// The next of 1, 2, 5 times a power of ten.
+/// The smallest of 1, 2, 5 times a power of ten that is not below `size`.
 pub fn round_up(size: f64) -> f64 {
     let ten = 10f64.powf(size.log10().floor());
     [1.0, 2.0, 5.0]
@@ -185,21 +185,21 @@ pub fn round_up(size: f64) -> f64 {
         .unwrap_or(10.0 * ten)
 }
 
-/// A number at a tick: no more decimals than the number needs.
+/// Text of a number at a tick, with no more decimals than necessary.
 pub fn tick_label(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     let rounded = if rounded == 0.0 { 0.0 } else { rounded };
     format!("{rounded}").replace('-', "\u{2212}")
 }
 
-/// A number to two digits, for what is known no better than that.
+/// A number to two digits.
 pub fn two_digits(value: f64) -> String {
     let magnitude = value.abs().max(1e-6).log10().floor();
     let decimals = (1.0 - magnitude).clamp(0.0, 8.0) as usize;
     format!("{value:.decimals$}").replace('-', "\u{2212}")
 }
 
-/// One digit and a power of ten: "2·10⁻⁷", "10⁵".
+/// A power of ten with one digit before it: "2·10⁻⁷", "10⁵".
 fn power_of_ten(value: f64) -> String {
     let text = format!("{value:.0e}");
     let (digit, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -209,7 +209,7 @@ fn power_of_ten(value: f64) -> String {
     }
 }
 
-/// An exponent as it is written above a ten: "⁻⁷".
+/// A superscript exponent: "⁻⁷".
 pub fn raised(exponent: &str) -> String {
     exponent.chars().map(superscript).collect()
 }
@@ -231,7 +231,7 @@ pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) 
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
     let apart = match axis.spread() {
         Spread::Linear => 40.0,
-        // Closer, so that small values have a tick too.
+        // These scales have closer ticks, so that small values get one too.
         Spread::SignedRoot | Spread::Logarithmic => 21.0,
     };
     for tick in axis.ticks(apart) {
@@ -267,7 +267,7 @@ pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
     }
 }
 
-/// Draws a horizontal axis with numbers and, below them, its name.
+/// Draws a horizontal axis with numbers, and its name below them.
 pub fn draw_named(sheet: &mut Sheet, axis: &Axis, y: f64, name: &str) {
     draw_horizontal(sheet, axis, y, true);
     let [left, right] = axis.places();

@@ -1,4 +1,4 @@
-//! Bands of instability as shades behind a panel.
+//! Bands of instability as shaded areas behind a panel.
 
 use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
@@ -6,11 +6,11 @@ use super::chart_data::Band;
 use super::palette::Hue;
 use crate::report::{InstabilityEntry, InstabilityKind};
 
-/// Narrower bands get a stronger colour, and at least `STREAK_WIDTH`.
+/// Narrower bands are drawn in a stronger colour, and at least `STREAK_WIDTH` wide.
 pub const NARROW: f64 = 4.0;
 const STREAK_WIDTH: f64 = 1.5;
 
-/// Left and right edge of a range of speeds on the sheet, or `None` off the axis.
+/// Left and right edge of a range of speeds on the sheet; `None` if it is off the axis.
 pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
     let [first, last] = speed.values();
     let (from, to) = (range[0].max(first), range[1].min(last));
@@ -22,18 +22,18 @@ pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
     Some([left - missing / 2.0, right + missing / 2.0])
 }
 
-/// Wider bands than this share of the axis that do not count have no shade.
+/// Bands below the threshold that are wider than this share of the axis are not shaded.
 const WIDEST_WEAK: f64 = 0.03;
 
-/// Whether any of a band is shaded on an axis of these speeds.
+/// Whether any part of a band is shaded on an axis of these speeds.
 pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
     let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
     !(is_wide && band.counted_rpm.is_empty())
 }
 
 impl Band {
-    /// On an axis of these speeds. It is shaded where it counts; one that does not is shaded as a whole, unless it grows
-    /// weakly over a wide range, as damping alone makes it.
+    /// The shaded parts of a band: those where the growth exceeds the threshold. A band that never exceeds it
+    /// is shaded as a whole, unless it is wide and weak, as bands caused by damping are.
     pub(super) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
         let whole = [band.from_rpm, band.to_rpm];
         let shaded = match band.counted_rpm.is_empty() {
@@ -99,7 +99,7 @@ pub fn draw<'a>(
     bands: impl Iterator<Item = &'a Band> + Clone,
     panels: &[Frame],
 ) {
-    // Streaks last: a wide band must not hide a narrow one within it.
+    // Narrow bands are drawn last, so that no wide one hides them.
     for narrow in [false, true] {
         let shaded = bands.clone().flat_map(|band| {
             let hue = if narrow { band.streak } else { band.shade };

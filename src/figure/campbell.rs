@@ -33,19 +33,19 @@ const PLOT_TOP: f64 = 122.0;
 const PLOT_BOTTOM: f64 = 788.0;
 const BETWEEN_PANELS: f64 = 16.0;
 const GROWTH_HEIGHT: f64 = 236.0;
-/// Height of the lower panel when there is nothing to see in it.
+/// Height of the lower panel if nothing grows.
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
 
-/// Baselines of the lines at the foot.
+/// Baselines of the two lines at the foot, measured from there.
 const LEGEND_ABOVE_FOOT: f64 = 70.0;
 const NOTES_ABOVE_FOOT: f64 = 51.0;
 const CERTIFICATE_ABOVE_FOOT: f64 = 32.0;
 const FACTS_ABOVE_FOOT: f64 = 14.0;
 
-/// Smaller growth rates are taken for rounding errors of the eigenvalues.
+/// Smaller growth rates are rounding errors of the eigenvalues.
 const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
-/// What the parts of the figure share.
+/// Data that all parts of the figure use.
 struct Chart<'a> {
     report: &'a Report,
     data: ChartData,
@@ -88,7 +88,7 @@ pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     sheet
 }
 
-/// The whole sweep, as numbers. What is said of each point is most of the text: it is left out unless it is asked for.
+/// The whole sweep, as numbers. Texts for each point are most of the data and are included only if `said`.
 pub fn chart(report: &Report, said: bool) -> ChartData {
     let whole = CampbellView {
         to_rpm: Some(f64::INFINITY),
@@ -125,7 +125,7 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// The panels, the frequencies above.
+    /// The panels, with that of the frequencies first.
     fn panels(&self) -> &[PanelData] {
         &self.data.panels
     }
@@ -152,7 +152,7 @@ impl<'a> Chart<'a> {
         })
     }
 
-    /// The curves of frequency.
+    /// The frequency curves.
     fn lines(&self) -> impl Iterator<Item = &Line> {
         self.items().filter_map(|item| match item {
             Item::Line(line) => Some(line),
@@ -227,7 +227,7 @@ fn verdict(report: &Report) -> String {
     let last = report.campbell.to_rpm;
     match report.flutter_speed_rpm {
         Some(rpm) => format!("flutter from {rpm:.0} rpm"),
-        // Slow flutter is in the figure, so the verdict must not deny it.
+        // The figure shows weak flutter too, so the verdict must not say that there is none.
         None if merges => {
             let threshold = report.flutter_threshold_per_s;
             format!("no flutter above {threshold} 1/s up to {last:.0} rpm")

@@ -1,35 +1,33 @@
-//! The sheet that a figure is laid out on: marks in figure units, the origin at
-//! the upper left.
+//! The sheet on which a figure is laid out: marks in figure units, with the origin at the upper left.
 //!
-//! A figure that is a list of marks looks the same in PNG and SVG, and a test can
-//! ask it whether two labels overlap.
+//! A list of marks looks the same in PNG and SVG, and tests can ask it whether two labels overlap.
 
 use super::style::{Colour, Weight, one_line, text_width};
 
-/// Where a text stands relative to its point.
+/// Position of a text relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// The text begins there.
+    /// The text begins at its point.
     Start,
-    /// The text is centred there.
+    /// The text is centred at its point.
     Middle,
-    /// The text ends there.
+    /// The text ends at its point.
     End,
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
     /// Colour.
     pub colour: Colour,
     /// Width.
     pub width: f64,
-    /// Lengths drawn and left out, or solid.
+    /// Lengths of dash and gap; `None` for a solid line.
     pub dash: Option<[f64; 2]>,
 }
 
 impl Stroke {
-    /// A line without gaps.
+    /// A solid line.
     pub fn solid(colour: Colour, width: f64) -> Self {
         let dash = None;
         Self {
@@ -40,23 +38,23 @@ impl Stroke {
     }
 }
 
-/// How a text is set.
+/// Style of a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lettering {
-    /// Height of the em.
+    /// Height of an em.
     pub em: f64,
     /// Weight.
     pub weight: Weight,
     /// Colour.
     pub colour: Colour,
-    /// Side of the point that the text is on.
+    /// Alignment.
     pub anchor: Anchor,
-    /// Read from below to above.
+    /// Whether the text is rotated and reads from below to above.
     pub upright: bool,
 }
 
 impl Lettering {
-    /// Regular, level letters.
+    /// Regular, horizontal text.
     pub fn regular(em: f64, colour: Colour, anchor: Anchor) -> Self {
         Self {
             em,
@@ -82,7 +80,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Whether the two have a point in common.
+    /// Whether two frames have a point in common.
     pub fn overlaps(&self, other: &Frame) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -91,7 +89,7 @@ impl Frame {
     }
 }
 
-/// One thing drawn.
+/// An element of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     /// A line through points.
@@ -100,11 +98,11 @@ pub enum Mark {
     Fill(Frame, Colour),
     /// A filled circle: centre and radius.
     Disc([f64; 2], f64, Colour),
-    /// A line of text, its point on the baseline.
+    /// A line of text; its point lies on the baseline.
     Text([f64; 2], Lettering, String),
 }
 
-/// Marks in the order in which they are drawn.
+/// A list of marks in drawing order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
     width: u32,
@@ -128,12 +126,12 @@ impl Sheet {
         (self.width, self.height)
     }
 
-    /// What is drawn.
+    /// The marks.
     pub fn marks(&self) -> &[Mark] {
         &self.marks
     }
 
-    /// Draws a line; points that are no numbers are passed over.
+    /// Draws a line; non-finite points are skipped.
     pub fn line(&mut self, points: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke) {
         let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
         if points.len() >= 2 {
@@ -170,7 +168,7 @@ impl Sheet {
         self.disc(centre, radius - stroke.width / 2.0, inside);
     }
 
-    /// Writes one line of text, its point on the baseline.
+    /// Writes one line of text; its point lies on the baseline.
     pub fn text(&mut self, at: [f64; 2], lettering: Lettering, text: &str) {
         let text = one_line(text);
         if let (Some(at), false) = (self.held(at), text.is_empty()) {
@@ -178,7 +176,7 @@ impl Sheet {
         }
     }
 
-    /// The point, held near the sheet because renderers count in whole numbers.
+    /// The point, limited to the vicinity of the sheet because renderers use integers.
     fn held(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let (width, height) = (f64::from(self.width), f64::from(self.height));
         (x.is_finite() && y.is_finite())
@@ -186,7 +184,7 @@ impl Sheet {
     }
 }
 
-/// The room that a text takes, from the tops of its letters to below them.
+/// The frame of a text, including ascenders and descenders.
 pub fn text_frame([x, y]: [f64; 2], lettering: &Lettering, text: &str) -> Frame {
     let length = text_width(text, lettering.em, lettering.weight);
     let before = match lettering.anchor {

@@ -1,7 +1,7 @@
-//! What a figure shows, as numbers and words in the units of its axes.
+//! Contents of a figure, as numbers and text in the units of its axes.
 //!
-//! The figures of this crate, the page and the Python package draw the same [`ChartData`]. Where a label has room is the
-//! matter of whoever draws.
+//! The figures of this crate, the live page and the Python package draw the same [`ChartData`]. Each of them
+//! decides where labels have room.
 
 use serde::Serialize;
 
@@ -14,28 +14,29 @@ use super::style::CURVE;
 pub struct ChartData {
     /// Title.
     pub title: String,
-    /// What is said below the title.
+    /// Lines below the title.
     pub facts: Vec<String>,
-    /// The panels, from above.
+    /// The panels, from top to bottom.
     pub panels: Vec<PanelData>,
 }
 
-/// Axes and what is drawn into them.
+/// Axes of a panel, and its contents.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelData {
-    /// Title; empty where there is none.
+    /// Title; empty if there is none.
     pub title: String,
     /// The horizontal axis.
     pub x: AxisData,
     /// The vertical axis.
     pub y: AxisData,
-    /// Height beside that of the other panels.
+    /// Height relative to that of the other panels.
     pub share: f64,
-    /// Whether it shows frequencies over the rotation speed, so that multiples of the speed are lines.
+    /// Whether the panel shows frequencies over the rotation speed, so that multiples of the speed are
+    /// straight lines.
     pub harmonics: bool,
-    /// What is said where there is nothing to be seen; empty otherwise.
+    /// Note to show if the panel is empty; otherwise empty.
     pub note: String,
-    /// What is drawn, from below to above.
+    /// Contents, in drawing order.
     pub items: Vec<Item>,
 }
 
@@ -57,20 +58,20 @@ impl PanelData {
 /// An axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AxisData {
-    /// What it shows.
+    /// Name of the quantity.
     pub name: String,
-    /// Unit; empty where there is none.
+    /// Unit; empty if there is none.
     pub unit: String,
-    /// First and last value; as far as the items reach where it is `None`.
+    /// First and last value; `None` if the contents determine them.
     pub range: Option<[f64; 2]>,
-    /// How the values are spread along it.
+    /// Scale.
     pub spread: Spread,
-    /// Words at the places 1, 2, 3 … in place of numbers.
+    /// Names of the positions 1, 2, 3 … that replace numbers.
     pub names: Vec<String>,
 }
 
 impl AxisData {
-    /// An even axis as long as what it shows.
+    /// A linear axis whose range its contents determine.
     pub(super) fn new(name: &str, unit: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -81,7 +82,7 @@ impl AxisData {
         }
     }
 
-    /// From one value to another.
+    /// Sets the range.
     pub(super) fn within(self, range: [f64; 2]) -> Self {
         Self {
             range: Some(range),
@@ -89,17 +90,17 @@ impl AxisData {
         }
     }
 
-    /// With its values spread in another way.
+    /// Sets the scale.
     pub(super) fn spread(self, spread: Spread) -> Self {
         Self { spread, ..self }
     }
 
-    /// From its first place on a sheet to its last.
+    /// The axis between two positions on a sheet.
     pub(super) fn placed(&self, places: [f64; 2]) -> Axis {
         Axis::new(self.range.unwrap_or([0.0, 1.0]), places, self.spread)
     }
 
-    /// Name and unit as they are written on a sheet.
+    /// Name and unit.
     pub(super) fn title(&self) -> String {
         format!("{}\u{2003}[{}]", self.name, self.unit)
     }
@@ -110,13 +111,13 @@ impl AxisData {
     }
 }
 
-/// One thing drawn.
+/// An element of a panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "item", rename_all = "snake_case")]
 pub enum Item {
-    /// Speeds over the height of the panel.
+    /// A range of speeds over the height of the panel.
     Band(Band),
-    /// A line over the height of the panel.
+    /// A vertical line over the height of the panel.
     Upright(Upright),
     /// A curve.
     Line(Line),
@@ -131,23 +132,23 @@ pub struct Band {
     pub from: f64,
     /// Last value.
     pub to: f64,
-    /// The stretches of it that are shaded.
+    /// Parts that are shaded.
     pub shaded: Vec<[f64; 2]>,
-    /// Colour of its shade.
+    /// Colour of the shade.
     pub shade: Hue,
-    /// Colour of its shade where that is too narrow to be seen.
+    /// Colour of the shade of a band that is too narrow to be visible.
     pub streak: Hue,
-    /// Colour of its label.
+    /// Colour of the label.
     pub colour: Hue,
-    /// What is written at it.
+    /// Label.
     pub label: String,
-    /// What it is.
+    /// Description.
     pub name: String,
-    /// Largest growth rate: where there is not room for every label, those of the largest are written.
+    /// Largest growth rate. If there is no room for all labels, those of largest growth are written.
     pub peak_growth_per_s: f64,
 }
 
-/// What an upright line says.
+/// Meaning of a vertical line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
@@ -155,49 +156,49 @@ pub enum Role {
     Critical,
     /// The operating speed.
     Operating,
-    /// What its name says.
+    /// Another meaning, given by its name.
     Guide,
 }
 
-/// A line over the height of the panel.
+/// A vertical line over the height of the panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Upright {
-    /// Where it stands.
+    /// Position.
     pub x: f64,
-    /// What it says.
+    /// Meaning.
     pub role: Role,
     /// Colour.
     pub colour: Hue,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// What is written at its upper end.
+    /// Label at the upper end.
     pub label: String,
-    /// What it is.
+    /// Description.
     pub name: String,
 }
 
-/// A curve; a number that is none interrupts it.
+/// A curve; a NaN interrupts it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Line {
-    /// Horizontal places.
+    /// Abscissae.
     pub x: Vec<f64>,
-    /// Vertical places.
+    /// Ordinates.
     pub y: Vec<f64>,
     /// Colour.
     pub colour: Hue,
-    /// Share of the colour, mixed with that of the paper.
+    /// Share of the colour in the mixture with that of the paper.
     pub tint: f64,
-    /// Width on a figure 1200 wide.
+    /// Width in a figure of width 1200.
     pub width: f64,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// What it is.
+    /// Description.
     pub name: String,
-    /// What is said of each of its points, on lines of its own; nothing where that was not asked for.
+    /// Description of each point, with line breaks; empty unless requested.
     pub said: Vec<String>,
-    /// What is written at its end; empty where nothing is.
+    /// Label at the end; empty if there is none.
     pub end: String,
-    /// Number of the branch that it belongs to.
+    /// Number of its branch.
     pub branch: Option<usize>,
 }
 
@@ -223,21 +224,21 @@ impl Line {
 /// Dots or rings.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Points {
-    /// Horizontal places.
+    /// Abscissae.
     pub x: Vec<f64>,
-    /// Vertical places.
+    /// Ordinates.
     pub y: Vec<f64>,
     /// Colour.
     pub colour: Hue,
-    /// Share of the colour, mixed with that of the paper.
+    /// Share of the colour in the mixture with that of the paper.
     pub tint: f64,
-    /// Diameter on a figure 1200 wide.
+    /// Diameter in a figure of width 1200.
     pub size: f64,
     /// Whether they are rings.
     pub hollow: bool,
-    /// What they are.
+    /// Description.
     pub name: String,
-    /// What is said of each of them; nothing where that was not asked for.
+    /// Description of each point; empty unless requested.
     pub said: Vec<String>,
 }
 
@@ -263,8 +264,8 @@ impl Points {
     }
 }
 
-/// Lines through samples that look alike, each interrupted where another look begins: between two
-/// samples as `look` says, not drawn where it says nothing.
+/// Lines through samples, divided where the style changes. `look` returns the style between two samples, or
+/// `None` if nothing is drawn.
 pub(super) fn lines_by_look<L: PartialEq>(
     samples: usize,
     look: impl Fn(usize) -> Option<L>,

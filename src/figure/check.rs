@@ -1,4 +1,4 @@
-//! Limits and what was found, each on its own line over the same axis of speeds.
+//! Limits and results of a check, each in its own row over a common axis of speeds.
 
 use super::axis::{Axis, Spread, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -15,7 +15,7 @@ const LEFT: f64 = 372.0;
 const RIGHT: f64 = 1160.0;
 const TOP: f64 = 96.0;
 const ROW: f64 = 66.0;
-/// Below the rows: axis, its name, the key.
+/// Height below the rows for the axis, its name and the key.
 const BELOW: f64 = 92.0;
 const PASS: Colour = FORWARD;
 
@@ -39,8 +39,8 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     sheet
 }
 
-/// Far enough for the sweep, for every limit and for what was found: the lowest critical speed
-/// is known beyond the sweep too.
+/// End of the axis: it includes the sweep, every limit and every result, because the lowest critical speed
+/// may lie beyond the sweep.
 fn last_shown_rpm(report: &CheckReport) -> f64 {
     let of_criterion = |c: &CriterionEntry| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
     let criteria = report.criteria.iter().map(of_criterion);
@@ -48,7 +48,7 @@ fn last_shown_rpm(report: &CheckReport) -> f64 {
     report.to_rpm.max(1.03 * marks)
 }
 
-/// The operating speed through all rows, with its name.
+/// Draws the operating speed through all rows, with its name.
 fn draw_operating(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
     let x = speed.at(report.operating_rpm);
     sheet.line([[x, TOP], [x, bottom]], Stroke::solid(INK, HAIRLINE));
@@ -57,7 +57,7 @@ fn draw_operating(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom:
     sheet.text([x, TOP - 6.0], letters, &text);
 }
 
-/// Where the sweep ends within the axis, beyond which no band is searched for.
+/// Draws the end of the sweep, beyond which no band is searched for, if it is within the axis.
 fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
     if report.to_rpm >= speed.values()[1] {
         return;
@@ -69,7 +69,7 @@ fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bott
     };
     sheet.line([[x, TOP - 16.0], [x, bottom]], dashed);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    // Above the name of the operating speed.
+    // The text is above the name of the operating speed.
     sheet.text(
         [x.max(LEFT + 90.0), TOP - 20.0],
         letters,
@@ -98,7 +98,7 @@ fn facts(report: &CheckReport) -> String {
     all.join(BETWEEN_FACTS)
 }
 
-/// Bands and critical speeds, whatever is asked of them.
+/// Draws all bands and critical speeds, whatever the limits are.
 fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
     let frame = row(0);
     bands::shade(sheet, speed, report.instabilities.iter(), &[frame]);
@@ -120,7 +120,7 @@ fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
     name(sheet, frame, "the saw", &found, QUIET);
 }
 
-/// Name of a row and what is said of it.
+/// Writes name and result of a row.
 fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colour) {
     let room = LEFT - 2.0 * MARGIN;
     let middle = 0.5 * (frame.top + frame.bottom);
@@ -133,15 +133,14 @@ fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colou
     sheet.line(line, Stroke::solid(GRID, HAIRLINE));
 }
 
-/// The limit as an upright, what was found as a disc, and a bar between them: how much there is
-/// to spare, or is wanting.
+/// Draws the limit as a vertical line, the result as a disc, and the difference as a bar.
 fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, frame: Frame) {
     let (colour, word) = match criterion.passed {
         true => (PASS, "PASS"),
         false => (ALARM, "FAIL"),
     };
     let found = criterion.found_rpm;
-    // A band at the operating speed is not a limit to stay away from: there is one or not.
+    // A band at the operating speed has no distance to a limit: it is there or not.
     let is_limit = criterion.key != "operating";
     let asked = criterion.asked_rpm;
     let above = format!("{word} {}", criterion.name);
@@ -167,7 +166,7 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     }
 }
 
-/// Stiffness of the rim over the speed, from zero at the foot of the row to its largest.
+/// Draws the stiffness of the rim over the speed, from zero at the foot of the row to its largest value.
 fn draw_stiffness(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, frame: Frame) {
     let curve = &report.rim_stiffness;
     let largest = curve.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
@@ -238,7 +237,7 @@ mod tests {
         assert!(said.contains(&"none"), "{said:?}");
     }
 
-    /// A saw whose lowest critical speed lies beyond its sweep.
+    /// The lowest critical speed of this saw lies beyond its sweep.
     #[test]
     fn a_speed_found_beyond_the_sweep_is_on_the_axis() {
         let scene = Scene::paper().edited(|file| {

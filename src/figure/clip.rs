@@ -1,8 +1,8 @@
-//! Cutting lines at the edges of a panel, which plotters does not do.
+//! Clips lines at the edges of a panel, because plotters does not.
 
 use super::canvas::Frame;
 
-/// The parts of a line that lie within the frame.
+/// The parts of a line inside the frame.
 pub fn clip(points: &[[f64; 2]], frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
     for segment in points.windows(2) {
@@ -17,7 +17,7 @@ pub fn clip(points: &[[f64; 2]], frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     parts
 }
 
-/// Liang and Barsky's cut; `None` outside and where a coordinate is no number.
+/// The algorithm of Liang and Barsky; `None` outside and for non-finite coordinates.
 fn clip_segment(a: [f64; 2], b: [f64; 2], frame: &Frame) -> Option<[[f64; 2]; 2]> {
     if ![a, b].as_flattened().iter().all(|value| value.is_finite()) {
         return None;
@@ -38,7 +38,7 @@ fn clip_segment(a: [f64; 2], b: [f64; 2], frame: &Frame) -> Option<[[f64; 2]; 2]
         leaves = leaves.min(first.max(second));
     }
     let along = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-    // Ends that are not cut stay exactly what they were, so that parts join.
+    // Ends that are not clipped remain exactly the same, so that parts join.
     let start = if enters == 0.0 { a } else { along(enters) };
     let end = if leaves == 1.0 { b } else { along(leaves) };
     (enters < leaves).then_some([start, end])

@@ -1,5 +1,5 @@
-//! The deflection before, during and after the cut, one panel a speed, as in the paper's
-//! Figures 16 and 17.
+//! The deflection before, during and after the cut, one panel for each speed, as in the paper's Figures 16
+//! and 17.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -11,7 +11,7 @@ use super::style::{
 };
 use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, CutVerdict, Verdict};
 
-/// From the baseline of a line of facts to that of the next.
+/// Distance of successive lines of facts.
 const LINE: f64 = 16.0;
 const PANELS: Columns = Columns {
     lefts: [92.0, 680.0],
@@ -39,7 +39,7 @@ pub fn sheet(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// The scale of deflections that all panels share, so that they can be compared.
+/// The scale of deflections, common to all panels for comparison.
 struct Scale {
     name: String,
     per_metre: f64,
@@ -51,7 +51,7 @@ impl Scale {
         let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
         let (unit, per_metre) = unit_of(largest_m);
         let reach = match largest_m > 0.0 {
-            // Below a nanometre the curve is flat: smaller ticks have no room, nor a meaning.
+            // Below a nanometre the curve is flat, and ticks have neither room nor meaning.
             true => 1.12 * per_metre * largest_m.max(1e-9),
             false => 1.0,
         };
@@ -68,8 +68,7 @@ fn largest_m(run: &CutRunEntry) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-/// The unit of a record, so small that its ticks have few digits: its name, and how many
-/// make a metre.
+/// Name and size of a unit in which the ticks of a record have few digits.
 fn unit_of(largest_m: f64) -> (&'static str, f64) {
     match largest_m {
         w if w >= 1e-5 || w == 0.0 => ("mm", 1e3),
@@ -89,7 +88,7 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
-    // Stretching turns the growth back.
+    // With stretching the growth ends.
     if run.stretching.is_none() {
         draw_envelope(sheet, panel, run, place);
     }
@@ -110,13 +109,13 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     draw_verdict(sheet, panel, run);
 }
 
-/// A length of any size in a unit in which it has few digits.
+/// A length in a unit in which it has few digits.
 fn length(metres: f64) -> String {
     let (unit, per_metre) = unit_of(metres);
     format!("{} {unit}", two_digits(per_metre * metres))
 }
 
-/// The time in the cut, in the colour of the verdict.
+/// Shades the time of the cut in the colour of the verdict.
 fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis) {
     let in_cut = Frame {
         left: time.at(run.forces_from_s),
@@ -129,7 +128,7 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    // Beside the line at which the model ends, where that is in the cut.
+    // The text is beside the line at which the model ends, if this is during the cut.
     let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
     let end = end.clamp(in_cut.left, in_cut.right);
     let free = match end - in_cut.left < in_cut.right - end {
@@ -140,8 +139,8 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     sheet.text(label, letters, "in the cut");
 }
 
-/// The eigenvalue's exponential through the largest deflection in the cut; of both signs
-/// where it oscillates.
+/// Draws the exponential of the eigenvalue through the largest deflection in the cut; with both signs if it
+/// oscillates.
 fn draw_envelope(
     sheet: &mut Sheet,
     panel: &Frame,
@@ -211,13 +210,13 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     sheet.text([panel.left, baseline + LINE - 20.0], title, &text);
 }
 
-/// The largest deflection, and the growth that each criterion says.
+/// The largest deflection, and the growth rate of each criterion.
 fn facts(run: &CutRunEntry) -> String {
-    // Rounding of either sign is no growth.
+    // A growth rate of rounding size has no sign.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {
         let name = entry.criterion;
-        // A line ends between two of them.
+        // A line may break between two of them.
         format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
     let with = match run.stretching {

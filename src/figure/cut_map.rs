@@ -1,4 +1,4 @@
-//! The verdict over guide angle and load level, one panel a speed.
+//! The verdict over guide angle and load level, one panel for each speed.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -24,7 +24,7 @@ const SCALE: [f64; 2] = [1088.0, 1108.0];
 /// Name of the axis of the load.
 const LOAD: &str = "load\u{2003}[of the scene's]";
 
-/// Stable, and from slow to fast growth: pale to dark, so that grey prints read too.
+/// Colours of stability, and from slow to fast growth: pale to dark, so that grey prints are legible too.
 const STABLE: Colour = plotters::style::RGBColor(226, 234, 242);
 const GROWING: [Colour; 4] = [
     plotters::style::RGBColor(255, 236, 190),
@@ -63,19 +63,19 @@ pub fn sheet(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// End of the scale of growth.
+/// Upper end of the scale of growth.
 fn fastest_growth(report: &CutReport) -> f64 {
     let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
     let fastest = maps.flatten().flatten().copied().fold(0.0_f64, f64::max);
     fastest.max(4.0 * report.flutter_threshold_per_s)
 }
 
-/// Beginning of an axis of growth: below zero where every motion decays.
+/// Lower end of an axis of growth: negative if every motion decays.
 fn slowest_growth(report: &CutReport) -> f64 {
     let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
     let own = report.runs.iter().map(|run| run.growth_per_s);
     let all = maps.flatten().flatten().copied().chain(own);
-    // Room for the mark of the saw.
+    // The factor leaves room for the mark of the saw.
     1.2 * all.fold(0.0, f64::min)
 }
 
@@ -113,7 +113,7 @@ fn draw_map(
     draw_forces(sheet, panel, run);
 }
 
-/// The speed and the forces of a panel, as its title.
+/// Writes speed and forces of a panel as its title.
 fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     let title = Lettering {
         weight: Weight::SemiBold,
@@ -128,7 +128,7 @@ fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     sheet.text([panel.left, panel.top - 14.0], title, &text);
 }
 
-/// The same without guides, which leave the load alone to vary.
+/// The map of a saw without guides, for which only the load varies.
 fn over_load(report: &CutReport) -> Sheet {
     let title = "Growth in the cut over the load";
     let panels = report.runs.len();
@@ -178,7 +178,7 @@ fn over_load(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// The scene itself, and the force that its power allows.
+/// Marks the scene itself, and the force that its power allows.
 fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &CutRunEntry) {
     let (angle, level) = axes(panel, run);
     let own_deg = report

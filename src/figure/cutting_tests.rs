@@ -1,4 +1,4 @@
-//! The figures of the cut and of the run-up, drawn from reports made up for it.
+//! Figures of the cut and of the run-up, from synthetic reports.
 
 use std::sync::LazyLock;
 
@@ -10,7 +10,7 @@ use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::{Cutting, RunningUp};
 use crate::washboarding::Washboard;
 
-/// As many speeds as make two rows, of a saw with a spline.
+/// A saw with a spline, at as many speeds as make two rows.
 static THREE_SPEEDS: LazyLock<CutReport> = LazyLock::new(|| {
     let scene = draft();
     let cut = scene.cut().unwrap();
@@ -24,7 +24,7 @@ fn draft() -> Scene {
     scene.edited(coarse).unwrap()
 }
 
-/// What is drawn does not depend on how well it is computed.
+/// The figures do not depend on the accuracy of the computation.
 fn coarse(saw: &mut SceneFile) {
     (saw.accuracy, saw.tolerance) = (Accuracy::Draft, Some(0.1));
 }
@@ -42,14 +42,14 @@ fn the_figures_of_a_cut_are_tidy_and_say_the_verdict() {
             .any(|(_, text)| text.starts_with(&title));
         assert!(said, "{title}");
     }
-    // What each criterion says stands in the heading, of the last one too.
+    // The heading contains the result of each criterion, the last one included.
     let cut_off = texts(&sheet).iter().any(|(_, text)| text.contains('…'));
     assert!(!cut_off, "{:?}", texts(&sheet));
     assert_tidy(&cut_map::sheet(report));
     assert_tidy(&spline_orbit::sheet(report).unwrap());
 }
 
-/// The numbers at the axis of a panel keep to the room left of it.
+/// The numbers at the axis of a panel fit into the space to its left.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn five_speeds_of_any_size_keep_their_labels_apart() {
@@ -111,7 +111,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
             "half of the sheet is empty: {right}"
         );
     }
-    // A saw without guides of which every motion decays.
+    // A saw without guides, of which every motion decays.
     report.scene.guides.clear();
     let run = &mut report.runs[0];
     run.growth_per_s = -0.3;
@@ -138,13 +138,13 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
     );
 }
 
-/// One scale for all, so that panels can be compared.
+/// A common scale makes panels comparable.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn deflections_have_one_common_scale() {
     let drawn = cut::sheet(&THREE_SPEEDS);
     let texts = texts(&drawn);
-    // Numbers left of the two columns, from the top down.
+    // Numbers to the left of the two columns, from top to bottom.
     let ticks = |from: f64, to: f64| {
         let own = texts.iter().filter(|(frame, text)| {
             let number = text.replace('\u{2212}', "-").parse::<f64>().is_ok();
@@ -174,7 +174,7 @@ fn the_figures_of_a_run_up_are_tidy() {
     assert_eq!(chart.instabilities.len(), report.bands.len());
 }
 
-/// Unstable, stable, unstable without the force, and without a boundary.
+/// The diagrams are unstable, stable, unstable without the force, and without a boundary.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_lobe_diagram_is_tidy_and_says_the_verdict() {

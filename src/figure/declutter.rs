@@ -1,17 +1,17 @@
-//! Keeping labels apart.
+//! Placement of labels without overlap.
 
-/// A label that wants to be centred at a place on a line.
+/// A label with its preferred centre on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wish {
-    /// Where its centre would best be.
+    /// Preferred centre.
     pub centre: f64,
-    /// Room that it takes.
+    /// Length.
     pub length: f64,
 }
 
-/// Centres nearest to the wished ones, in the least squares sense, such that the
-/// labels do not overlap and stay between `from` and `to`. Labels at the end of
-/// the list are dropped (`None`) where there is not room for all.
+/// Centres that are closest to the preferred ones in the least squares sense, such that labels neither
+/// overlap nor leave the range from `from` to `to`. Labels at the end of the list are dropped (`None`) if
+/// there is not enough room.
 pub fn push_apart(wishes: &[Wish], from: f64, to: f64) -> Vec<Option<f64>> {
     let mut room = to - from;
     let kept = wishes
@@ -52,7 +52,7 @@ struct Block {
     labels: Vec<usize>,
     start: f64,
     length: f64,
-    /// Sum of the starts of the block that each label wishes for.
+    /// Sum over the labels of the start of the block that each prefers.
     wished_starts: f64,
 }
 
@@ -84,19 +84,19 @@ impl Block {
     }
 }
 
-/// Neighbours to be shown by one label.
+/// Neighbours with a common label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cluster {
     /// The values, ascending.
     pub values: Vec<f64>,
-    /// Where the label is centred.
+    /// Centre of the label.
     pub centre: f64,
     /// The label.
     pub label: String,
 }
 
-/// Joins labels of ascending values that would overlap, until none does.
-/// `width` measures a label; labels stay between `from` and `to`.
+/// Joins labels of ascending values until none overlap. `width` measures a label; labels stay between `from`
+/// and `to`.
 pub fn join_close(
     values: &[f64],
     place: impl Fn(f64) -> f64,
@@ -128,7 +128,7 @@ pub fn join_close(
     clusters
 }
 
-/// "1531 · 1552", or first, last and number of many.
+/// "1531 · 1552", or, for many values, the first, the last and their number.
 fn joined_label(values: &[f64]) -> String {
     match values {
         [first, .., last] if values.len() > 3 => {

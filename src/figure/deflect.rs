@@ -1,5 +1,5 @@
-//! Where the blade stands over speed, and the frequencies of small motions about that beside the linear
-//! Campbell diagram.
+//! Equilibria over speed, and the frequencies of small motions about them beside those of the linear Campbell
+//! diagram.
 
 use super::axis::{Axis, draw_horizontal, draw_named, draw_vertical, proper_range};
 use super::canvas::{Frame, Sheet, Stroke};
@@ -34,12 +34,12 @@ const UP: Hue = Hue::Forward;
 const DOWN: Hue = Hue::Backward;
 /// Size of the ring at a fold or bifurcation.
 const TURN_SIZE: f64 = 6.0;
-/// Share of the colour of the flat blade's branches.
+/// Colour share of the branches of the flat blade.
 const FLAT_TINT: f64 = 0.6;
-/// The curve while the speed rises is drawn as much wider, so that both are seen where they are the same.
+/// Width of the curve for rising speed; both curves are visible where they coincide.
 const WIDER: f64 = STRONG_CURVE;
 const NARROWER: f64 = 1.4;
-/// Above the highest of so many frequencies of the blade at rest the diagram ends.
+/// The diagram ends above this many frequencies of the blade at rest.
 const SHOWN: usize = 6;
 
 pub fn sheet(report: &DeflectReport) -> Sheet {
@@ -90,7 +90,7 @@ pub fn sheet(report: &DeflectReport) -> Sheet {
     sheet
 }
 
-/// Where the blade stands, and the frequencies about that, as numbers.
+/// Equilibria, and the frequencies about them, as numbers.
 pub fn chart(report: &DeflectReport) -> ChartData {
     let speeds = proper_range([report.from_rpm, report.to_rpm]);
     let speed = AxisData::speed().within(speeds);
@@ -118,7 +118,7 @@ pub fn chart(report: &DeflectReport) -> ChartData {
     }
 }
 
-/// Each sweep with its colour, the width of its curve, the size of its dots, and what it is.
+/// Each sweep with its colour, the width of its curve, the size of its dots, and its name.
 fn sweeps(report: &DeflectReport) -> [(&SlowSweepEntry, Hue, f64, f64, &'static str); 2] {
     [
         (&report.up, UP, WIDER, 4.4, "stable, while the speed rises"),
@@ -164,7 +164,7 @@ fn reach_mm(report: &DeflectReport) -> [f64; 2] {
     [-reach, reach]
 }
 
-/// The curves of equilibria, and what is reached of them while the speed rises and falls.
+/// The curves of equilibria, and the parts that are reached while the speed rises and falls.
 fn leans(report: &DeflectReport) -> Vec<Item> {
     let mut items: Vec<Item> = report.curves.iter().flat_map(curve_lines).collect();
     for (sweep, colour, width, _, name) in sweeps(report) {
@@ -205,7 +205,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
     items
 }
 
-/// Stable parts as thin lines, unstable ones dashed.
+/// Lines of a curve: thin where stable, dashed where unstable.
 fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
     let is_stable = |k: usize| curve.negative_eigenvalues[k] == 0;
     let found = lines_by_look(curve.rpm.len(), |k| Some(is_stable(k)));
@@ -225,7 +225,7 @@ fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
     lines.collect()
 }
 
-/// The head of the arrow of a jump.
+/// Draws the head of the arrow of a jump.
 fn draw_head(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis), colour: Colour) {
     let x = speed.at(jump.rpm);
     let [from, to] = [jump.from_m, jump.to_m].map(|m| lean.at(1e3 * m));
@@ -249,7 +249,7 @@ fn shown_hz(report: &DeflectReport) -> [f64; 2] {
     [0.0, 1.1 * top.unwrap_or(1.0)]
 }
 
-/// Of the flat blade, and about where it stands.
+/// Frequencies of the flat blade, and about the equilibria.
 fn frequencies(report: &DeflectReport) -> Vec<Item> {
     let branches = report.campbell.branches.iter().map(|branch| {
         let samples = branch.rpm.iter().zip(&branch.frequency_hz);

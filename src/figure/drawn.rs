@@ -1,4 +1,4 @@
-//! Which figures a report has, and their names.
+//! The figures of each report, and their file names.
 
 use super::campbell::CampbellView;
 use super::canvas::Sheet;
@@ -14,7 +14,7 @@ use crate::report::{
 use crate::stability::Setting;
 use crate::study::StudyReport;
 
-/// A figure, laid out.
+/// A figure as a sheet.
 #[derive(Debug)]
 pub struct Figure {
     names: [&'static str; 2],
@@ -22,7 +22,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Names of its files, PNG and SVG.
+    /// File names, PNG and SVG.
     pub fn names(&self) -> [&'static str; 2] {
         self.names
     }
@@ -43,7 +43,7 @@ impl Figure {
         render::svg(&self.sheet)
     }
 
-    /// The bytes of one of its files; `None` for another name.
+    /// The bytes of one of the files; `None` for another name.
     ///
     /// # Errors
     /// [`FigureError`].
@@ -57,14 +57,14 @@ impl Figure {
 
 /// A report that can be drawn.
 pub trait Figures {
-    /// Names of the files of every figure that such a report may have, PNG and SVG.
+    /// File names of every figure that such a report may have, PNG and SVG.
     const NAMES: &'static [[&'static str; 2]];
 
     /// The figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
 
-    /// What the figure of this name, without its ending, shows as numbers, for other programs to draw. `None` of a figure
-    /// that is not described so, and where the report has no data for it.
+    /// The contents, as numbers, of the figure with this name without extension, for other programs to draw.
+    /// `None` if the figure has no such description or the report has no data for it.
     fn chart(&self, _name: &str) -> Option<ChartData> {
         None
     }
@@ -104,7 +104,7 @@ impl Figures for Report {
 }
 
 impl Report {
-    /// The figures for which this report has data, the Campbell diagram over a part of its sweep.
+    /// The figures for which this report has data; the Campbell diagram shows a part of the sweep.
     pub fn figures_within(&self, view: CampbellView) -> Vec<Figure> {
         let sheets = [
             Some(campbell::sheet(self, view)),
@@ -115,7 +115,7 @@ impl Report {
         named(Self::NAMES, sheets)
     }
 
-    /// The Campbell diagram as numbers, without what is said of each point.
+    /// The Campbell diagram as numbers, without texts for each point.
     #[cfg(feature = "explore")]
     pub(crate) fn campbell_chart(&self) -> ChartData {
         campbell::chart(self, false)
@@ -222,8 +222,7 @@ impl Figures for StudyReport {
     }
 }
 
-/// The map of a placement that goes on; the finished one is a figure of its report, under the same
-/// names.
+/// The map of a placement in progress; that of a finished one is a figure of its report with the same name.
 #[cfg(feature = "explore")]
 pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
     Figure {
@@ -232,8 +231,8 @@ pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
     }
 }
 
-/// The figure of a comparison of run time and accuracy, from [`tradeoff`](crate::stability::tradeoff):
-/// true error over time, both on logarithmic scales.
+/// The figure of a comparison of run time and accuracy, from [`tradeoff`](crate::stability::tradeoff): true
+/// error over time, both on logarithmic scales.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
     Figure {
         names: ["tradeoff.png", "tradeoff.svg"],

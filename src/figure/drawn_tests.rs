@@ -1,8 +1,7 @@
-//! Goal: what the figures of saws drawn at random show is what their reports say, and no more.
+//! Figures of random saws show what their reports contain, and no more.
 //!
-//! Tolerances: lines go through samples that a chart of three digits is drawn from, so a curve
-//! may pass a peak by 2 %, and a branch may end 2 % below the height that the chart is complete
-//! to.
+//! Tolerances: curves connect samples of a diagram with three digits, so a curve may exceed a peak by 2 %,
+//! and a branch may end 2 % below the frequency up to which the diagram is complete.
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -31,8 +30,8 @@ fn report(file: &SceneFile, reach: f64) -> Report {
     analysis.report()
 }
 
-/// Speeds at which a branch begins or ends between the ends of the sweep, below the height
-/// that the chart is complete to.
+/// Speeds inside the sweep at which a branch begins or ends below the frequency up to which the diagram is
+/// complete.
 fn loose_ends(report: &Report, branch: &BranchEntry) -> Vec<f64> {
     let chart = &report.campbell;
     let sweep = [chart.from_rpm, chart.to_rpm];
@@ -45,7 +44,7 @@ fn loose_ends(report: &Report, branch: &BranchEntry) -> Vec<f64> {
     ends.into_iter().filter(is_loose).map(|end| end.0).collect()
 }
 
-/// Largest step of a path between neighbouring speeds, as a share of what it passes in all.
+/// Largest step of a path between neighbouring speeds, relative to the length of the path.
 fn largest_step(loci: &RootLociEntry) -> f64 {
     let share = |values: &Vec<f64>| {
         let ends = values.iter().fold([f64::INFINITY, 0.0], |[low, high], v| {
@@ -58,7 +57,7 @@ fn largest_step(loci: &RootLociEntry) -> f64 {
     paths.fold(0.0, f64::max)
 }
 
-/// One name of a branch wherever it is met, and a name of its own for each event.
+/// Checks that a branch has the same name everywhere and that names of events are unique.
 fn assert_one_name(report: &Report) {
     let branches = &report.campbell.branches;
     for (at, branch) in branches.iter().enumerate() {
@@ -87,7 +86,7 @@ fn assert_one_name(report: &Report) {
     }
 }
 
-/// The same saws in every run. A case takes a second: none is made smaller when it fails.
+/// The saws are the same in every run. Failing cases are not minimized, because each takes a second.
 fn drawn_saws(count: usize) -> impl Iterator<Item = (SceneFile, f64)> {
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);

@@ -1,4 +1,4 @@
-//! Measured points over the fitted curves, and what is left between them.
+//! Measured points over the fitted curves, and residuals.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, round_up};
 use super::campbell::draw_measured_mark;
@@ -28,8 +28,8 @@ const LOWER: Frame = Frame {
 };
 const BEFORE: Colour = STANDING;
 const FITTED: Colour = FORWARD;
-/// Mark of each place from the lowest frequency on, for the residuals; then they repeat. Shapes
-/// are told apart where colours are not.
+/// Shape and colour for each position in a row, from the lowest frequency on; they repeat. Shapes distinguish
+/// where colours do not.
 const PLACES: [(Shape, Colour); 4] = [
     (Shape::Disc, FORWARD),
     (Shape::Ring, BACKWARD),
@@ -37,7 +37,7 @@ const PLACES: [(Shape, Colour); 4] = [
     (Shape::Cross, INK),
 ];
 
-/// What stands at the end of a residual.
+/// Shape of the mark of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Disc,
@@ -50,7 +50,7 @@ pub fn sheet(report: &FitReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
-    // Room for the points at rest.
+    // The axis leaves room for points at rest.
     let speed = Axis::new(
         [-0.025 * last, last],
         [UPPER.left, UPPER.right],
@@ -67,7 +67,7 @@ pub fn sheet(report: &FitReport) -> Sheet {
     );
     let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
     let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
-    // Up to a round number, so that a tick stands on either side of zero.
+    // The axis ends at a round number, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
     let residual = Axis::new([-reach, reach], [LOWER.bottom, LOWER.top], Spread::Linear);
     draw_axes(&mut sheet, &speed, &frequency, &residual);
@@ -141,7 +141,7 @@ fn draw_curves(
     }
 }
 
-/// A measured point, the way to its computed one, and the same as a residual.
+/// Draws a measured point, the line to its computed one, and its residual.
 fn draw_pair(
     sheet: &mut Sheet,
     r: &ResidualEntry,
@@ -157,7 +157,7 @@ fn draw_pair(
     if r.fitted && frequency.shows(r.fitted_hz) {
         let way = [at, [x, frequency.at(r.fitted_hz)]];
         sheet.line(way, Stroke::solid(ALARM, HAIRLINE));
-        // Side by side, so that none hides another.
+        // Marks are placed side by side, so that none hides another.
         let aside = 7.0 * ((r.place - 1) % PLACES.len()) as f64 - 10.5;
         let (shape, colour) = PLACES[(r.place - 1) % PLACES.len()];
         let x = (x + aside).clamp(LOWER.left, LOWER.right);

@@ -1,5 +1,4 @@
-//! The map of a placement while it is computed: samples first, then cell by cell, on the axes and in
-//! the colours of the finished one.
+//! The map of a placement in progress: first samples, then cells, with the axes and colours of the final one.
 
 use super::canvas::{Sheet, Stroke};
 use super::heading;
@@ -46,7 +45,7 @@ mod tests {
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::report::{GoalEntry, MapEntry};
 
-    /// Three of six cells and two samples, one of them without a saw.
+    /// Three of six cells and two samples are computed; for one sample there is no saw.
     #[test]
     fn what_is_not_computed_yet_is_left_white_and_what_is_known_is_counted() {
         let mut growing = GrowingMapEntry {

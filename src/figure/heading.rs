@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Lettering, Sheet};
 use super::style::{INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten};
 
-/// Writes both at the upper left, cut to the width of the sheet.
+/// Writes title and subtitle at the upper left, shortened to the width of the sheet.
 pub fn draw(sheet: &mut Sheet, title: &str, subtitle: &str) {
     let room = f64::from(sheet.size().0) - 2.0 * MARGIN;
     let letters = Lettering {

@@ -1,14 +1,14 @@
-//! Colour over a grid.
+//! Colour maps over a grid.
 
 use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
 
-/// Colours between which a value is mixed: few enough steps that neighbouring cells join
-/// to one rectangle, and enough that no step is seen.
+/// Number of colours between those of a ramp. It is small enough for neighbouring cells to join, and large
+/// enough that steps are not visible.
 const STEPS: f64 = 40.0;
 
-/// The colour at `share` of a ramp of evenly spread colours.
+/// The colour at `share` of a ramp of evenly spaced colours.
 pub fn ramp(colours: &[Colour], share: f64) -> Colour {
     let share = (share.clamp(0.0, 1.0) * STEPS).round() / STEPS;
     let place = share * (colours.len() - 1) as f64;
@@ -21,8 +21,8 @@ pub fn ramp(colours: &[Colour], share: f64) -> Colour {
     plotters::style::RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
-/// Fills a cell around each pair of grid values, cut at the ends of the axes; equal
-/// neighbours along x become one rectangle.
+/// Fills a cell around each grid point, clipped at the ends of the axes. Equal neighbours along x are joined
+/// to one rectangle.
 pub fn draw_grid(
     sheet: &mut Sheet,
     (x_axis, x_values): (&Axis, &[f64]),
@@ -48,7 +48,7 @@ pub fn draw_grid(
     }
 }
 
-/// Places halfway between the values, and the ends of the axis.
+/// Positions halfway between the values, and the ends of the axis.
 fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
     let [first, last] = axis.places();
     let between = values
@@ -60,8 +60,8 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// A bar that tells what the colours mean, upright, `below` the top of its panel and down to its bottom, between
-/// two places across, with labels of some ticks at its right.
+/// Draws the vertical colour bar of a panel, from `below` its top down to its bottom, between two abscissae,
+/// with tick labels to its right.
 pub fn draw_scale(
     sheet: &mut Sheet,
     (panel, below, [left, right]): (&Frame, f64, [f64; 2]),

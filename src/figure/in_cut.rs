@@ -1,4 +1,4 @@
-//! The speeds at which a saw is unstable, idling and under the forces of a cut, one above the other.
+//! Unstable speeds of a saw, idling and under the forces of a cut, one above the other.
 
 use super::axis::{Axis, Spread, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -16,10 +16,10 @@ const LEFT: f64 = 300.0;
 const RIGHT: f64 = 1160.0;
 const TOP: f64 = 104.0;
 const ROW: f64 = 96.0;
-/// Between the shades of the two rows.
+/// Distance of the shaded areas of the two rows.
 const GAP: f64 = 14.0;
 
-/// A row: what there is of one of the two saws.
+/// A row: the data of one of the two saws.
 struct Row<'a> {
     name: String,
     critical_rpm: Vec<f64>,
@@ -27,7 +27,7 @@ struct Row<'a> {
     flutter_rpm: Option<f64>,
 }
 
-/// `None` where the chart is of the idling saw.
+/// `None` if the diagram is that of the idling saw.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let in_cut = report.in_cut.as_ref()?;
     let idling = in_cut.idling.as_ref()?;

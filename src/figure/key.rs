@@ -1,4 +1,4 @@
-//! The line below a figure that tells what its marks mean.
+//! The key below a figure, which explains its marks.
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet};
 use super::style::{Colour, LABEL_SIZE, QUIET, Weight, text_width};
@@ -24,14 +24,14 @@ impl<'a> Key<'a> {
         }
     }
 
-    /// A mark of a width; it is told where its left end is, at half the height of the letters.
+    /// Adds a mark of a given width. `draw` gets its left end, at half the height of the letters.
     pub fn mark(&mut self, width: f64, draw: impl FnOnce(&mut Sheet, [f64; 2])) -> &mut Self {
         draw(self.sheet, [self.left, self.baseline - 4.0]);
         self.left += width + AFTER_MARK;
         self
     }
 
-    /// A box of a colour.
+    /// Adds a box of a colour.
     pub fn shade(&mut self, colour: Colour) -> &mut Self {
         let width = 16.0;
         self.mark(width, |sheet, [x, y]| {
@@ -45,7 +45,7 @@ impl<'a> Key<'a> {
         })
     }
 
-    /// A word, of the mark before it or of its own.
+    /// Adds a word, with or without a mark before it.
     pub fn word(&mut self, text: &str) -> &mut Self {
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
         self.sheet.text([self.left, self.baseline], letters, text);

@@ -1,23 +1,22 @@
-//! How two modes behave where they coalesce, between the speeds that were computed.
+//! Interpolation of two modes near their coalescence, between computed speeds.
 //!
-//! Growth rate inside the band and half the distance of the frequencies outside it
-//! are one function: its square goes smoothly through zero at both ends of the
-//! band. Lines drawn through the square have the right shape, steep at the ends,
-//! however few samples there are.
+//! The growth rate inside the band and half the difference of the frequencies outside are the same function:
+//! its square passes smoothly through zero at both ends of the band. Curves drawn through the square have the
+//! right shape, steep at the ends, even with few samples.
 
 /// The square of the growth rate of a pair of modes, over rotation speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meeting {
     ends: [f64; 2],
-    /// Ends at which the modes do meet; the sweep may cut a band short instead.
+    /// Ends at which the modes coalesce; the sweep may cut off the others.
     closed: [bool; 2],
     /// Speed and square / `weight`, ascending by speed.
     factors: Vec<[f64; 2]>,
 }
 
 impl Meeting {
-    /// From speeds with squares: growth² within the band, −(half the distance of
-    /// the frequencies)² outside. `None` if no sample says anything.
+    /// Interpolates squares given at some speeds: growth² within the band, −(half the difference of the
+    /// frequencies)² outside. `None` without a usable sample.
     pub fn new(
         ends: [f64; 2],
         closed: [bool; 2],
@@ -32,7 +31,7 @@ impl Meeting {
             closed,
             factors,
         };
-        // Next to the ends the quotient is that of two rounding errors.
+        // Near the ends the quotient would divide two rounding errors.
         const CLOSE: f64 = 0.01;
         for [rpm, square] in squares {
             let weight = meeting.weight(rpm);
@@ -58,15 +57,14 @@ impl Meeting {
         self.weight(rpm) * interpolate(&self.factors, rpm)
     }
 
-    /// Growth rate at speeds from one end of the band to the other, closest together
-    /// at the ends.
+    /// Growth rate at speeds over the band, with the smallest distances at the ends.
     pub fn growth(&self) -> Vec<[f64; 2]> {
         let point = |rpm: f64| [rpm, self.square(rpm).max(0.0).sqrt()];
         between(self.ends).map(point).collect()
     }
 }
 
-/// Speeds from the first to the last, closest together at both.
+/// Speeds from the first to the last, with the smallest distances at both ends.
 fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     const STEPS: u32 = 64;
     let angle = |i: u32| std::f64::consts::PI * f64::from(i) / f64::from(STEPS);
@@ -77,7 +75,7 @@ fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The line through points that ascend by their first number, level beyond them.
+/// Linear interpolation between points of ascending abscissa, constant beyond them.
 fn interpolate(points: &[[f64; 2]], x: f64) -> f64 {
     let after = points.partition_point(|point| point[0] <= x);
     match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {

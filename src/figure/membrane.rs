@@ -1,4 +1,4 @@
-//! The membrane stress over the radius, and what its heat does to the critical speeds.
+//! Membrane stress over the radius, and its effect on the critical speeds.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, round_up, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -12,7 +12,7 @@ use super::style::{
 use crate::report::{HeatEntry, MembraneEntry, Report};
 
 const HEIGHT: u32 = 560;
-/// With the panel of the critical speeds, and without.
+/// Width of the sheet with and without the panel of critical speeds.
 const WIDTHS: [u32; 2] = [1200, 640];
 const STRESS: Frame = Frame {
     left: 92.0,
@@ -26,7 +26,7 @@ const SPEEDS: Frame = Frame {
     right: 1070.0,
     bottom: 470.0,
 };
-/// Height of a line of labels.
+/// Line height of labels.
 const LINE: f64 = 16.0;
 
 pub fn sheet(report: &Report) -> Option<Sheet> {
@@ -138,7 +138,7 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
         })
         .collect();
     let labels = push_apart(&wishes, SPEEDS.top, SPEEDS.bottom);
-    // A profile with its peak below zero runs to the left.
+    // A profile with a negative peak extends to the left.
     let leftwards = heat
         .critical_speeds
         .iter()
@@ -199,10 +199,10 @@ fn draw_limits(
             let at = [rise.at(k), speed.at(rpm)];
             sheet.disc(at, 4.5, colour);
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
-            // Below the line of the operating speed and its own label.
+            // The label is below the line of the operating speed and its label.
             let below = if rpm > 0.0 { 2.1 * LINE } else { -9.0 };
             let place = [at[0] - 9.0, at[1] + below];
-            // The line of the scene may pass behind it.
+            // The line of the scene may pass behind the text.
             sheet.fill(text_frame(place, &letters, &text), PAPER);
             sheet.text(place, letters, &text);
         }
@@ -219,7 +219,7 @@ fn draw_limits(
         limit(found.rise_k, 0.0, ALARM, text);
         return;
     }
-    // The curves end before it: told at the side where it lies.
+    // The curves end before this temperature; the text at the respective side says so.
     let (anchor, x, text) = match found.rise_k > 0.0 {
         true => (Anchor::End, SPEEDS.right, format!("{text} →")),
         false => (Anchor::Start, SPEEDS.left + 8.0, format!("← {text}")),
@@ -237,7 +237,7 @@ mod tests {
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::report::{HeatCurveEntry, HeatLimitEntry, OperatingEntry};
 
-    /// A blade whose critical speeds fall straight to 40 K, and which buckles at 52 K.
+    /// The critical speeds of this blade fall linearly up to 40 K, and it buckles at 52 K.
     fn report(rise_k: f64) -> Report {
         let radius_m: Vec<f64> = (0..=30).map(|k| 0.08 + 0.01 * f64::from(k)).collect();
         let peaks: Vec<f64> = (0..=20).map(|k| 2.6 * f64::from(k) - 1e-3).collect();

@@ -1,10 +1,9 @@
 //! Figures, drawn from a [`report`](crate::report) alone.
 //!
-//! In goes a report, out come its [`Figures`], each as PNG bytes or as SVG text.
+//! The [`Figures`] of a report, each as PNG bytes or as SVG text.
 //!
-//! A figure is first laid out on a `Sheet`, a list of marks in
-//! figure units, and then rendered to PNG bytes or an SVG string. Nothing here
-//! writes files.
+//! A figure is laid out on a `Sheet`, a list of marks in figure units, and then rendered to PNG bytes or an
+//! SVG string. This module writes no files.
 
 mod axis;
 mod bands;
@@ -67,21 +66,21 @@ pub use palette::{PALETTE, Palette};
 
 use crate::report::Report;
 
-/// Whether any term of the equation of motion takes energy out of the saw.
+/// Whether any term of the equation of motion dissipates energy.
 fn is_damped(report: &Report) -> bool {
     report.terms.iter().any(|term| term.contains("damping"))
 }
 
-/// Why a figure could not be rendered.
+/// Reason for which a figure could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// A font that comes with the program did not load.
+    /// A font of the program did not load.
     #[error("the built-in font {0} cannot be read")]
     Font(&'static str),
     /// The drawing library refused a mark.
     #[error("a figure cannot be drawn")]
     Draw(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// The finished picture could not be packed as PNG.
+    /// The picture could not be encoded as PNG.
     #[error("a figure cannot be packed as PNG")]
     Png(#[from] png::EncodingError),
 }

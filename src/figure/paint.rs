@@ -1,4 +1,4 @@
-//! Curves and dots of a panel on a sheet.
+//! Draws curves and dots of a panel on a sheet.
 
 use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
@@ -6,10 +6,10 @@ use super::chart_data::{Item, Line, Points};
 use super::clip::clip;
 use super::style::{DASH, FINE_DASH, HAIRLINE, PAPER, tint};
 
-/// Width of the edge of a ring, as a share of its diameter.
+/// Width of the edge of a ring relative to its diameter.
 const EDGE: f64 = 0.2;
 
-/// Where a panel lies on the sheet.
+/// Position of a panel on the sheet.
 pub struct Ground<'a> {
     pub x: &'a Axis,
     pub y: &'a Axis,
@@ -17,7 +17,7 @@ pub struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The parts of a line that lie within the panel.
+    /// The parts of a line inside the panel.
     pub fn parts(&self, line: &Line) -> Vec<Vec<[f64; 2]>> {
         let points = line.x.iter().zip(&line.y);
         let places: Vec<_> = points
@@ -38,7 +38,7 @@ impl Ground<'_> {
         }
     }
 
-    /// Draws the dots and rings that lie within the panel.
+    /// Draws the dots and rings inside the panel.
     pub fn draw_points(&self, sheet: &mut Sheet, items: &[Item]) {
         for item in items {
             if let Item::Points(points) = item {
@@ -63,7 +63,7 @@ impl Ground<'_> {
     }
 }
 
-/// How a curve is drawn; guide lines have finer dashes.
+/// Style of a curve; guide lines have finer dashes.
 pub fn stroke(line: &Line) -> Stroke {
     let dash = if line.width > HAIRLINE {
         DASH

@@ -8,7 +8,7 @@ use crate::report::{Direction, InstabilityKind};
 /// Red, green and blue, 0 to 255.
 pub type Rgb = [u8; 3];
 
-/// What is drawn in which colour.
+/// Meaning of the colours.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct Palette {
@@ -28,7 +28,7 @@ pub struct Palette {
     pub flutter_streak: Rgb,
 }
 
-/// A colour of the palette, by its name there.
+/// Name of a colour of the palette.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "the names say it")]
@@ -48,7 +48,7 @@ pub enum Hue {
 }
 
 impl Hue {
-    /// Of waves that run in a direction.
+    /// Colour of waves that run in a direction.
     pub(super) fn of_direction(direction: Direction) -> Self {
         match direction {
             Direction::Forward => Hue::Forward,
@@ -57,7 +57,8 @@ impl Hue {
         }
     }
 
-    /// Lines and letters of a kind of instability, its bands, and bands too narrow for their shade to be seen.
+    /// Colours of a kind of instability: lines and text, bands, and bands too narrow for their shade to be
+    /// visible.
     pub(super) fn of_kind(kind: InstabilityKind) -> [Self; 3] {
         match kind {
             InstabilityKind::Divergence => {
@@ -67,7 +68,7 @@ impl Hue {
         }
     }
 
-    /// As it is drawn.
+    /// Its value.
     pub(super) fn colour(self) -> Colour {
         match self {
             Hue::Ink => style::INK,

@@ -1,4 +1,5 @@
-//! The goal over two numbers of a guide; the best saw is marked, and the saw that is better by itself.
+//! The goal over two numbers of a guide, with marks for the best saw and for the saw that is best at its
+//! nominal numbers.
 
 use super::canvas::{Sheet, Stroke};
 use super::heading;
@@ -73,13 +74,13 @@ fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along
     }
 }
 
-/// A red ring around nothing.
+/// Draws an open red ring.
 fn draw_fragile(sheet: &mut Sheet, at: [f64; 2]) {
     sheet.disc(at, 8.0, PAPER);
     sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0), PAPER);
 }
 
-/// A cross in a ring, red on white.
+/// Draws a red cross in a ring on white.
 fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
     sheet.disc([x, y], 11.0, PAPER);
     sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0), PAPER);

@@ -1,4 +1,4 @@
-//! The goal over two numbers of a guide: axes, cells and the scale of their colours.
+//! Axes, cells and colour bar of the goal over two numbers of a guide.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Frame, Sheet};
@@ -16,7 +16,7 @@ pub const PANEL: Frame = Frame {
     bottom: 650.0,
 };
 const SCALE: [f64; 2] = [984.0, 1004.0];
-/// From low to high: lightness rises evenly, so that grey prints read too.
+/// Colours from low to high; lightness rises evenly, so that grey prints are legible too.
 const LOW_TO_HIGH: [Colour; 5] = [
     plotters::style::RGBColor(52, 24, 66),
     plotters::style::RGBColor(58, 82, 139),
@@ -24,15 +24,15 @@ const LOW_TO_HIGH: [Colour; 5] = [
     plotters::style::RGBColor(122, 209, 81),
     plotters::style::RGBColor(240, 236, 120),
 ];
-/// Saws that break the limit, and places without a saw.
+/// Colour of saws that break the limit, and of cells without a saw.
 pub const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
 
-/// An axis of a number of the scene, by decades where its bounds are decades apart, half a cell longer on either side
-/// so that a saw at a bound lies within.
+/// The axis of a number of the scene, logarithmic if its bounds are decades apart. It is half a cell longer
+/// on either side, so that a saw at a bound lies within.
 pub struct Along {
     axis: Axis,
     values: Vec<f64>,
-    /// How many of the written unit make one of the scene's.
+    /// Factor from the unit of the scene to the unit of the axis.
     factor: f64,
     name: String,
 }
@@ -68,7 +68,7 @@ impl Along {
     }
 }
 
-/// Nothing yet.
+/// An empty sheet.
 pub fn empty() -> Sheet {
     Sheet::new(WIDTH, HEIGHT)
 }
@@ -80,7 +80,7 @@ pub fn title(goal: GoalEntry) -> &'static str {
     }
 }
 
-/// Goals of the cells that are known and keep the limit.
+/// Goals of the computed cells that keep the limit.
 pub fn goals(map: &MapEntry, is_known: impl Fn(usize, usize) -> bool) -> impl Iterator<Item = f64> {
     let cells = (0..map.x.len() * map.y.len()).map(|k| (k % map.x.len(), k / map.x.len()));
     cells
@@ -88,7 +88,7 @@ pub fn goals(map: &MapEntry, is_known: impl Fn(usize, usize) -> bool) -> impl It
         .filter_map(|(column, row)| map.goal_rpm[row][column])
 }
 
-/// Colours of goals between the least and the largest that are shown.
+/// Colours of goals between the smallest and the largest shown.
 pub struct Shades {
     low: f64,
     high: f64,
@@ -119,7 +119,7 @@ impl Shades {
     }
 }
 
-/// Draws axes, cells and the scale; where numbers lie across and up.
+/// Draws axes, cells and colour bar; returns the axes.
 pub fn draw_panel(
     sheet: &mut Sheet,
     map: &MapEntry,

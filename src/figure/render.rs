@@ -1,4 +1,4 @@
-//! From a sheet to PNG bytes or to an SVG string. Equal sheets give equal bytes.
+//! Renders a sheet to PNG bytes or to an SVG string. Equal sheets give equal bytes.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -8,8 +8,8 @@ use super::FigureError;
 use super::canvas::{Anchor, Lettering, Mark, Sheet, Stroke};
 use super::style::{self, PAPER};
 
-/// plotters knows whole pixels only. Drawn this much larger, lines of any slope
-/// come out even: the PNG is averaged down, the SVG gets a view box.
+/// plotters uses integer pixels. With this magnification lines of any slope are smooth: the PNG is averaged,
+/// the SVG has a view box.
 const FINE: u32 = 4;
 
 type Area<DB> = DrawingArea<DB, Shift>;
@@ -18,7 +18,7 @@ type Area<DB> = DrawingArea<DB, Shift>;
 pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
     let (width, height) = sheet.size();
     let fine_size = (width * FINE, height * FINE);
-    // White paper: to fill so many pixels once more would take a tenth of the time.
+    // The buffer is created white, because filling so many pixels again would take a tenth of the time.
     let mut fine = vec![255; fine_size.0 as usize * fine_size.1 as usize * 3];
     {
         let area = BitMapBackend::with_buffer(&mut fine, fine_size).into_drawing_area();
@@ -44,9 +44,8 @@ pub fn svg(sheet: &Sheet) -> Result<String, FigureError> {
     Ok(finish_svg(&text, (width, height), fine_size))
 }
 
-/// What plotters cannot be told: the size on the page, round joins, and the same
-/// baseline and weight as in the PNG. Names of scenes cannot contain these
-/// patterns, for their quotation marks are escaped.
+/// Sets what plotters has no option for: size on the page, round joins, and the baseline and weight of the
+/// PNG. Names of scenes cannot contain these patterns, because their quotation marks are escaped.
 fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) -> String {
     let drawn_size = format!("<svg width=\"{}\" height=\"{}\"", fine_size.0, fine_size.1);
     let shown_size = format!(
@@ -63,7 +62,7 @@ fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> 
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // Half as large again as by default, for some hundredths of a second a figure.
+    // Files become half as large again, but each figure is some hundredths of a second faster.
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
@@ -71,8 +70,7 @@ fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> 
     Ok(bytes)
 }
 
-/// Mean colour of each block of `FINE`² pixels: down the columns first, which takes many cells at
-/// a time.
+/// Mean colour of each block of `FINE`² pixels. Columns are summed first, which vectorizes well.
 fn average(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
     let block = FINE as usize;
     let count = (FINE * FINE) as u16;
@@ -148,8 +146,8 @@ where
     area.draw(&PathElement::new(points, style)).map_err(refused)
 }
 
-/// Draws each segment as a polygon of its own with discs between them: the mitred
-/// outline that plotters makes of a whole curve throws spikes at sharp turns.
+/// Draws each segment as a polygon, with discs at the joints, because the mitred outline that plotters makes
+/// of a whole curve has spikes at sharp turns.
 fn draw_by_segments<DB>(
     area: &Area<DB>,
     points: &[[f64; 2]],
@@ -174,7 +172,7 @@ where
     Ok(())
 }
 
-/// Corners of a line of the given width, or none where it has no length.
+/// Corners of a line segment of the given width; `None` for zero length.
 fn outline(a: [f64; 2], b: [f64; 2], width: f64) -> Option<[[f64; 2]; 4]> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let length = dx.hypot(dy);
@@ -197,8 +195,8 @@ where
     DB: DrawingBackend,
     DB::ErrorType: 'static,
 {
-    // In a bitmap plotters puts the baseline 0.62 em below the upper anchor;
-    // `finish_svg` makes the SVG do the same.
+    // In a bitmap plotters places the baseline 0.62 em below the upper anchor; `finish_svg` makes the SVG
+    // agree.
     let above = 0.62 * lettering.em;
     let horizontal = match lettering.anchor {
         Anchor::Start => HPos::Left,
@@ -217,7 +215,7 @@ where
         .map_err(refused)
 }
 
-/// Cuts a line into dashes.
+/// Divides a line into dashes.
 fn dashes(points: &[[f64; 2]], [drawn, left_out]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let mut all = vec![points[..1].to_vec()];
     let (mut visible, mut remaining) = (true, drawn);

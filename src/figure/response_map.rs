@@ -1,5 +1,4 @@
-//! The response at the probe over speed and frequency, with the branches on top, as in the
-//! paper's Figure 15.
+//! The response at the probe over speed and frequency, with the branches, as in the paper's Figure 15.
 
 use super::axis::{Axis, draw_named, draw_vertical, tick_label};
 use super::campbell::draw_measured_mark;
@@ -20,9 +19,9 @@ const PANEL: Frame = Frame {
     bottom: 660.0,
 };
 const SCALE: [f64; 2] = [1092.0, 1112.0];
-/// Decades of response from the palest to the darkest colour.
+/// Range of the colours in decades.
 const DECADES: f64 = 3.0;
-/// From weak to strong: lightness falls evenly, so that grey prints read too.
+/// Colours from weak to strong; lightness falls evenly, so that grey prints are legible too.
 const RESPONSE: [Colour; 5] = [
     plotters::style::RGBColor(250, 251, 253),
     plotters::style::RGBColor(196, 216, 236),
@@ -45,7 +44,7 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     map.sheet(report)
 }
 
-/// What the deflection of a blade that stretches is made of; `None` without stretching.
+/// The spectrum of the deflection of a blade that stretches; `None` without stretching.
 pub fn stretched_sheet(report: &RunUpReport) -> Option<Sheet> {
     let found = report.stretching.as_ref()?;
     let map = Map {
@@ -58,14 +57,14 @@ pub fn stretched_sheet(report: &RunUpReport) -> Option<Sheet> {
     Some(map.sheet(report))
 }
 
-/// Metres, or metres for each unit of something, over speed and frequency.
+/// Metres, or metres per unit of something, over speed and frequency.
 struct Map<'a> {
     title: &'a str,
-    /// Of a thousand times the values.
+    /// Unit of a thousand times the values.
     unit: &'a str,
     rpm: &'a [f64],
     frequency_hz: &'a [f64],
-    /// One row a speed.
+    /// One row for each speed.
     rows: &'a [Vec<f64>],
 }
 
@@ -75,7 +74,7 @@ impl Map<'_> {
         heading::draw(&mut sheet, self.title, &report.scene.name);
         let speed = axis_over(self.rpm, [PANEL.left, PANEL.right]);
         let frequency = axis_over(self.frequency_hz, [PANEL.bottom, PANEL.top]);
-        // Millimetres on a logarithmic scale, from the strongest three decades down.
+        // Millimetres on a logarithmic scale, over the three strongest decades.
         let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
         let all = self.rows.iter().flatten();
         let strongest = all.fold(f64::NEG_INFINITY, |max, value| max.max(level(*value)));
@@ -111,7 +110,7 @@ impl Map<'_> {
     }
 }
 
-/// The value of a whole power of ten; the ticks between have no label.
+/// Label of a power of ten; ticks in between have none.
 fn decade(level: f64) -> Option<String> {
     let whole = level.round();
     ((level - whole).abs() < 1e-6).then(|| tick_label(10f64.powf(whole)))

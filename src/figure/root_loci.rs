@@ -1,5 +1,6 @@
-//! Root loci: the two eigenvalues that coalesce at the flutter onset in the complex plane, and their frequency over
-//! rotation speed. Drawn is what was computed: dots, joined by straight lines in the order of the speeds.
+//! Root loci: the two eigenvalues that coalesce at the flutter onset, in the complex plane, and their
+//! frequencies over rotation speed. The figure shows computed values: dots, joined by straight lines in the
+//! order of the speeds.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -29,16 +30,17 @@ const SPEED: Frame = Frame {
     right: 1152.0,
     ..PLANE
 };
-/// Purely imaginary eigenvalues of the two signs stand this far left and right of the axis that they share.
+/// Purely imaginary eigenvalues of the two signs are drawn this far to the left and right of their common
+/// axis.
 const ASIDE: f64 = 3.5;
-/// Radius of the dot at a computed eigenvalue.
+/// Radius of the dot of a computed eigenvalue.
 const DOT: f64 = 2.2;
-/// Height of a line of a label.
+/// Line height of a label.
 const LINE: f64 = 15.0;
-/// From the imaginary axis, and from a growing eigenvalue, to a label.
+/// Distance of a label from the imaginary axis, and from a growing eigenvalue.
 const GAP: f64 = 14.0;
 const LONGEST: f64 = 210.0;
-/// A saw has no larger numbers; labels have no room for them.
+/// A saw has no larger values, and labels have no room for them.
 const LARGEST: f64 = 1e9;
 
 /// A computed eigenvalue.
@@ -47,21 +49,21 @@ struct Sample {
     rpm: f64,
     growth: f64,
     hz: f64,
-    /// Krein sign, 0 where the two have coalesced.
+    /// Krein sign; 0 where the two have coalesced.
     sign: i8,
 }
 
-/// What the parts of the figure share.
+/// Data that all parts of the figure use.
 struct Chart {
     paths: [Vec<Sample>; 2],
     growth: Axis,
     frequency: Axis,
     speed: Axis,
-    /// Decimals that tell the speeds apart.
+    /// Decimals that distinguish the speeds.
     decimals: usize,
 }
 
-/// `None` where the report does not hold two paths.
+/// `None` if the report does not contain two paths.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
     let chart = Chart::new(entry)?;
@@ -73,7 +75,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     heading::draw(&mut sheet, &title, &report.scene.name);
     draw_axes(&mut sheet, &chart);
     draw_band(&mut sheet, &chart, entry);
-    // The growing one last: over speed the decaying one lies below it.
+    // The growing eigenvalue is drawn last, because over speed it covers the decaying one.
     for path in chart.paths.iter().rev() {
         draw_path(&mut sheet, path, |s| chart.in_plane(s));
         draw_path(&mut sheet, path, |s| chart.over_speed(s));
@@ -121,7 +123,7 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     })
 }
 
-/// Lines from one computed eigenvalue to the next, and a dot at each.
+/// Lines between successive computed eigenvalues, and a dot at each.
 fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Item> {
     let say = |s: &Sample| {
         let growth = shown_to(3, s.growth);
@@ -155,7 +157,7 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
     items
 }
 
-/// The eigenvalues of a path of which all numbers are known, and such as a saw may have.
+/// The eigenvalues of a path without unknown and impossible values.
 fn samples(entry: &RootLociEntry, path: &RootPathEntry) -> Vec<Sample> {
     let numbers = path.growth_per_s.iter().zip(&path.frequency_hz);
     let all = entry.rpm.iter().zip(numbers).zip(&path.krein_sign);
@@ -184,7 +186,7 @@ impl Chart {
             })
         };
         let reach = range(|s| s.growth.abs())[1];
-        // Room for the labels at the outermost points.
+        // The factor leaves room for the labels at the outermost points.
         let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
@@ -213,7 +215,7 @@ impl Chart {
     }
 }
 
-/// Colour, and its share.
+/// Colour and its share.
 fn hue(s: &Sample) -> (Hue, f64) {
     match s.sign {
         1 => (Hue::Forward, 1.0),
@@ -228,7 +230,8 @@ fn colour(s: &Sample) -> Colour {
     tint(hue.colour(), share)
 }
 
-/// The eigenvalue that a line from one to the next has its colour of: one that leads into the band is the band's.
+/// The eigenvalue that determines the colour of a line: a line that leads into the band has the colour of the
+/// band.
 fn looked_like(path: &[Sample], i: usize) -> &Sample {
     let pair = &path[i..=i + 1];
     pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0])
@@ -255,7 +258,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
     draw_named(sheet, &chart.speed, SPEED.bottom, name);
 }
 
-/// The band as a shade over the speeds, with its ends.
+/// Draws the band as a shaded area over the speeds, with its ends.
 fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     let [first, last] = chart.speed.values();
     let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
@@ -277,7 +280,7 @@ fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     sheet.text([middle, SPEED.top - 8.0], letters, &name);
 }
 
-/// Straight lines from one computed eigenvalue to the next, and a dot at each.
+/// Draws straight lines between successive computed eigenvalues, and a dot at each.
 fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64; 2]) {
     for (i, pair) in path.windows(2).enumerate() {
         let line = [place(&pair[0]), place(&pair[1])];
@@ -292,14 +295,14 @@ fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64
 struct Label {
     lines: Vec<String>,
     colour: Colour,
-    /// Where its text begins, or ends.
+    /// Abscissa of the start or the end of the text.
     x: f64,
-    /// Where its middle wants to be.
+    /// Preferred ordinate of its middle.
     y: f64,
 }
 
-/// Names and speeds at the ends of the paths, and the fastest growth: of the first path, which decays within the
-/// band if the second grows, on the left, of the other on the right.
+/// Draws names and speeds at the ends of the paths, and the fastest growth: on the left for the first path,
+/// which decays within the band if the second grows, on the right for the other.
 fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     for (text, x, anchor) in [
         ("← decaying", PLANE.left, Anchor::Start),
@@ -373,7 +376,7 @@ fn label_of_peak(chart: &Chart, peak: &Sample) -> Label {
     }
 }
 
-/// Writes labels of one side, apart from each other, on paper: lines may pass behind them.
+/// Writes the labels of one side without overlap, on a white ground behind which lines may pass.
 fn write(sheet: &mut Sheet, labels: &[Label], anchor: Anchor) {
     let wishes = labels.iter().map(|label| Wish {
         centre: label.y,

@@ -1,4 +1,4 @@
-//! The deflection over speed while the saw runs up, as in the paper's Figure 13.
+//! The deflection over speed during a run-up, as in the paper's Figure 13.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -53,8 +53,8 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     sheet
 }
 
-/// Thousands of samples fall on one pixel: a stroke from the least to the greatest of each
-/// shows what a line through all of them would.
+/// Draws a record in which thousands of samples fall on one pixel: for each pixel, a stroke from the smallest
+/// to the largest sample shows the same as a line through all of them.
 fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection: &Axis) {
     let columns = (PANEL.right - PANEL.left) as usize;
     let mut extremes = vec![None::<[f64; 2]>; columns + 1];
@@ -72,7 +72,7 @@ fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection
         .flat_map(|(column, [low, high])| {
             let x = PANEL.left + column as f64;
             let ends = [[x, deflection.at(low)], [x, deflection.at(high)]];
-            // Up and down in turn, so that the line does not jump back.
+            // Strokes alternate in direction, so that the line does not jump back.
             if column % 2 == 0 {
                 ends
             } else {

@@ -1,5 +1,4 @@
-//! Reports for the tests. The data are made up: waves ω² = ω₀² + sΩ² on the
-//! blade, seen from space.
+//! Synthetic reports for tests: waves with ω² = ω₀² + sΩ² on the blade, seen from space.
 
 use crate::report::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
@@ -9,7 +8,7 @@ use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
 };
 
-/// Name and facts of a blade of 864 mm, nothing found out about it.
+/// Name and data of a blade of 864 mm, without results.
 pub fn empty_report(name: &str) -> Report {
     let material = Material {
         youngs_modulus_pa: 210e9,
@@ -104,8 +103,8 @@ pub fn empty_report(name: &str) -> Report {
     }
 }
 
-/// A branch of `diameters`, at rest `rest_hz`, whose backward wave stands still
-/// at `critical_rpm`.
+/// A branch of `diameters` with the frequency `rest_hz` at rest, whose backward wave stands still at
+/// `critical_rpm`.
 fn branch(
     diameters: usize,
     direction: Direction,
@@ -161,7 +160,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
     }
 }
 
-/// A blade with everything that the figure knows to show.
+/// A blade with everything that the figure can show.
 pub fn busy_report() -> Report {
     let mut report = empty_report("Guided blade, 864 mm");
     report.instabilities = bands();
@@ -276,8 +275,7 @@ fn measured() -> Measured {
     }
 }
 
-/// Two modes of opposite sign that meet at 6 Hz; `drift` is how fast their mean
-/// frequency moves, in Hz/rpm.
+/// Two modes of opposite sign that coalesce at 6 Hz; `drift` is the slope of their mean frequency in Hz/rpm.
 pub fn root_loci(drift: f64) -> RootLociEntry {
     let (onset, end, peak) = (2255.6, 2266.52, 0.53);
     let (middle, half) = ((onset + end) / 2.0, (end - onset) / 2.0);
@@ -288,7 +286,7 @@ pub fn root_loci(drift: f64) -> RootLociEntry {
         peak * square.abs().sqrt()
     };
     let path = |name: &str, side: f64| {
-        // The upper wave of the one sign becomes the lower one.
+        // The upper wave of one sign becomes the lower one.
         let turned = |rpm: f64| if rpm < middle { side } else { -side };
         let hz = |&rpm: &f64| {
             let mean = 6.0 + drift * (rpm - middle);

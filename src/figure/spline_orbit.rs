@@ -1,4 +1,4 @@
-//! The orbit of the centre of the blade on its arbor, one panel a speed.
+//! The orbit of the centre of the blade on its arbor, one panel for each speed.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -10,7 +10,7 @@ use super::style::{
 };
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
-/// Panels are square: a length is as long in x as in y.
+/// Panels are square, with equal scales in x and y.
 const PANELS: Columns = Columns {
     lefts: [120.0, 700.0],
     top: 140.0,
@@ -41,7 +41,7 @@ pub fn sheet(report: &CutReport) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The scale that all panels share: the arbor's centre and the whole of every orbit lie within.
+/// The scale of all panels: it includes the arbor's centre and every orbit.
 struct Scale {
     unit: &'static str,
     per_metre: f64,
@@ -114,7 +114,7 @@ fn draw_orbit(
     sheet.text([panel.left, panel.top - 12.0], letters, &text);
 }
 
-/// What the play of the flanks would let a blade without torque do, as a circle where it fits in.
+/// Draws the clearance that a blade without torque has, as a circle if it fits into the panel.
 fn draw_clearance(
     sheet: &mut Sheet,
     (x, y): (&Axis, &Axis),
@@ -180,7 +180,8 @@ mod tests {
         }
     }
 
-    /// An orbit of a few micrometres in a clearance of a quarter of a millimetre, and one that fills it.
+    /// One orbit of a few micrometres in a clearance of a quarter of a millimetre, and one that fills the
+    /// clearance.
     #[test]
     fn an_orbit_far_smaller_than_the_clearance_fills_its_panel() {
         for (metres, unit, fits) in [(9e-6, "µm", false), (2.4e-4, "mm", true)] {

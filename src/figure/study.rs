@@ -1,4 +1,4 @@
-//! How the lowest critical speed and the flutter speed of many saws are distributed.
+//! Distributions of the lowest critical speed and of the flutter speed of many saws.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -24,12 +24,12 @@ const FLUTTERING: Frame = Frame {
     right: 960.0,
     bottom: 610.0,
 };
-/// Shares named above the bars, where the report has them, the most wanted first.
+/// Quantiles labelled above the bars if the report has them, in order of importance.
 const NAMED: [f64; 5] = [0.5, 0.05, 0.95, 0.01, 0.99];
-/// Room beside the outermost bars.
+/// Space beside the outermost bars.
 const ASIDE: f64 = 0.04;
 
-/// A limit that is drawn: the speed asked for, and of whom.
+/// A limit and the quantity that it limits.
 struct Limit {
     rpm: f64,
     word: &'static str,
@@ -116,7 +116,7 @@ fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
         .collect()
 }
 
-/// The axis of a panel: all bars, and the limits that are not far off.
+/// The axis of a panel: it includes all bars and limits nearby.
 fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
     let bars = entry.histogram.as_ref().map(|b| (b.from_rpm, b.to_rpm));
     let near =
@@ -152,7 +152,7 @@ fn draw_panel(
             let (left, right) = (speed.at(from), speed.at(from + width));
             let bar = Frame {
                 left,
-                // A gap where there is room for it; a thin line where all saws are alike.
+                // Bars have a gap if there is room; if all saws are alike the bar is a thin line.
                 right: (right - 1.0).max(left + 1.0),
                 top: share.at(100.0 * *saws as f64 / total),
                 bottom: panel.bottom,
@@ -164,7 +164,7 @@ fn draw_panel(
     draw_marks(sheet, entry, panel, speed, limits);
 }
 
-/// Lines through a panel at its quantiles and limits, labelled above it.
+/// Draws lines at quantiles and limits, with labels above the panel.
 fn draw_marks(sheet: &mut Sheet, entry: &SpeedEntry, panel: Frame, speed: &Axis, limits: &[Limit]) {
     let limits = limits.iter().filter(|limit| speed.shows(limit.rpm));
     let limits = limits.map(|limit| {
@@ -208,7 +208,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::study::{Found, Outcome, Saw, Study, StudyFile};
 
-    /// Made-up saws, flutter following critical speed, with the limits of the sample study.
+    /// Synthetic saws whose flutter speed follows from the critical speed, with the limits of the sample
+    /// study.
     fn report(critical: impl Fn(f64) -> Option<f64>) -> StudyReport {
         let text = include_str!("../../scenes/studies/paper-tolerances.json");
         let file = StudyFile::from_json(text).unwrap();
@@ -251,7 +252,7 @@ mod tests {
         let report = report(|share| Some(1480.0 + 80.0 * share));
         let sheet = sheet(&report);
         let written: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
-        // 1.5 × 1533.3 is 2300, and a third of the saws lie above.
+        // 1.5 × 1533.3 is 2300; a third of the saws exceed it.
         for expected in [
             "50 %: 1520",
             "operating/margin 1512",
@@ -260,7 +261,7 @@ mod tests {
         ] {
             assert!(written.contains(&expected), "{expected}: {written:?}");
         }
-        // The 95 % quantile of flutter speed lies beyond the sweep.
+        // The 95 % quantile of the flutter speed lies beyond the sweep.
         let share = |text: &&&str| text.starts_with("95 %");
         assert_eq!(written.iter().filter(share).count(), 1);
     }

@@ -1,4 +1,4 @@
-//! The look that all figures share: colours, sizes and letters.
+//! Colours, sizes and fonts of all figures.
 
 use std::sync::OnceLock;
 
@@ -11,15 +11,15 @@ pub type Colour = RGBColor;
 
 /// Background.
 pub const PAPER: Colour = RGBColor(255, 255, 255);
-/// Titles, the zero line, whatever must be read first.
+/// Colour of titles, of the zero line and of important text.
 pub const INK: Colour = RGBColor(32, 36, 42);
 /// Axis lines, dashed guide lines and numbers at the ticks.
 pub const QUIET: Colour = RGBColor(105, 111, 120);
 /// Grid lines.
 pub const GRID: Colour = RGBColor(233, 235, 238);
 
-// Blue against red and violet against amber stay apart under the common kinds of
-// colour blindness; each pair also differs in lightness.
+// Blue and red, and violet and amber, are distinguishable with the common kinds of colour blindness; each
+// pair also differs in lightness.
 /// Waves that run with the rotation.
 pub const FORWARD: Colour = RGBColor(31, 95, 168);
 /// Waves that run against the rotation.
@@ -31,7 +31,7 @@ pub const DIVERGENCE: Colour = RGBColor(104, 71, 153);
 /// Growing oscillation: lines and letters.
 pub const FLUTTER: Colour = RGBColor(163, 98, 0);
 
-/// What must not be overlooked.
+/// Colour of alarms.
 pub const ALARM: Colour = RGBColor(200, 16, 46);
 
 /// Bands of divergence.
@@ -43,9 +43,9 @@ pub const DIVERGENCE_STREAK: Colour = RGBColor(158, 132, 203);
 /// Bands of flutter too narrow for their shade to be seen.
 pub const FLUTTER_STREAK: Colour = RGBColor(240, 178, 62);
 
-/// Space left free around everything.
+/// Space around the figure.
 pub const MARGIN: f64 = 28.0;
-/// Wide spaces, which SVG does not draw together as it does ordinary ones.
+/// Separator with wide spaces, which SVG does not collapse as it does ordinary ones.
 pub const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
 
 /// Size of the title.
@@ -61,36 +61,36 @@ pub const LABEL_SIZE: f64 = 12.0;
 pub const HAIRLINE: f64 = 1.0;
 /// Width of curves.
 pub const CURVE: f64 = 1.6;
-/// Width of the stretches of a curve that matter most.
+/// Width of the most important parts of a curve.
 pub const STRONG_CURVE: f64 = 3.4;
-/// Dashes of curves: drawn, left out.
+/// Dash and gap of curves.
 pub const DASH: [f64; 2] = [6.0, 4.0];
-/// Dashes of guide lines: drawn, left out.
+/// Dash and gap of guide lines.
 pub const FINE_DASH: [f64; 2] = [4.0, 4.0];
 
-/// Weight of letters.
+/// Weight of a font.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// For nearly everything.
+    /// For most text.
     Regular,
     /// For titles.
     SemiBold,
 }
 
-/// What the fonts are registered as. It goes into the SVG as it stands, so it
-/// lists what to fall back on where Inter is not installed.
+/// Name under which the fonts are registered. It is written to the SVG and therefore lists fallbacks for
+/// systems without Inter.
 const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
 
-/// plotters calls 1.24 em the size of a font.
+/// In plotters the size of a font is 1.24 em.
 const PLOTTERS_SIZE_PER_EM: f64 = 1.24;
 
-/// Mixes a colour with white; `share` is what stays of the colour.
+/// Mixes a colour with white; `share` is the share of the colour.
 pub fn tint(colour: Colour, share: f64) -> Colour {
     let mix = |channel: u8| (255.0 - share * (255.0 - f64::from(channel))).round() as u8;
     RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
 }
 
-/// Makes the built-in fonts known to plotters.
+/// Registers the built-in fonts with plotters.
 pub fn load_fonts() -> Result<(), FigureError> {
     static LOADED: OnceLock<Result<(), &'static str>> = OnceLock::new();
     LOADED
@@ -105,7 +105,7 @@ fn register_fonts() -> Result<(), &'static str> {
     register_font(FAMILY, FontStyle::Bold, semi_bold).map_err(|_| "Inter SemiBold")
 }
 
-/// The font whose em is `em` units high.
+/// A font with the given em.
 pub fn font(em: f64, weight: Weight) -> FontDesc<'static> {
     let style = match weight {
         Weight::Regular => FontStyle::Normal,
@@ -116,7 +116,7 @@ pub fn font(em: f64, weight: Weight) -> FontDesc<'static> {
 
 /// Width of a line of text in figure units.
 pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
-    // plotters cuts widths down to whole units: measure large.
+    // plotters truncates widths to integers, so the text is measured magnified.
     const MAGNIFIED: f64 = 16.0;
     let measured = load_fonts()
         .ok()
@@ -127,7 +127,7 @@ pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     }
 }
 
-/// The text on as many lines as it takes, broken at spaces other than those that do not break.
+/// The text on as many lines as necessary, broken at ordinary spaces.
 pub fn broken(text: &str, em: f64, weight: Weight, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split(' ') {
@@ -141,7 +141,7 @@ pub fn broken(text: &str, em: f64, weight: Weight, room: f64) -> Vec<String> {
     lines
 }
 
-/// The text on one line, cut with an ellipsis where it is wider than `room`.
+/// The text on one line, truncated with an ellipsis if it is wider than `room`.
 pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
     let line = one_line(text);
     if text_width(&line, em, weight) <= room {
@@ -164,7 +164,7 @@ pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
     cut(fits)
 }
 
-/// Control characters are not allowed in SVG, and a line break would not break.
+/// Removes control characters, which SVG does not allow, and line breaks, which it ignores.
 pub fn one_line(text: &str) -> String {
     text.chars()
         .map(|c| if is_printable(c) { c } else { ' ' })

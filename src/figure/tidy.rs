@@ -1,9 +1,9 @@
-//! What the tests ask of every figure.
+//! Requirements on every figure, for tests.
 
 use super::canvas::{Frame, Mark, Sheet, text_frame};
 use super::style::PAPER;
 
-/// No text is cut off or lies on another.
+/// No text is truncated or overlaps another.
 pub fn assert_tidy(sheet: &Sheet) {
     let (width, height) = sheet.size();
     let texts = texts(sheet);
@@ -19,7 +19,7 @@ pub fn assert_tidy(sheet: &Sheet) {
     }
 }
 
-/// No upright line runs through a text, unless there is paper between them.
+/// No vertical line crosses a text, unless there is a white ground between them.
 pub fn assert_unstruck(sheet: &Sheet) {
     let marks = sheet.marks();
     for (above, mark) in marks.iter().enumerate() {
@@ -52,7 +52,7 @@ pub fn assert_unstruck(sheet: &Sheet) {
     }
 }
 
-/// Place, upper and lower end of an upright line of two points.
+/// Position, upper and lower end of a vertical line between two points.
 fn upright(mark: &Mark) -> Option<[f64; 3]> {
     match mark {
         Mark::Line(points, _) => match points[..] {
@@ -63,7 +63,7 @@ fn upright(mark: &Mark) -> Option<[f64; 3]> {
     }
 }
 
-/// Texts with the room they take.
+/// Texts with their frames.
 pub fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
     let text = |mark| match mark {
         &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),

@@ -1,4 +1,4 @@
-//! Time against true error, both on logarithmic scales.
+//! Run time and true error, both on logarithmic scales.
 
 use super::axis::{Axis, Spread, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -34,14 +34,14 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     };
     let errors = decades(|s| s.error).map(|share| 100.0 * share);
     let error = Axis::new(errors, [PANEL.left, PANEL.right], Spread::Logarithmic);
-    // Room for a number above the slowest.
+    // The axis leaves room for a number above the slowest.
     let [least, most] = decades(|s| s.seconds);
     let seconds = [least, 2.0 * most];
     let time = Axis::new(seconds, [PANEL.bottom, PANEL.top], Spread::Logarithmic);
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
-    // Papered before any dot is drawn: the promised accuracies' dashed lines pass there.
+    // The ground of the labels is drawn before the dots, because dashed lines of the accuracies pass there.
     for (at, letters, label) in labels(settings, &error, &time) {
         sheet.fill(text_frame(at, &letters, &label), PAPER);
     }
@@ -68,15 +68,15 @@ fn look(method: Method) -> (Colour, &'static str) {
     }
 }
 
-/// Numbers of functions above the dots of the charts: the critical speeds alone stand at the
-/// same numbers, in the same order.
+/// Numbers of functions above the dots of the diagrams. Those of the critical speeds alone are the same
+/// numbers in the same order.
 fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Lettering, String)> {
     let charts = settings.iter().filter(|s| s.is_chart() && s.speeds == 51);
     let label = |setting: &Setting| {
         let [x, y] = place(setting, error, time);
         let (colour, _) = look(setting.method);
         let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
-        // Above the dots of the same basis at other numbers of speeds, which stand close by.
+        // The label is above the dots of the same basis with other numbers of speeds, which are close by.
         let alike = settings
             .iter()
             .filter(|s| s.method == setting.method && s.functions == setting.functions);
@@ -108,7 +108,7 @@ fn draw_key(sheet: &mut Sheet) {
     }
 }
 
-/// The charts that no other beats in both.
+/// Draws the settings that no other one beats in both time and error.
 fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis) {
     let mut front: Vec<[f64; 2]> = settings
         .iter()
@@ -149,7 +149,7 @@ fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
         ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
     };
     sheet.text([28.0, (PANEL.top + PANEL.bottom) / 2.0], upright, "time");
-    // What the named accuracies promise.
+    // The errors that the named accuracies promise.
     for (percent, word) in [(1.0, "draft"), (0.1, "design"), (0.01, "reference")] {
         if error.shows(percent) {
             let x = error.at(percent);
@@ -176,7 +176,7 @@ mod tests {
     use super::super::canvas::Mark;
     use super::*;
 
-    /// Eight sizes of a chart and of the critical speeds, two charts on the full model.
+    /// Eight sizes of the basis, for a diagram and for critical speeds, and two diagrams on the full model.
     #[test]
     fn no_label_lies_on_another() {
         let setting = |method, k: u32, seconds: f64| Setting {
@@ -203,7 +203,7 @@ mod tests {
             .collect();
         let drawn = sheet("A saw", &settings);
         super::super::tidy::assert_tidy(&drawn);
-        // A dashed line is under paper wherever a label is written over it.
+        // Where a label crosses a dashed line, there is a white ground between them.
         let marks = drawn.marks();
         let is_fill = |m: &&Mark| matches!(m, Mark::Fill(_, colour) if *colour == PAPER);
         let papered = marks.iter().filter(is_fill).count();
@@ -220,7 +220,7 @@ mod tests {
         assert_eq!([1e-3, 0.1, 10.0].map(seconds), ["1 ms", "100 ms", "10 s"]);
     }
 
-    /// Errors from rounding to a percent.
+    /// The errors extend from rounding to a percent.
     #[test]
     fn ticks_over_many_decades_keep_apart() {
         let settings = [1e-12, 1e-9, 1e-2].map(|error| Setting {

@@ -1,5 +1,4 @@
-//! The lobe diagram: from which cutting stiffness on a motion grows, over the speed, and at which
-//! frequency.
+//! The lobe diagram: smallest cutting stiffness at which a motion grows, over the speed, and its frequency.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, proper_range};
 use super::canvas::{Frame, Sheet, Stroke};
@@ -25,12 +24,12 @@ const FREQUENCY: Frame = Frame {
     bottom: 680.0,
     ..LOBES
 };
-/// Diameters of the ring at the cut's own stiffness, and of the dots at frequencies.
+/// Diameter of the ring at the cut's own stiffness, and of the dots at frequencies.
 const OWN_SIZE: f64 = 12.0;
 const DOT_SIZE: f64 = 4.4;
-/// Decades shown at most above the cut's own stiffness, or the least at which a motion grows.
+/// Largest number of decades above the cut's own stiffness, or above the smallest at which a motion grows.
 const DECADES: f64 = 2.5;
-/// Room below and above what is shown, in decades.
+/// Space below and above, in decades.
 const ROOM: f64 = 0.3;
 
 pub fn sheet(report: &WashboardReport) -> Sheet {
@@ -66,7 +65,7 @@ pub fn sheet(report: &WashboardReport) -> Sheet {
     sheet
 }
 
-/// The boundary, and the frequencies at it, as numbers.
+/// The boundary and its frequencies, as numbers.
 pub fn chart(report: &WashboardReport) -> ChartData {
     let lobes = &report.lobes;
     let ends = [lobes.rpm.first(), lobes.rpm.last()].map(|rpm| rpm.copied().unwrap_or(0.0));
@@ -131,7 +130,7 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     }
 }
 
-/// Beyond the panel where there is none, below it where it is zero.
+/// The boundary; above the panel if there is none, below it if it is zero.
 fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
@@ -142,7 +141,7 @@ fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
     }
 }
 
-/// What is said at each speed.
+/// Description of each speed.
 fn said(report: &WashboardReport) -> Vec<String> {
     let lobes = &report.lobes;
     let at = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
@@ -173,7 +172,7 @@ fn facts(report: &WashboardReport) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Whole decades about the boundary and the stiffness of the cut.
+/// Whole decades that include the boundary and the stiffness of the cut.
 fn decades(report: &WashboardReport) -> [f64; 2] {
     let known = report.lobes.critical_stiffness_n_per_m.iter();
     let known = known.flatten().filter(|k| **k > 0.0).map(|k| k.log10());
@@ -184,7 +183,7 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
-/// A column from the boundary upwards at every speed, half way to the next ones.
+/// Draws a column from the boundary upwards at every speed, half way to its neighbours.
 fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
     let lobes = &report.lobes;
     let places: Vec<f64> = lobes.rpm.iter().map(|rpm| speed.at(*rpm)).collect();

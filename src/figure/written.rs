@@ -1,12 +1,12 @@
-//! Numbers of a scene as people write them: what they are, in a unit that is at hand.
+//! Numbers of a scene in words, in workshop units.
 
 use super::axis::raised;
 use crate::scene::Quantity;
 
-/// Units that are not at hand in a workshop: of the scene, written, and how many make one.
+/// Units of the scene that are replaced, with replacement and factor.
 const HANDY: [(&str, &str, f64); 2] = [("m", "mm", 1e3), ("Pa", "GPa", 1e-9)];
 
-/// What a number of a scene is, by its path: "stiffness of guide 1".
+/// Name of a number, from its path: "stiffness of guide 1".
 pub fn name(path: &str) -> String {
     let Some(quantity) = Quantity::of(path) else {
         return path.to_owned();
@@ -23,7 +23,7 @@ pub fn name(path: &str) -> String {
     }
 }
 
-/// The unit that a number of a scene is written in, and how many of it make one of the scene's.
+/// Unit in which a number is written, and the factor from the unit of the scene.
 pub fn unit(path: &str) -> (&'static str, f64) {
     let own = Quantity::of(path).map_or("", |quantity| quantity.unit);
     let handy = HANDY.iter().find(|(unit, ..)| *unit == own);
@@ -41,7 +41,7 @@ pub fn in_words(path: &str, value: f64) -> String {
     )
 }
 
-/// A number of any size to four digits.
+/// A number of any size with four digits.
 pub fn four_digits(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         let text = format!("{value:.3e}");

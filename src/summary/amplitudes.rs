@@ -1,11 +1,11 @@
-//! How far the flutter of each band rises, in words.
+//! Table of the amplitude to which the flutter of each band rises.
 
 use std::fmt::{Result, Write};
 
 use super::{ROWS, more, wrapped};
 use crate::report::{InstabilityKind, Report};
 
-/// A table of the flutter bands whose amplitude was asked for.
+/// Writes a table of the flutter bands whose amplitude was requested.
 pub fn amplitudes(text: &mut String, report: &Report) -> Result {
     let bands = report.instabilities.iter();
     let flutter = bands.filter(|band| band.kind == InstabilityKind::Flutter);

@@ -1,4 +1,4 @@
-//! The answer, and how far it can be trusted.
+//! The answer, and its accuracy.
 
 use std::fmt::{Result, Write};
 
@@ -7,27 +7,27 @@ use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, S
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
 
-/// Whether a saw can run at its speed.
+/// Whether a saw can run at its operating speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "explore", derive(serde::Serialize))]
 #[cfg_attr(feature = "explore", serde(rename_all = "snake_case"))]
 pub enum Answer {
-    /// It is stable and keeps the rule.
+    /// The saw is stable and keeps the 85 % rule.
     Runs,
-    /// It is stable, but breaks the rule.
+    /// The saw is stable but breaks the rule.
     PastRule,
-    /// It is stable, but at a critical speed.
+    /// The saw is stable but runs at a critical speed.
     AtCritical,
-    /// It diverges.
+    /// The saw diverges.
     Divergence,
-    /// It flutters.
+    /// The saw flutters.
     Flutter,
-    /// The sweep does not reach its speed.
+    /// The sweep does not include the operating speed.
     OutsideSweep,
 }
 
 impl Answer {
-    /// For an operating speed.
+    /// The answer for an operating speed.
     pub fn new(operating: &OperatingEntry) -> Self {
         match operating.verdict {
             StabilityState::Divergence => Answer::Divergence,
@@ -51,8 +51,8 @@ impl Answer {
     }
 }
 
-/// The answer to whether a saw can run at its speed, and at which others, line by line. The first
-/// line is the answer, the others are its reasons; a line may have breaks, behind which it is indented.
+/// The answer whether a saw can run at its operating speed, and the speeds at which it can, line by line. The
+/// first line is the answer; reasons follow. A line may contain breaks, after which it is indented.
 pub fn answer(report: &Report) -> Vec<String> {
     let mut lines = match &report.operating {
         Some(operating) => at_operating_speed(report, operating),
@@ -86,7 +86,7 @@ fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String
     lines
 }
 
-/// The band that makes the saw unstable where it runs.
+/// Describes the band that makes the saw unstable at its operating speed.
 fn inside(band: &InstabilityEntry) -> String {
     let kind = match band.kind {
         InstabilityKind::Divergence => "divergence",
@@ -200,7 +200,7 @@ fn flutter(report: &Report) -> Vec<String> {
     [Some(speed), first].into_iter().flatten().collect()
 }
 
-/// What ends a window.
+/// Describes the end of a window.
 fn end_of_window(report: &Report, rpm: f64) -> &'static str {
     let counted = |band: &InstabilityEntry| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
     match report.instabilities.iter().any(counted) {
@@ -210,8 +210,8 @@ fn end_of_window(report: &Report, rpm: f64) -> &'static str {
     }
 }
 
-/// Whether a growth that counts could hide in what is not proven, where it would change an answer: below the flutter
-/// speed, or at the operating speed; of the stretches in which one could.
+/// Whether growth above the threshold is possible in unproven intervals where it would change an answer:
+/// below the flutter speed, or at the operating speed.
 fn hidden(
     stretches_rpm: &[[f64; 2]],
     threshold_per_s: f64,
@@ -242,7 +242,7 @@ fn hidden(
     )
 }
 
-/// Certificate, estimated error and warnings.
+/// Writes certificate, estimated error and warnings.
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;

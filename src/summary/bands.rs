@@ -5,10 +5,10 @@ use std::fmt::{Result, Write};
 use super::{ROWS, more, shortened};
 use crate::report::{InstabilityEntry, InstabilityKind, Report};
 
-/// Room for the waves at the end of a line.
+/// Width of the waves at the end of a line.
 const WAVES: usize = 29;
 
-/// Every band of instability, and whether it counts.
+/// Writes every band of instability, and whether its growth exceeds the threshold.
 pub fn bands(text: &mut String, report: &Report) -> Result {
     let bands = &report.instabilities;
     if bands.is_empty() {
@@ -78,7 +78,7 @@ fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
     partly(text, band)
 }
 
-/// Where a band counts, unless it does as a whole.
+/// The range in which the growth exceeds the threshold, unless it is the whole band.
 fn partly(text: &mut String, band: &InstabilityEntry) -> Result {
     let [stretches @ .., last] = band.counted_rpm.as_slice() else {
         return Ok(());

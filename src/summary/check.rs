@@ -1,4 +1,4 @@
-//! A check in words.
+//! The summary of a check.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::report::{CheckReport, CriterionEntry};
 use crate::text::shown_to;
 
 impl CheckReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

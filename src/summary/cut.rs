@@ -1,4 +1,4 @@
-//! A cut in words.
+//! The summary of a cut.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 impl CutReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -39,7 +39,7 @@ fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// The verdict of a speed.
+/// The verdict at a speed.
 fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
     let rpm = run.rpm;
     match run.verdict {
@@ -55,7 +55,7 @@ fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
     }
 }
 
-/// How fast the motion grows, at which frequency, and what says so.
+/// Growth rate and frequency, and the criterion that gives them.
 fn unstable(run: &CutRunEntry) -> String {
     let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
     let Some(entry) = decisive else {
@@ -114,7 +114,7 @@ fn in_capitals(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What is to be said beside a criterion.
+/// Remark on a criterion.
 fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
     match criterion {
         CutCriterion::TimeHistory => match run.agree {

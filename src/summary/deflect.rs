@@ -1,4 +1,4 @@
-//! Equilibria over speed in words.
+//! The summary of equilibria over speed.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
 use crate::stretched::TurnKind;
 
 impl DeflectReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -43,7 +43,7 @@ const MEANING: &str = "These equilibria are those of the blade with any damping 
      then ends in a stable one. Damping that turns with the blade may hold the flat blade, and a fast run-up may \
      be over before the blade leans. Curves that neither a sweep, nor its mirror image, nor a critical speed leads to may exist.";
 
-/// How far the blade is deflected.
+/// The deflection of the blade.
 fn verdict(report: &DeflectReport) -> String {
     let force = format!(
         "Under {} N at the rim at {}°",
@@ -119,7 +119,7 @@ fn jumps(
 }
 
 impl JumpEntry {
-    /// Whether the blade moves by a part of its thickness, and does not only begin to lean.
+    /// Whether the deflection changes by a considerable part of the thickness.
     pub(crate) fn is_seen(&self, thickness_m: f64) -> bool {
         let probe = (self.to_m - self.from_m).abs();
         probe.max((self.largest_to_m - self.largest_from_m).abs()) > SEEN * thickness_m
@@ -129,7 +129,7 @@ impl JumpEntry {
 /// A change of deflection of this share of the thickness is a jump.
 const SEEN: f64 = 0.02;
 
-/// Deflections at even speeds.
+/// Writes deflections at evenly spaced speeds.
 fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     writeln!(
         text,
@@ -166,11 +166,11 @@ fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     writeln!(text, "Deflections in mm")
 }
 
-/// Frequencies of a row of the table.
+/// Number of frequencies in a row of the table.
 const FREQUENCIES: usize = 4;
 
 impl SlowSweepEntry {
-    /// Values at a speed, on the straight line between those of two equilibria of one arc.
+    /// Values at a speed, by linear interpolation between two equilibria of one arc.
     fn at<const N: usize>(
         &self,
         rpm: f64,
@@ -213,8 +213,8 @@ fn millimetres(metres: f64) -> String {
     format!("{} mm", in_mm(metres))
 }
 
-/// To three decimals, a zero without a sign.
+/// Millimetres with three decimals; zero has no sign.
 fn in_mm(metres: f64) -> String {
-    // Minus zero and zero add up to zero.
+    // The sum of minus zero and zero is zero.
     format!("{:.3}", (1e6 * metres).round() / 1e3 + 0.0)
 }

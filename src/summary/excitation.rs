@@ -5,7 +5,7 @@ use std::fmt::{Result, Write};
 use super::{ROWS, more, numbered, shortened};
 use crate::report::Report;
 
-/// Where multiples of the rotation speed meet the natural frequencies.
+/// Writes the crossings of multiples of the rotation speed with natural frequencies.
 pub fn crossings(text: &mut String, report: &Report) -> Result {
     let Some(excitation) = &report.excitation else {
         return Ok(());

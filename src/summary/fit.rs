@@ -1,4 +1,4 @@
-//! A fit in words.
+//! The summary of a fit.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::report::{FitReport, ParameterEntry};
 use crate::text::shown_to;
 
 impl FitReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -76,7 +76,7 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
     )
 }
 
-/// Lines and columns of the table before the rest is only counted.
+/// Largest number of lines and columns of the table; the rest is only counted.
 const ROWS: usize = 20;
 const COLUMNS: usize = 7;
 
@@ -105,7 +105,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
 }
 
-/// Digits of a number that was fitted.
+/// A fitted number with its significant digits.
 fn short(value: f64) -> String {
     shown_to(5, value)
 }

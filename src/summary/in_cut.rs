@@ -1,11 +1,11 @@
-//! What the forces of the cut change.
+//! Effects of the forces of the cut.
 
 use std::fmt::{Result, Write};
 
 use super::wrapped;
 use crate::report::Report;
 
-/// The forces on the chart, and the speeds that matter with and without them.
+/// Writes the forces of the diagram, and the important speeds with and without them.
 pub fn in_cut(text: &mut String, report: &Report) -> Result {
     let Some(in_cut) = &report.in_cut else {
         return Ok(());

@@ -1,10 +1,10 @@
-//! What heat and the numbers of the scene do, in words.
+//! Effects of heat and of the numbers of the scene.
 
 use std::fmt::{Result, Write};
 
 use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
 
-/// How hot the blade may become, on the scene's temperature profile.
+/// Writes the limits of temperature, for the scene's temperature profile.
 pub fn heat(text: &mut String, report: &Report) -> Result {
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
     let Some(heat) = heat else {
@@ -50,7 +50,7 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
     }
 }
 
-/// How speeds move with the numbers of the scene.
+/// Writes the changes of speeds with the numbers of the scene.
 pub fn sensitivity(text: &mut String, report: &Report) -> Result {
     if report.sensitivities.is_empty() {
         return Ok(());

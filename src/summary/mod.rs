@@ -1,6 +1,6 @@
-//! Reports in words: what the program prints, and the live page and Python show.
+//! Summaries of reports, which the program prints and the live page and Python show.
 //!
-//! In goes a report; out comes its `summary()`: plain text of 80 columns, the verdict first.
+//! `summary()` of a report is plain text with 80 columns, with the verdict first.
 
 mod amplitudes;
 mod answer;
@@ -28,18 +28,18 @@ pub use self::answer::answer;
 use crate::report::Report;
 use textwrap::{Options, WordSeparator, WordSplitter};
 
-/// Lines of a table before the rest is only counted.
+/// Largest number of lines of a table; the rest is only counted.
 const ROWS: usize = 12;
-/// Columns of a line.
+/// Number of columns.
 const WIDTH: usize = 80;
 
-/// Whether the scene has damping: then every mode at rest has a damping ratio.
+/// Whether the scene has damping, so that every mode at rest has a damping ratio.
 fn is_damped(report: &Report) -> bool {
     let mut modes = report.modes_at_rest.iter();
     modes.any(|mode| mode.damping_ratio.is_some())
 }
 
-/// Number and name of a branch, as at the lines of the Campbell diagram.
+/// Number and name of a branch, as in the Campbell diagram.
 fn numbered(branch: Option<usize>, name: &str) -> String {
     match branch {
         Some(number) => format!("{number}: {name}"),
@@ -54,7 +54,7 @@ fn more(text: &mut String, rows: usize) -> std::fmt::Result {
     }
 }
 
-/// Numbers that no saw has: before the verdict, which may be that of another saw than is meant.
+/// Writes unusual numbers before the verdict, because it may be that of another saw than intended.
 fn unusual_numbers(text: &mut String, sentences: &[String]) -> std::fmt::Result {
     for sentence in sentences {
         writeln!(text, "{}", wrapped(&format!("Unusual number: {sentence}")))?;
@@ -62,7 +62,7 @@ fn unusual_numbers(text: &mut String, sentences: &[String]) -> std::fmt::Result 
     Ok(())
 }
 
-/// A line, ended by an ellipsis where it is too long.
+/// The line, shortened with an ellipsis if it is too long.
 pub fn shortened(line: &str, width: usize) -> String {
     if line.chars().count() <= width {
         return line.to_owned();

@@ -1,4 +1,4 @@
-//! A placement in words.
+//! The summary of a placement.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use crate::report::{
 use crate::text::shown_to;
 
 impl PlaceReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -113,7 +113,7 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
     writeln!(text, "{}", wrapped(&line))
 }
 
-/// The saw that is better by itself than the answer.
+/// Describes the saw that is better than the answer at its nominal numbers.
 fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) -> String {
     let rpm = |saw: &NeighbourEntry| {
         let goal = saw.outcome.map(|outcome| outcome.goal_rpm);
@@ -128,7 +128,7 @@ fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) 
     )
 }
 
-/// Digits of a number that was placed.
+/// A placed number with its significant digits.
 fn short(value: f64) -> String {
     shown_to(4, value)
 }

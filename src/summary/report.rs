@@ -1,4 +1,4 @@
-//! A chart in words.
+//! The summary of a Campbell diagram.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::scene::BladeFile;
 use crate::text::shown_to;
 
 impl Report {
-    /// The report in words, 80 columns wide: the answer first, then what it rests on.
+    /// The summary, 80 columns wide: the answer, followed by its reasons.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

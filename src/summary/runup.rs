@@ -1,4 +1,4 @@
-//! A run-up in words.
+//! The summary of a run-up.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 impl RunUpReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -36,7 +36,7 @@ fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// How far the run-up stays within the model, and the largest deflection up to there.
+/// How far the run-up remains within the model, and the largest deflection until then.
 fn verdict(report: &RunUpReport) -> String {
     let stretched = report.stretching.as_ref();
     let end = match (report.linear_until_rpm, stretched) {
@@ -108,7 +108,7 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(meaning))
 }
 
-/// What multiplies a motion by more leaves the linear model however small it was.
+/// With a larger amplification any motion, however small, exceeds the linear model.
 const MOST_TIMES: f64 = 1e3;
 
 fn times(factor: f64) -> String {

@@ -1,4 +1,4 @@
-//! A study in words.
+//! The summary of a study.
 
 use std::fmt::Write;
 
@@ -7,14 +7,13 @@ use crate::text::{shown, shown_to};
 
 use super::{WIDTH, shortened, unusual_numbers};
 
-/// Lines of a table before the rest is only counted.
+/// Largest number of lines of a table; the rest is only counted.
 const ROWS: usize = 24;
-/// Quantiles that fit side by side.
+/// Number of quantiles in a line.
 const COLUMNS: usize = 7;
 
 impl StudyReport {
-    /// The report in words, 80 columns wide: quantiles, the probability of passing, and what was
-    /// not analysed.
+    /// The summary, 80 columns wide: quantiles, the probability of passing, and failures.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.
@@ -104,7 +103,7 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
     Ok(())
 }
 
-/// The speeds at which most saws can be run.
+/// Writes the highest operating speeds for shares of the saws.
 fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let Some(reliability) = &report.reliability else {
         return Ok(());
@@ -125,7 +124,7 @@ fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     )
 }
 
-/// The saw with the lowest speed, of both.
+/// Writes the saw with the lowest speed of each kind.
 fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let speeds = [
         ("first critical", &report.worst_lowest_critical),

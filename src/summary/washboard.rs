@@ -1,4 +1,4 @@
-//! Washboarding in words.
+//! The summary of a washboarding analysis.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
 use crate::text::shown_to;
 
 impl WashboardReport {
-    /// The report in words, 80 columns wide, the verdict first.
+    /// The summary, 80 columns wide, with the verdict first.
     pub fn summary(&self) -> String {
         let mut text = String::new();
         // Writing to a string cannot fail.

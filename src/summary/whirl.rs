@@ -1,11 +1,11 @@
-//! The table of one speed.
+//! Table of the modes at one speed.
 
 use std::fmt::{Result, Write};
 
 use crate::report::{Report, StabilityState, WhirlMode};
 use crate::text::shown_to;
 
-/// Frequency, direction, name, growth, damping and Krein sign of the modes of one speed.
+/// Writes frequency, direction, name, growth, damping and Krein sign of the modes at one speed.
 pub fn whirl(text: &mut String, report: &Report) -> Result {
     let Some(whirl) = &report.whirl else {
         return Ok(());

@@ -9,30 +9,30 @@ use super::{Chart, WIDTH};
 
 const ROWS: usize = 5;
 const ROW_HEIGHT: f64 = 16.0;
-/// Between a band and the label beside it, bridged by a short line.
+/// Space between a band and its label, bridged by a short line.
 const FLAG_GAP: f64 = 8.0;
 
-/// A label and where it goes.
+/// A label and its position.
 struct Placed {
     at: [f64; 2],
     letters: Lettering,
     frame: Frame,
     row: usize,
-    /// How much the eye must do to find the band.
+    /// Penalty of this position, by which the best one is selected.
     burden: usize,
     label: String,
 }
 
-/// Labels of the bands with their places.
+/// Positions of the labels of the bands.
 pub struct BandLabels {
     placed: Vec<Placed>,
-    /// Thin lines that are not to run through the labels of others.
+    /// Thin lines that must not cross the labels of other bands.
     thin: Vec<[f64; 2]>,
 }
 
 impl BandLabels {
-    /// Finds a place for the label of each band that is shaded, the fastest growing band first; a label
-    /// for which there is no room is left out.
+    /// Finds a position for the label of each shaded band, in descending order of growth. A label without
+    /// room is omitted.
     pub fn new(chart: &Chart) -> Self {
         let mut order: Vec<&Band> = chart.bands().filter(|b| !b.shaded.is_empty()).collect();
         order.sort_by(|a, b| b.peak_growth_per_s.total_cmp(&a.peak_growth_per_s));
@@ -51,7 +51,7 @@ impl BandLabels {
         labels
     }
 
-    /// The best free place: few thin lines crossed, high up, next to its band.
+    /// The best free position: it crosses few thin lines, is high up, and is next to its band.
     fn best_place(&self, chart: &Chart, band: &Band) -> Option<Placed> {
         let own = places(&chart.speed, [band.from, band.to])?;
         let free = |place: &Placed| {
@@ -72,12 +72,12 @@ impl BandLabels {
         candidates.filter(free).min_by_key(cost)
     }
 
-    /// Number of bands that have a label.
+    /// Number of labelled bands.
     pub fn count(&self) -> usize {
         self.placed.len()
     }
 
-    /// Room that the labels take at the top of the panel.
+    /// Height that the labels take at the top of the panel.
     pub fn height(&self) -> f64 {
         let rows = self.placed.iter().map(|place| place.row + 1).max();
         8.0 + rows.unwrap_or(0) as f64 * ROW_HEIGHT
@@ -120,7 +120,7 @@ fn crosses([left, right]: &[f64; 2], frame: &Frame) -> bool {
     *left < frame.right && frame.left < *right
 }
 
-/// To the right of the band like a flag, to its left, or over it.
+/// Positions to the right of the band, to its left, or across it.
 fn places_in_row(chart: &Chart, band: &Band, [left, right]: [f64; 2], row: usize) -> [Placed; 3] {
     let baseline = chart.lower.top + 13.0 + row as f64 * ROW_HEIGHT;
     let sides = [

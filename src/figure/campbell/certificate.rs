@@ -1,4 +1,4 @@
-//! The lines at the foot that say how far the figure can be trusted.
+//! The lines at the foot on the accuracy of the figure.
 
 use super::super::axis::{raised, two_digits};
 use super::super::canvas::{Anchor, Lettering, Sheet};
@@ -46,7 +46,7 @@ fn facts(report: &Report) -> Vec<String> {
     facts
 }
 
-/// "2·10⁻⁸": rounded up to one digit.
+/// A number rounded up to one digit: "2·10⁻⁸".
 fn power_of_ten_above(value: f64) -> Option<String> {
     if !(value.is_finite() && value > 0.0) {
         return None;

@@ -1,4 +1,4 @@
-//! What the diagram shows, as numbers.
+//! The contents of the diagram, as numbers.
 
 use super::super::chart_data::{
     AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
@@ -11,19 +11,19 @@ use super::{facts, growth};
 use crate::report::{BranchEntry, Direction, Report};
 use crate::text::shown_to;
 
-/// What the line along the axis is.
+/// Name of the line along the axis.
 pub const WINDOW: &str = "window without instability";
 const WINDOW_TINT: f64 = 0.35;
-/// Half of it is seen where a painter cuts at the axis.
+/// Half of this width is visible where a painter clips at the axis.
 const WINDOW_WIDTH: f64 = 7.0;
 const CRITICAL_SIZE: f64 = 7.0;
 const CROSSING_SIZE: f64 = 5.0;
 const MEASURED_SIZE: f64 = 6.0;
-/// A branch that is known at a single speed.
+/// Size of a branch that exists at a single speed.
 const DOT_SIZE: f64 = 4.0 * CURVE;
 
-/// Frequencies over speed, growth rates below. What is said of each point is left out unless it is asked for: it is
-/// most of the text.
+/// Frequencies over speed, and growth rates below. Texts for each point are most of the data and are included
+/// only on request.
 pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     let speed = AxisData::speed().within(shown.rpm);
     let bands = report.instabilities.iter();
@@ -56,7 +56,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     }
 }
 
-/// Of the excitation lines, for figures in which there is no room for them.
+/// Names of the excitation lines, for figures without room for labels.
 fn names_of_lines(report: &Report) -> Option<String> {
     let lines = report.excitation.as_ref()?.lines.iter();
     let names: Vec<&str> = lines.map(|line| line.name.as_str()).collect();
@@ -83,7 +83,7 @@ fn uprights(report: &Report) -> impl Iterator<Item = Item> {
     critical.chain(operating).map(Item::Upright)
 }
 
-/// The window without instability around the operating speed, along the axis of speeds.
+/// The window without instability around the operating speed, as a line along the axis of speeds.
 fn safe_window(report: &Report) -> Option<Item> {
     let ends = report.operating.as_ref()?.safe_window_rpm?;
     let name = format!("{WINDOW}: {:.0} to {:.0} rpm", ends[0], ends[1]);
@@ -95,7 +95,7 @@ fn safe_window(report: &Report) -> Option<Item> {
     }))
 }
 
-/// A line of a branch through some of its samples, at the heights `values`.
+/// A curve of a branch through some of its samples; `values` are its ordinates.
 pub fn line_through(
     branch: &BranchEntry,
     values: &[f64],
@@ -117,7 +117,7 @@ pub fn line_through(
     }
 }
 
-/// What is known of a branch at one of its speeds.
+/// Description of a branch at one of its speeds.
 fn say(branch: &BranchEntry, i: usize) -> String {
     let hz = branch.frequency_hz.get(i).copied().unwrap_or(f64::NAN);
     let growth = branch.growth_per_s.get(i).copied().unwrap_or(f64::NAN);
@@ -144,10 +144,10 @@ fn way(direction: Direction) -> &'static str {
     }
 }
 
-/// Solid where a wave has positive energy, dashed where it is reflected, thick where it is unstable.
+/// Solid for waves of positive energy, dashed for reflected waves, thick where unstable.
 fn branches(report: &Report, said: bool) -> Vec<Item> {
     let mut items = Vec::new();
-    // From the highest down, so that the lowest branches lie on top.
+    // Branches are drawn from the highest to the lowest, so that the lowest lie on top.
     for branch in report.campbell.branches.iter().rev() {
         if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
             let colour = Hue::of_direction(direction_at(branch, 0));
@@ -161,7 +161,7 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
             }));
         }
         let samples = branch.rpm.len().min(branch.frequency_hz.len());
-        // Guides let waves stand at rest, whatever they do from there on.
+        // With guides the modes at rest are standing waves, whatever they are at other speeds.
         let look = |i| {
             (
                 look_of_segment(report, branch, i),
@@ -190,7 +190,7 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
     items
 }
 
-/// Lines at multiples of the rotation speed, and where they cross the branches.
+/// Lines at multiples of the rotation speed, and their crossings with the branches.
 fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
     let Some(excitation) = &report.excitation else {
         return Vec::new();
@@ -198,7 +198,7 @@ fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     let lines = excitation.lines.iter().filter_map(|line| {
         let per_rpm = f64::from(line.order) / 60.0;
-        // A line ends where it leaves the panel; there it has no room for its name.
+        // A line ends at the edge of the panel, where there is no room for its name.
         let end = last.min(shown.hz / per_rpm);
         let ends = [first, end];
         (first < end).then(|| {

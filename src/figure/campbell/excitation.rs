@@ -5,12 +5,12 @@ use super::super::chart_data::Line;
 use super::super::style::{INK, LABEL_SIZE, PAPER};
 use super::Chart;
 
-/// From the upper edge to the baseline of a label on its line.
+/// Distance of the baseline of a label from the upper edge.
 const LABEL_DROP: f64 = 34.0;
-/// From the right edge to the end of a label of a line that leaves there.
+/// Distance of the end of a label from the right edge, if the line ends there.
 const LABEL_INSET: f64 = 8.0;
 
-/// Writes the name of every line near its upper end.
+/// Labels every line near its upper end.
 pub fn label(sheet: &mut Sheet, chart: &Chart) {
     let lines = chart
         .lines()
@@ -26,7 +26,7 @@ pub fn label(sheet: &mut Sheet, chart: &Chart) {
 fn label_line(sheet: &mut Sheet, chart: &Chart, line: &Line, [from, to]: [[f64; 2]; 2]) {
     let name = &line.name;
     let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::End);
-    // A steep line leaves above, a flat one on the right.
+    // A steep line ends at the upper edge, a flat one at the right edge.
     let wanted = match to[0] < chart.upper.right - 1.0 {
         true => to[1] + LABEL_DROP,
         false => to[1].max(chart.upper.top + LABEL_DROP),

@@ -14,13 +14,13 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
 use crate::text::shown_to;
 
-/// Width of the curves of what grows.
+/// Width of growth curves.
 const WIDE: f64 = 1.25 * CURVE;
 const PEAK_SIZE: f64 = 5.5;
-/// Beyond the largest growth rate, whose dot is seen whole.
+/// Factor by which the axis exceeds the largest growth rate, so that its dot is complete.
 const HEADROOM: f64 = 1.15;
 
-/// Said where nothing grows: at a critical speed the blade is not stable all the same.
+/// Note if nothing grows. It excludes critical speeds, at which the blade is not stable either.
 fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     let mut critical = report.critical_speeds.iter();
     match critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
@@ -55,9 +55,9 @@ fn grows(report: &Report) -> bool {
     !report.instabilities.is_empty() || greatest_growth(report, sweep(report)) > NEGLIGIBLE_PER_S
 }
 
-/// How far down the axis goes. Without damping the decaying eigenvalues mirror
-/// the growing ones, and half of the panel would say nothing. With damping the
-/// least damped branches count; strongly damped ones may leave the panel.
+/// Lower end of the axis. Without damping the decaying eigenvalues mirror the growing ones and would fill
+/// half of the panel with no information. With damping the least damped branches determine it; strongly
+/// damped ones may leave the panel.
 fn greatest_decay(report: &Report) -> f64 {
     if !is_damped(report) {
         return 0.0;
@@ -77,12 +77,12 @@ pub fn is_worth_showing(report: &Report) -> bool {
     grows(report) || greatest_decay(report) > NEGLIGIBLE_PER_S
 }
 
-/// Whether the decaying halves of unstable pairs are left out.
+/// Whether the decaying halves of unstable pairs are omitted.
 pub fn hides_decay(report: &Report) -> bool {
     grows(report) && !is_damped(report)
 }
 
-/// How far the growth axis goes, and how its values are spread, if there is anything to show.
+/// Range and scale of the growth axis, if there is anything to show.
 fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     if !is_worth_showing(report) {
         return None;
@@ -98,15 +98,15 @@ fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     Some(([-decay, growth], spread(report, growth.max(decay))))
 }
 
-/// The growth axis, below the labels of the bands, if it has anything to show.
+/// The growth axis below the labels of the bands, if there is anything to show.
 pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
     let (range, spread) = range(chart.report, chart.speed.values())?;
     let places = [chart.lower.bottom, chart.lower.top + labels_height];
     Some(Axis::new(range, places, spread))
 }
 
-/// Divergence often grows thirty times as fast as flutter beside it, which would
-/// vanish on an even axis.
+/// Divergence often grows thirty times as fast as flutter beside it, which would be invisible on a linear
+/// axis.
 fn spread(report: &Report, greatest: f64) -> Spread {
     const SEEN: f64 = 0.12;
     let unseen = |band: &InstabilityEntry| band.peak_growth_per_s < SEEN * greatest;
@@ -153,14 +153,14 @@ fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
     if text.is_empty() {
         return;
     }
-    // The line of the operating speed may pass behind it.
+    // The line of the operating speed may pass behind the text.
     sheet.fill(text_frame(at, &letters, text), PAPER);
     sheet.text(at, letters, text);
 }
 
-/// The panel, without the bands and critical speeds behind it. Of an undamped saw growth within the bands alone: there is
-/// none outside, and the decaying eigenvalues mirror the growing ones. Of a damped one all branches, and the curve that is
-/// expected of bands that no sample came near.
+/// The panel without bands and critical speeds. For an undamped saw it contains only growth within the bands,
+/// because nothing grows outside of them and decaying eigenvalues mirror the growing ones. For a damped saw
+/// it contains all branches, and the estimated curve of bands that no sample is close to.
 pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {
     let mut items = Vec::new();
     let mut bands: Vec<&InstabilityEntry> = report.instabilities.iter().collect();
@@ -185,7 +185,7 @@ pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -
     }
 }
 
-/// Either the growing or the decaying stretches of a branch; where it neither grows nor decays it would only thicken the
+/// The growing or the decaying parts of a branch. Parts that neither grow nor decay would only thicken the
 /// zero line.
 fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Vec<Item> {
     let growth = &branch.growth_per_s;
@@ -261,7 +261,7 @@ fn kind(band: &InstabilityEntry) -> &'static str {
     }
 }
 
-/// Speeds and growth rates of a band from one end to the other, those of its own branch.
+/// Speeds and growth rates of a band from its onset to its end, along its own branch.
 pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
@@ -277,8 +277,8 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     let growing = samples.iter().filter(inside).filter(|s| s[1] > 0.0);
     let peak = [band.peak_rpm, band.peak_growth_per_s];
     let squares = growing.chain([&peak]).map(|[rpm, g]| [*rpm, g * g]);
-    // Growth begins at zero where two waves merge or a wave stands still; where two real λ
-    // meet, it goes on beyond the band.
+    // Growth begins at zero where two waves coalesce or a wave stands still. Where two real λ meet, it
+    // continues beyond the band.
     let next = [
         samples.iter().rfind(|s| s[0] <= ends[0]),
         samples.iter().find(|s| s[0] >= ends[1]),

@@ -1,4 +1,4 @@
-//! The lines at the foot that explain what is not labelled in place.
+//! The lines at the foot that explain what has no label.
 
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::chart_data::Line;
@@ -14,7 +14,7 @@ use super::view::left_out;
 use super::waves::{draw_measured_mark, measured_source};
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 
-/// Length of a line in the legend.
+/// Length of a sample line in the legend.
 const SAMPLE: f64 = 22.0;
 
 /// Writes both lines.
@@ -50,7 +50,7 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     draw_notes(sheet, chart, labels);
 }
 
-/// A line of any direction.
+/// The stroke of a line without direction.
 fn grey(line: &Line) -> Stroke {
     Stroke {
         colour: STANDING,

@@ -1,4 +1,4 @@
-//! What belongs to single speeds: bands, critical speeds, the operating speed.
+//! Marks at single speeds: bands, critical speeds, operating speed.
 
 use super::super::bands::places;
 use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
@@ -10,11 +10,11 @@ use super::super::style::{
 use super::{Chart, WIDTH, waves};
 use crate::report::CriticalSpeedEntry;
 
-/// Baselines of the critical speeds and of the waves that stand still there, and the upper end of the lines to them.
+/// Baselines of the critical speeds and of the names of their waves, and the upper end of their lines.
 const CRITICAL_BASELINE: f64 = 83.0;
 const WAVES_BASELINE: f64 = 97.0;
 const CRITICAL_TOP: f64 = 101.0;
-/// Room for the waves of a single speed.
+/// Smallest width for the waves of a single speed.
 const LEAST_WIDTH: f64 = 44.0;
 
 /// Critical speeds within the sweep, ascending.
@@ -89,7 +89,7 @@ fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
     }
 }
 
-/// "2", "2/1" with a nodal circle, and "4+3" where no wave dominates.
+/// A wave: "2", "2/1" with a nodal circle, "4+3" if no wave dominates.
 fn wave(entry: &CriticalSpeedEntry) -> String {
     let shares = entry.name.split(" + ");
     let first = |share: &str| share.split(' ').next().unwrap_or_default().to_owned();
@@ -100,14 +100,14 @@ fn wave(entry: &CriticalSpeedEntry) -> String {
     }
 }
 
-/// The operating speed and its place on the sheet, where it is shown.
+/// The operating speed and its position on the sheet, if it is shown.
 fn operating<'a>(chart: &'a Chart) -> Option<(&'a Upright, f64)> {
     let upright = chart.uprights(Role::Operating).next()?;
     let is_shown = chart.speed.shows(upright.x);
     is_shown.then(|| (upright, chart.speed.at(upright.x)))
 }
 
-/// Place of the operating speed on the sheet.
+/// Position of the operating speed on the sheet.
 pub fn operating_place(chart: &Chart) -> Option<f64> {
     operating(chart).map(|(_, x)| x)
 }
@@ -121,8 +121,7 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
     }
 }
 
-/// Writes the operating speed at the upper end of its line, or beside the line, as
-/// high up as nothing is in the way.
+/// Writes the operating speed at the upper end of its line, or beside the line at the highest free position.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let Some((Upright { label, .. }, x)) = operating(chart) else {
         return;
@@ -153,7 +152,7 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     sheet.text(at, letters, label);
 }
 
-/// Whether a text is in the frame already.
+/// Whether the frame already contains text.
 fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
     sheet.marks().iter().any(|mark| match mark {
         Mark::Text(at, letters, text) => text_frame(*at, letters, text).overlaps(frame),
@@ -161,9 +160,9 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
     })
 }
 
-/// Whether the frame meets a band, or the dashed line of a critical speed.
+/// Whether the frame overlaps a band or the dashed line of a critical speed.
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
-    // The lines of critical speeds begin above the panel, the bands with it.
+    // Lines of critical speeds begin above the panel, bands at its upper edge.
     let within = frame.bottom > chart.upper.top;
     let bands = chart.bands().filter(|_| within);
     let bands = bands.filter_map(|band| places(&chart.speed, [band.from, band.to]));

@@ -44,7 +44,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
     }
 }
 
-/// Texts of a figure that begin with a word.
+/// Texts of a figure that begin with a given word.
 fn starting_with(drawn: &Sheet, word: &str) -> Vec<String> {
     let texts = texts(drawn).into_iter();
     let own = texts.filter(|(_, text)| text.starts_with(word));
@@ -64,13 +64,13 @@ fn a_band_that_is_not_shaded_has_no_label_but_is_told() {
     assert!(!notes.contains("without a label"), "{notes}");
 }
 
-/// The critical speeds of n = 2, 3 and 4 of the made-up saw, two of each.
+/// The synthetic saw has two critical speeds each of n = 2, 3 and 4.
 #[test]
 fn critical_speeds_have_the_waves_that_stand_still() {
     let drawn = sheet(&busy_report(), CampbellView::default());
     let waves = starting_with(&drawn, "n = ");
     assert_eq!(waves, ["n = 2", "n = 3", "n = 4"]);
-    // The lower one of two whose labels are joined may be that of more diameters.
+    // Of two joined labels the lower one may have more diameters.
     let mut tensioned = busy_report();
     tensioned.critical_speeds[0].nodal_diameters = 3;
     let drawn = sheet(&tensioned, CampbellView::default());
@@ -81,7 +81,7 @@ fn critical_speeds_have_the_waves_that_stand_still() {
     assert_eq!(starting_with(&drawn, "nodal diameters").len(), 1);
 }
 
-/// 193 bands over ten thousand rpm.
+/// The sweep has 193 bands within ten thousand rpm.
 #[test]
 fn very_many_bands_are_drawn_as_far_as_they_can_be_told_apart() {
     let mut report = busy_report();
@@ -207,8 +207,8 @@ fn growth_is_drawn_within_the_bands_and_never_below_zero() {
     }
 }
 
-/// Branch 1 flutters from 10 to 30 rpm while branch 2 diverges from 20 to 40: each is drawn in the colour of its own band
-/// and from its own edges.
+/// Branch 1 flutters from 10 to 30 rpm while branch 2 diverges from 20 to 40: each is drawn in the colour and
+/// between the edges of its own band.
 #[test]
 fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
     let mut report = busy_report();

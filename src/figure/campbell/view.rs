@@ -1,12 +1,12 @@
-//! Which part of a chart its figure shows.
+//! The part of a Campbell diagram that its figure shows.
 
 use super::super::axis::proper_range;
 use super::super::bands::is_shaded;
 use super::waves;
 use crate::report::{InstabilityEntry, Report};
 
-/// Which part of the Campbell diagram its figure shows. An end that is `None` is chosen: the whole sweep, or as much
-/// of it as can be read where there are very many bands.
+/// The part of the Campbell diagram that its figure shows. An end that is `None` is chosen automatically: the
+/// whole sweep, or, with very many bands, as much as can be read.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct CampbellView {
     /// First rotation speed.
@@ -17,12 +17,12 @@ pub struct CampbellView {
     pub to_hz: Option<f64>,
 }
 
-/// So many bands can be told apart: a few have a label, of all the curve of growth is seen.
+/// Largest number of bands that can be distinguished: a few have labels, all have visible growth curves.
 const MOST_BANDS: usize = 40;
-/// What matters most is not at the edge.
+/// Factor by which the axis exceeds the last important speed.
 const BEYOND: f64 = 1.1;
 
-/// First and last rotation speed, and the highest frequency.
+/// First and last rotation speed, and highest frequency.
 pub struct Shown {
     pub rpm: [f64; 2],
     pub hz: f64,
@@ -35,7 +35,7 @@ impl CampbellView {
         let to = self
             .to_rpm
             .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
-        // The axes are drawn over what has a length.
+        // An axis cannot be empty.
         let [from, to] = proper_range([from, to]);
         let hz = self.to_hz;
         let hz = hz.unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
@@ -47,8 +47,8 @@ impl CampbellView {
     }
 }
 
-/// The end of the sweep, or where the first band begins that would be one too many; beyond the operating speed and
-/// the flutter speed.
+/// The end of the sweep, or, with too many bands, the onset of the first one that exceeds their largest
+/// number; but at least the operating speed and the flutter speed.
 fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     let end = report.campbell.to_rpm;
     let later = report.instabilities.iter().filter(|b| b.to_rpm >= from_rpm);
@@ -62,7 +62,7 @@ fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     marks.fold(*onset, f64::max).min(end)
 }
 
-/// What the figure leaves out, in words, where so many bands have a label.
+/// Sentence on what the figure omits, if only `labelled` bands have labels.
 pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<String> {
     let mut notes = Vec::new();
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
@@ -81,7 +81,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
         1 => format!("1 wide band that grows by less than {threshold} 1/s: not shaded"),
         _ => format!("{weak} wide bands that grow by less than {threshold} 1/s: not shaded"),
     };
-    // A band that is not shaded has no label either.
+    // A band without shade has no label.
     let others = shown.saturating_sub(labelled + weak);
     let of_others = match others {
         0 => String::new(),

@@ -11,23 +11,22 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, Direction, Report};
 use crate::scene::MeasuredRow;
 
-/// From the end of a branch to its label.
+/// Distance of a label from the end of its branch.
 const LABEL_GAP: f64 = 16.0;
 const LONGEST_LABEL: f64 = 150.0;
 const LINE_HEIGHT: f64 = 15.0;
-/// A label further from its branch would be taken for that of another, even
-/// though a leader joins the two.
+/// A label further from its branch would seem to belong to another, even with a leader.
 const FARTHEST_LABEL: f64 = 72.0;
-/// The same for the labels above the panel, which have no leader.
+/// This limit for the labels above the panel, which have no leader.
 const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
-/// How a branch runs at one of its speeds.
+/// Direction of a branch at one of its speeds.
 pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
     let direction = branch.direction.get(sample);
     direction.copied().unwrap_or(Direction::Standing)
 }
 
-/// The colour of a branch at the last of its speeds that are shown.
+/// Colour of a branch at the last of its speeds shown.
 fn last_colour(branch: &BranchEntry, chart: &Chart) -> Colour {
     let shown = branch.rpm.iter().rposition(|rpm| chart.speed.shows(*rpm));
     Hue::of_direction(direction_at(branch, shown.unwrap_or(0))).colour()
@@ -37,7 +36,7 @@ fn short_label(branch: &BranchEntry) -> String {
     shorten(&branch.label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
 }
 
-/// Room to the right of the plot.
+/// Width to the right of the plot.
 pub fn end_label_room(report: &Report) -> f64 {
     let widths = report
         .campbell
@@ -47,8 +46,9 @@ pub fn end_label_room(report: &Report) -> f64 {
     LABEL_GAP + widths.fold(40.0, f64::max)
 }
 
-/// Upper end of the frequency axis over a range of speeds: high enough for the lowest branches at its beginning, for
-/// reflected waves, bands and measured points, and not higher, since everything that matters happens near the axis.
+/// Upper end of the frequency axis over a range of speeds: it includes the lowest branches at its beginning,
+/// reflected waves, bands and measured points, and no more, because important events happen at low
+/// frequencies.
 pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     const HEADROOM: f64 = 1.1;
     const LOWEST_BRANCHES: usize = 6;
@@ -58,7 +58,7 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
         .iter()
         .filter_map(|branch| {
             let at = branch.rpm.iter().rposition(|rpm| *rpm <= from)?;
-            // A branch that ends before does not begin here.
+            // A branch that ends earlier does not begin here.
             let goes_on = branch.rpm[at] == from || at + 1 < branch.rpm.len();
             branch.frequency_hz.get(at).copied().filter(|_| goes_on)
         })
@@ -81,7 +81,7 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;
-    // Lines end a little below the height that the chart is complete to.
+    // Curves end slightly below the frequency up to which the diagram is complete.
     let bound = if complete > 0.0 {
         0.985 * complete
     } else {
@@ -95,7 +95,7 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|v| v.is_finite()).fold(0.0, f64::max)
 }
 
-/// What is said of a stretch of a branch.
+/// Part of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stretch {
     Plain,
@@ -112,7 +112,7 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
             .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
     };
     let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
-    // A segment that leads up to a band ends on its edge, growing or not.
+    // A segment that leads to a band ends at the edge of the band, whether or not it grows.
     let middle = (branch.rpm[i] + branch.rpm[i + 1]) / 2.0;
     let mut bands = report.instabilities.iter();
     let in_band = bands.any(|band| band.from_rpm <= middle && middle <= band.to_rpm);
@@ -125,7 +125,7 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
     }
 }
 
-/// Whether a branch or a measured point passes through the frame.
+/// Whether a branch or a measured point crosses the frame.
 pub fn is_crossed(chart: &Chart, frame: &Frame) -> bool {
     let around = Frame {
         left: frame.left - 2.0,
@@ -196,7 +196,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
     }
 }
 
-/// Labels of the branches that leave through the upper edge, above it.
+/// Labels, above the upper edge, of branches that cross it.
 fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) {
     let wish = |&(branch, centre): &(&BranchEntry, f64)| {
         let length = text_width(&short_label(branch), LABEL_SIZE, Weight::Regular) + 8.0;
@@ -212,7 +212,7 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
         let at = [centre, chart.upper.top - 6.0];
         let label = short_label(branch);
-        // Dashed lines of critical speeds pass here.
+        // Dashed lines of critical speeds pass behind the label.
         sheet.fill(text_frame(at, &letters, &label), PAPER);
         sheet.text(at, letters, &label);
     }
@@ -231,7 +231,7 @@ fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Where the measured points are from, if the figure shows any.
+/// Source of the measured points, if the figure shows any.
 pub fn measured_source<'a>(chart: &Chart<'a>) -> Option<&'a str> {
     let measured = chart.report.scene.measured.as_ref();
     let source = measured.map(|m| m.source.as_str());

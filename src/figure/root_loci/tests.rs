@@ -9,7 +9,7 @@ fn report(loci: RootLociEntry) -> Report {
     report
 }
 
-/// A band that reaches the end of the sweep, where the growth is far from zero.
+/// A band that extends to the end of the sweep, where the growth is far from zero.
 fn cut_short() -> RootLociEntry {
     let mut entry = sample_loci(0.01);
     let kept = entry.rpm.iter().filter(|rpm| **rpm < 2264.0).count();
