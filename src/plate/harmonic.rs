@@ -8,20 +8,20 @@ use crate::scene::Blade;
 use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
 
-/// Stiffness of n nodal diameters, J × J, in 1/s² and 1: the basis is scaled
-/// so that the mass matrix is the identity. It serves cos nθ and sin nθ alike.
+/// Stiffness matrices of n nodal diameters, J × J, in 1/s² or dimensionless: the basis is scaled so that the
+/// mass matrix is the identity. They are the same for cos nθ and sin nθ.
 #[derive(Debug, Clone)]
 pub struct HarmonicBlock {
     /// Number of nodal diameters n.
     pub diameters: usize,
-    /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², h₀ the thickness that
-    /// mass is referred to.
+    /// K_b: ∫ D/ρh₀ [κ_r² + κ_θ² + 2ν κ_r κ_θ + 2(1−ν) κ_rθ²] r dr, in 1/s², with the reference thickness h₀
+    /// of the mass.
     pub bending: DMatrix<f64>,
     /// K_σ − N: ∫ h/h₀ [σ̂_rr R′R′ + n² σ̂_θθ RR/r²] r dr − n² δ, dimensionless (times Ω²).
     pub spin: DMatrix<f64>,
-    /// K_m, in 1/s², of a membrane stress that does not depend on the speed.
+    /// K_m, in 1/s², of a membrane stress that is independent of the speed.
     pub membrane: Option<DMatrix<f64>>,
-    /// ∫ RR r dr, where it is not the identity: the area of what has one mass, on which air acts.
+    /// ∫ RR r dr if it is not the identity: area relative to mass, for the damping of the air.
     pub area: Option<DMatrix<f64>>,
 }
 
@@ -96,9 +96,9 @@ impl HarmonicBlock {
         })
     }
 
-    /// Heave and tilt neither bend nor, spinning, stiffen the blade: K_b and
-    /// K_σ − N vanish on them exactly. Rounding would leave 1e-16 of their
-    /// neighbours, whose root is a spurious drift of 1e-8.
+    /// Heave and tilt do not bend the blade, and its rotation does not stiffen them: K_b and K_σ − N vanish
+    /// on them exactly. Rounding would leave 1e-16 of neighbouring entries, whose root is a spurious slow
+    /// motion of 1e-8.
     fn free_rigid_motion(&mut self, basis: &RadialBasis) {
         if basis.has_rigid_motions() && self.diameters <= 1 {
             self.bending.column_mut(0).fill(0.0);
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use crate::scene::{Scene, ThicknessRow};
 
-    /// Before the exact zeros are written, quadrature alone must give them to rounding.
+    /// Before exact zeros are inserted, quadrature alone gives zeros to rounding.
     #[test]
     fn rigid_motions_cost_nothing() {
         let blade = *Scene::paper().blade();
@@ -135,9 +135,9 @@ mod tests {
         }
     }
 
-    /// wᵀ(K_σ − N)w = 0 for w = f(x cos α + y sin α), whatever the bore and the thickness over the radius:
-    /// each chord is in equilibrium, ∫ hσ_xx dy = ρΩ² ∫ h y² dy, where N has (∂θw)² = y² f′². The tilt is
-    /// the first of them; here all powers up to the sixth, of which harmonics n = p, p − 2, … take part.
+    /// wᵀ(K_σ − N)w = 0 for w = f(x cos α + y sin α), for any bore and thickness: each chord is in
+    /// equilibrium, ∫ hσ_xx dy = ρΩ² ∫ h y² dy, where N has (∂θw)² = y² f′². The tilt is the simplest case;
+    /// here all powers up to the sixth are tested, which contain the harmonics n = p, p − 2, ….
     #[test]
     fn what_bends_about_a_chord_is_neither_stiffened_nor_softened() {
         let row = |radius_m, thickness_m| ThicknessRow {
@@ -169,7 +169,7 @@ mod tests {
                         let weight = w * r * blade.thickness_ratio(r) * r.powi(power as i32);
                         q += DVector::from_vec(basis.evaluate(n, r).value) * weight;
                     }
-                    // xᵖ = Σ 2^(1−p) C(p, s) rᵖ cos nθ, half of it for n = 0, on which ∫dθ is twice π.
+                    // xᵖ = Σ 2^(1−p) C(p, s) rᵖ cos nθ, with half of it for n = 0, whose ∫dθ is twice π.
                     let share = if n == 0 {
                         0.5 * factor * factor
                     } else {

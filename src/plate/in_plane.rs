@@ -1,10 +1,9 @@
-//! Plane stress of a blade whose thickness varies: finite elements over the radius, of high order.
+//! Plane stress of a blade of varying thickness: finite elements over the radius, of high order.
 //!
-//! For the harmonic m the displacements are u_r = u(r) cos mθ and u_θ = v(r) sin mθ, with
-//! ε_rr = u′, ε_θθ = (u + mv)/r, γ_rθ = v′ − (v + mu)/r. They minimise the energy of the blade
-//! with the thickness h(r); each element is a polynomial of degree 14, and elements end
-//! where the thickness or the load is not smooth, so that stresses are right to rounding, and jump
-//! where those of the blade do.
+//! For the harmonic m the displacements are u_r = u(r) cos mθ and u_θ = v(r) sin mθ, with ε_rr = u′, ε_θθ =
+//! (u + mv)/r, γ_rθ = v′ − (v + mu)/r. They minimize the energy of the blade with the thickness h(r). Each
+//! element is a polynomial of degree 14, and elements end where thickness or load is not smooth, so that
+//! stresses are exact to rounding, including their jumps.
 //!
 //! References: B. Szabó & I. Babuška, *Finite Element Analysis*, 1991, chapter 3, for elements of
 //! high order; J.-P. Berrut & L. N. Trefethen, *Barycentric Lagrange interpolation*, SIAM Review 46
@@ -20,13 +19,13 @@ use crate::scene::{Blade, Material};
 
 use super::quadrature;
 
-/// What acts on the blade in its plane, with the harmonic's factor cos mθ (sin mθ along the rim).
+/// Load on the blade in its plane, without the factor cos mθ of the harmonic (sin mθ along the rim).
 pub struct InPlaneLoad<'a> {
-    /// Force along the radius on a volume, in N/m³.
+    /// Radial force per volume, in N/m³.
     pub body_n_per_m3: &'a dyn Fn(f64) -> f64,
-    /// Eigenstrain of all directions of the plane.
+    /// Eigenstrain, isotropic in the plane.
     pub eigenstrain: &'a dyn Fn(f64) -> f64,
-    /// Radii and forces of a circle, for each radian, outwards, in N.
+    /// Radii of circles with an outward force per radian, in N.
     pub circle_n: &'a [(f64, f64)],
     /// σ_rr and σ_rθ at the rim.
     pub rim_pa: [f64; 2],
@@ -34,7 +33,7 @@ pub struct InPlaneLoad<'a> {
     pub bore_pa: [f64; 2],
     /// Radii at which the load is not smooth.
     pub knots_m: &'a [f64],
-    /// Whether the bore keeps its radius.
+    /// Whether the bore has zero displacement.
     pub bore_is_held: bool,
 }
 
@@ -52,7 +51,7 @@ impl Default for InPlaneLoad<'_> {
     }
 }
 
-/// Displacements of one harmonic, and the strains and stresses that follow.
+/// Displacements of one harmonic, from which strains and stresses follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InPlaneField {
     elements: Elements,
@@ -73,7 +72,7 @@ pub struct InPlaneStress {
 }
 
 impl InPlaneField {
-    /// Solves harmonic m. Loads of m = 1 must balance; of m = 0 only the radial part is solved.
+    /// Solves harmonic m. Loads of m = 1 must be balanced; for m = 0 only the radial part is solved.
     pub fn new(blade: &Blade, order: usize, load: &InPlaneLoad<'_>) -> Self {
         let elements = Elements::new(blade, order, load.knots_m);
         let components = if order == 0 { 1 } else { 2 };
@@ -93,7 +92,7 @@ impl InPlaneField {
         for &(radius, force) in load.circle_n {
             right[components * elements.node_at_edge(radius)] += force;
         }
-        // A translation strains nothing: one node is held, without a force where loads balance.
+        // A translation causes no strain, so one node is fixed; it carries no force if the loads balance.
         if order == 1 || load.bore_is_held {
             stiffness.hold(0);
             right[0] = 0.0;
@@ -106,7 +105,8 @@ impl InPlaneField {
         }
     }
 
-    /// Stress at a radius, of which `eigenstrain` is not elastic; at a jump that of the inner side.
+    /// Stress at a radius, where `eigenstrain` is the inelastic part of the strain; at a jump, that of the
+    /// inner side.
     pub fn at(&self, radius_m: f64, eigenstrain: f64) -> InPlaneStress {
         let element = self.elements.at(radius_m);
         let values = self.elements.values(element, radius_m);

@@ -1,18 +1,18 @@
-//! The physics of the spinning plate: each file builds one named matrix.
+//! The model of the spinning plate; each file builds one named matrix.
 //!
-//! In goes a [`Scene`] and the size of the basis, a [`Resolution`]; out comes a [`Plate`], the
-//! matrices of the scene in that basis. Nothing here solves for eigenvalues.
+//! A [`Scene`] and a [`Resolution`], the size of the basis, give a [`Plate`], the matrices of the scene in
+//! this basis. This module solves no eigenvalue problem.
 //!
-//! Deflection w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) of a Kirchhoff plate on a < r < b, in the frame fixed
-//! in space, with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh₀ π(1+δ_n0)) in 1/√kg, so that the mass matrix
-//! ∫ φᵢφⱼ dm is the identity, h₀ being the thickness that mass is referred to; q is in √kg·m. Order of the N = J(2 n_max + 1) unknowns: n = 0: J
-//! cosines; then for each n ≥ 1: J cosines, J sines. With M = 1 every stiffness is in 1/s² and every
-//! damping in 1/s.
+//! Deflection w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) of a Kirchhoff plate on a < r < b, in the frame fixed in space,
+//! with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh₀ π(1+δ_n0)) in 1/√kg, so that the mass matrix ∫ φᵢφⱼ dm is the
+//! identity, with the reference thickness h₀ of the mass; q is in √kg·m. Order of the N = J(2 n_max + 1)
+//! unknowns: n = 0: J cosines; then for each n ≥ 1: J cosines, J sines. With M = 1 every stiffness is in 1/s²
+//! and every damping in 1/s.
 //!
-//! References: Timoshenko & Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed., chapters 3
-//! and 9, for the plate; C. D. Mote, *Free vibration of initially stressed circular disks*, J. Eng.
-//! Ind. 87 (1965), 258–264, for stress in its plane; W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43
-//! (1976), 485–490, for what is fixed in space.
+//! References: Timoshenko & Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed., chapters 3 and 9, for
+//! the plate; C. D. Mote, *Free vibration of initially stressed circular disks*, J. Eng. Ind. 87 (1965),
+//! 258–264, for stress in its plane; W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490, for loads
+//! fixed in space.
 
 mod contact;
 mod edge_load;
@@ -39,24 +39,25 @@ use stress::CentrifugalStress;
 
 use crate::scene::{Accuracy, Blade, Cut, CutRun, Damping, RefusedValue, Scene};
 
-/// How many functions describe the deflection.
+/// Size of the basis of the deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Resolution {
     /// Largest number of nodal diameters n_max.
     pub max_diameters: usize,
-    /// Polynomials over the radius J for each; steps and bends of the thickness add to them.
+    /// Number J of polynomials over the radius for each n; steps and kinks of the thickness add further
+    /// functions.
     pub radial_functions: usize,
 }
 
-/// Most diameters and most radial functions that may be asked for, those of the finest basis that a tolerance chooses:
-/// beyond them memory is short.
+/// Largest number of diameters and of radial functions that may be requested, those of the finest basis that
+/// a tolerance selects. Memory limits them.
 const LARGEST: (usize, usize) = (70, 30);
 
 impl Resolution {
-    /// A basis as asked for.
+    /// A basis of a given size.
     ///
     /// # Errors
-    /// [`RefusedValue`] where it is too small to bend, or larger than memory allows.
+    /// [`RefusedValue`] if the basis is too small to bend, or larger than memory allows.
     pub fn new(max_diameters: usize, radial_functions: usize) -> Result<Self, RefusedValue> {
         let (diameters, functions) = LARGEST;
         if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {
@@ -83,13 +84,13 @@ impl Resolution {
         }
     }
 
-    /// Number of unknowns of a blade of one thickness, J (2 n_max + 1).
+    /// Number of unknowns of a blade of uniform thickness, J (2 n_max + 1).
     pub fn degrees_of_freedom(&self) -> usize {
         self.radial_functions * (2 * self.max_diameters + 1)
     }
 }
 
-/// The matrices of a scene in a basis, M = 1. Only what the scene names is there.
+/// The matrices of a scene in a basis, M = 1. Terms that the scene does not contain are not assembled.
 #[derive(Debug, Clone)]
 pub struct Plate {
     /// The moving annulus.
@@ -100,19 +101,19 @@ pub struct Plate {
     pub(crate) basis: RadialBasis,
     /// K_b, K_m and K_σ − N of n = 0 … n_max.
     pub harmonics: Vec<HarmonicBlock>,
-    /// Terms of what touches the blade: guides, and what [`Plate::with_contact`] adds.
+    /// Terms of contacts: guides, and those that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
-    /// K_e, in 1/s², N × N, symmetric, once [`Plate::with_edge_loads`] has put forces on the rim.
+    /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
     pub edge_stiffness: Option<Mat<f64>>,
-    /// Material and air damping, when the scene names them.
+    /// Material and air damping, if the scene has any.
     pub(crate) damping: Option<Damping>,
-    /// Stress of heat, roll tension or manufacture, when the scene names one.
+    /// Stress of heat, roll tension or manufacture, if the scene has any.
     pub membrane: Option<MembraneStress>,
     /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
     samples: [Vec<Vec<f64>>; 2],
 }
 
-/// Enough radii to see every nodal circle of a mode that a chart shows.
+/// Number of radii; it resolves every nodal circle of a mode in a diagram.
 const SAMPLED_RADII: usize = 41;
 
 fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
@@ -121,8 +122,8 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
 }
 
 impl Plate {
-    /// Assembles the matrices that the scene asks for. Every scene that is valid has them; a
-    /// resolution of fewer than two radial functions is not one, see [`Resolution::new`].
+    /// Assembles the matrices of a scene. This succeeds for every valid scene; a resolution needs two radial
+    /// functions, see [`Resolution::new`].
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let stress = CentrifugalStress::new(scene.blade());
@@ -164,20 +165,20 @@ impl Plate {
         }
     }
 
-    /// The same plate, touched by something more.
+    /// The plate with another contact.
     pub fn with_contact(&self, more: &impl Contact) -> Self {
         let mut plate = self.clone();
         more.add_to(self, &mut plate.contact);
         plate
     }
 
-    /// The same plate under dead forces at its rim, reacted at the bore as [`EdgeStress`] says.
+    /// The plate under dead forces at its rim, with reactions at the bore as in [`EdgeStress`].
     pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
         let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
         self.with_edge_stiffness(edge_stiffness(self, &stress))
     }
 
-    /// The same plate in a cut: under its forces, as dead loads, and against its wood.
+    /// The plate in a cut: under its forces, as dead loads, and in contact with the wood.
     pub fn in_cut(&self, cut: &Cut, run: &CutRun) -> Self {
         let loads = RimForce::of_cut(cut, run.tangential_n, run.radial_n);
         let loaded = self.with_edge_loads(&loads);
@@ -187,7 +188,7 @@ impl Plate {
         }
     }
 
-    /// The same plate with a given K_e, in 1/s², N × N.
+    /// The plate with a given K_e, in 1/s², N × N.
     pub(crate) fn with_edge_stiffness(&self, edge_stiffness: Mat<f64>) -> Self {
         Plate {
             edge_stiffness: Some(edge_stiffness),
@@ -195,7 +196,7 @@ impl Plate {
         }
     }
 
-    /// The same plate without stress of heat, roll tension or manufacture.
+    /// The plate without stress of heat, roll tension or manufacture.
     pub(crate) fn without_membrane(&self) -> Self {
         let mut plate = Plate {
             membrane: None,
@@ -205,7 +206,7 @@ impl Plate {
         plate
     }
 
-    /// The same plate without damping, and without contact forces that have no potential.
+    /// The plate without damping and without contact forces that have no potential.
     pub fn conservative(&self) -> Self {
         Plate {
             contact: self.contact.conservative(),
@@ -224,8 +225,8 @@ impl Plate {
         self.basis.count() * (2 * self.max_diameters() + 1)
     }
 
-    /// Radial functions of each number of nodal diameters: those of the resolution, and those that steps and
-    /// bends of the thickness add.
+    /// Number of radial functions for each number of nodal diameters: those of the resolution, and those that
+    /// steps and kinks of the thickness add.
     pub fn radial_functions(&self) -> usize {
         self.basis.count()
     }
@@ -247,19 +248,17 @@ impl Plate {
         self.contact.is_empty() && self.edge_stiffness.is_none()
     }
 
-    /// Whether nothing is there that has no potential: then eigenvalues come in quadruples and
-    /// modes have Krein signs.
+    /// Whether all forces have a potential: then eigenvalues come in quadruples and modes have Krein signs.
     pub fn is_conservative(&self) -> bool {
         self.damping.is_none() && self.contact.is_conservative()
     }
 
-    /// R_nj of n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values a
-    /// radius.
+    /// R_nj of n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values for each radius.
     pub fn sampled_functions(&self, n: usize) -> &[Vec<f64>] {
         &self.samples[usize::from(n == 1)]
     }
 
-    /// 41 radii, evenly spread from edge to edge, in m.
+    /// 41 radii, evenly spaced from edge to edge, in m.
     pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
         sampled_radii(&self.blade)
     }
@@ -301,7 +300,7 @@ mod tests {
         (left - right).norm_l2() / right.norm_l2()
     }
 
-    /// The pad's integral by brute force: midpoint rule over the rectangle.
+    /// The integral over a pad, by the midpoint rule over the rectangle.
     #[test]
     fn a_clipped_pad_equals_its_midpoint_sum() {
         let pad = GuideFile {
@@ -330,7 +329,7 @@ mod tests {
             }
         }
         let distance = relative_distance(plate.contact.stiffness().unwrap(), &sum);
-        // The rim cuts cells: the midpoint sum itself is good to about one cell in 400².
+        // The rim crosses cells, so the midpoint sum is accurate to about one cell in 400².
         assert!(distance < 2e-4, "{distance}");
     }
 

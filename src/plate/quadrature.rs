@@ -36,9 +36,8 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
     pairs
 }
 
-/// Rule on [from, to], 0 < from, for a polynomial times r⁻³ … r⁻¹: panels grow
-/// by at most a factor two away from the axis, so that on each of them the
-/// negative powers converge at 5.8⁻²ⁿ whatever the bore.
+/// Rule on [from, to], 0 < from, for a polynomial times r⁻³ … r⁻¹: each panel ends at twice its first radius
+/// or before, so that the negative powers converge as 5.8⁻²ⁿ for every bore.
 pub fn graded(from: f64, to: f64, points: usize) -> Rule {
     let panels = (to / from).log2().ceil().max(1.0) as usize;
     let growth = (to / from).powf(1.0 / panels as f64);
@@ -65,8 +64,8 @@ pub fn piecewise(edges: &[f64], points: usize) -> Rule {
     whole
 }
 
-/// Rule on [from, to] for an integrand with square-root ends, as the angle
-/// that a circle spends inside a rectangle has: x = sin(πt/2) makes it smooth.
+/// Rule on [from, to] for an integrand with square-root ends, such as the angle of the arc of a circle inside
+/// a rectangle: x = sin(πt/2) makes it smooth.
 pub fn root_ended(from: f64, to: f64, points: usize) -> Rule {
     let half = 0.5 * (to - from);
     let mut rule = Rule::default();

@@ -1,14 +1,14 @@
 //! Radial functions R_nj(r): polynomials, orthonormal with weight r on the annulus.
 //!
-//! A free edge asks nothing of them. A clamped bore multiplies them by
-//! ((r−a)/(b−a))². For n = 1 on a free bore the first two are turned so that the
-//! first is the rigid tilt, R ∝ r; for n = 0 the first is the rigid heave already.
+//! A free edge imposes no condition on them. For a clamped bore they are multiplied by ((r−a)/(b−a))². For n
+//! = 1 on a free bore the first two are rotated so that the first is the rigid tilt, R ∝ r; for n = 0 the
+//! first is the rigid heave.
 //!
-//! Where the thickness is not uniform the weight is μ(r) r, μ the mass of an area over that of the
-//! thickness `thickness_m`, with the mass of teeth as a point of it: the mass matrix stays the
-//! identity. At a step of thickness the moment is continuous and the curvature is not, which no
-//! polynomial follows: truncated powers (r − r_k)₊^p join the basis there. They come after the
-//! first two polynomials, so that a larger basis begins with a smaller one.
+//! If the thickness is not uniform the weight is μ(r) r, where μ is the mass per area relative to that of the
+//! thickness `thickness_m`, including the mass of teeth at one radius, so that the mass matrix remains the
+//! identity. At a step of thickness the moment is continuous and the curvature is not, which polynomials
+//! approximate poorly: truncated powers (r − r_k)₊^p are added to the basis there. They follow the first two
+//! polynomials, so that a larger basis begins with a smaller one.
 
 use crate::scene::{Blade, Bore};
 
@@ -25,8 +25,8 @@ pub struct RadialValues {
     pub curvature: Vec<f64>,
 }
 
-/// J polynomials, and a few functions more for each knot of the thickness, for each number of
-/// nodal diameters n, with ∫ R_nj R_nk μ r dr = δ_jk over a < r < b.
+/// J polynomials, and a few functions for each knot of the thickness, for each number of nodal diameters n,
+/// with ∫ R_nj R_nk μ r dr = δ_jk over a < r < b.
 #[derive(Debug, Clone)]
 pub(crate) struct RadialBasis {
     inner_radius_m: f64,
@@ -35,37 +35,36 @@ pub(crate) struct RadialBasis {
     /// Three-term recurrence x pⱼ = offᵢ₊₁ pⱼ₊₁ + diagⱼ pⱼ + offⱼ pⱼ₋₁; `off[0]` scales p₀.
     diag: Vec<f64>,
     off: Vec<f64>,
-    /// (cos, sin) of the turn that makes the first function of n = 1 the rigid tilt.
+    /// (cos, sin) of the rotation that makes the first function of n = 1 the rigid tilt.
     tilt: Option<(f64, f64)>,
     knots: Option<KnotFunctions>,
-    /// For integrals over the area.
+    /// Rule for integrals over the area.
     rule: Rule,
-    /// For integrals over the mass: its weights contain μ r.
+    /// Rule for integrals over the mass: its weights contain μ r.
     mass_rule: Rule,
 }
 
-/// Truncated powers and what makes one orthonormal family of them and the polynomials.
+/// Truncated powers, and the coefficients that orthonormalize them together with the polynomials.
 #[derive(Debug, Clone)]
 struct KnotFunctions {
     /// (r_k, p).
     powers: Vec<(f64, i32)>,
-    /// Row j: factors of the first j + 1 of p₀, p₁, powers, p₂ … in function j.
+    /// Row j: coefficients of the first j + 1 of p₀, p₁, powers, p₂ … in function j.
     rows: Vec<Vec<f64>>,
 }
 
-/// Powers that join the basis where the curvature jumps: at a step of the thickness. A bend needs
-/// the higher ones alone, but a step of no size is to be the limit of a small one.
+/// Powers added where the curvature jumps, at a step of the thickness. A kink needs only the higher ones, but
+/// a step that tends to zero must have a continuous limit.
 const AT_STEP: [i32; 3] = [2, 3, 4];
-/// Powers where only its slope jumps: where teeth have mass.
+/// Powers added where only the slope of the curvature jumps, at the mass of teeth.
 const AT_MASS: [i32; 2] = [3, 4];
-/// Share of the width below which a knot is not told from an edge or from another knot: its powers
-/// would be nearly those of the other.
+/// A knot closer than this share of the width to an edge or another knot gets no functions, because they
+/// would be nearly dependent.
 const TOLD_APART: f64 = 0.02;
 
 impl RadialBasis {
-    /// Builds J ≥ 2 functions by the discretised Stieltjes procedure
-    /// (Gautschi, *Orthogonal Polynomials*, 2004, section 2.2), which keeps full
-    /// accuracy where Gram–Schmidt on monomials would lose it.
+    /// Builds J ≥ 2 functions by the discretized Stieltjes procedure (Gautschi, *Orthogonal Polynomials*,
+    /// 2004, section 2.2), because Gram–Schmidt on monomials would lose accuracy.
     pub fn new(blade: &Blade, functions: usize) -> Self {
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let powers = knot_powers(blade);
@@ -92,12 +91,12 @@ impl RadialBasis {
         basis
     }
 
-    /// Number of radial functions: the polynomials, and those of the knots.
+    /// Number of radial functions, including those of the knots.
     pub fn count(&self) -> usize {
         self.diag.len() + self.knots.as_ref().map_or(0, |knots| knots.powers.len())
     }
 
-    /// Highest degree of the polynomials that the functions are between the knots.
+    /// Highest polynomial degree of the functions between the knots.
     pub(crate) fn degree(&self) -> usize {
         let powers = self.knots.iter().flat_map(|knots| &knots.powers);
         let highest = powers.map(|(_, power)| *power as usize).max().unwrap_or(0);
@@ -141,7 +140,7 @@ impl RadialBasis {
         }
     }
 
-    /// The tilt r = c₀p₀ + c₁p₁, as the cosine and sine of the turn in that plane.
+    /// The tilt r = c₀p₀ + c₁p₁, as cosine and sine of the rotation in that plane.
     fn tilt_turn(&self) -> (f64, f64) {
         let mut coefficient = [0.0; 2];
         for (r, w) in self.mass_rule.iter() {
@@ -167,7 +166,7 @@ impl RadialBasis {
         [t * t, 2.0 * t / self.width_m, 2.0 / self.width_m.powi(2)]
     }
 
-    /// Gram–Schmidt, twice for the digits that the first pass loses.
+    /// Gram–Schmidt orthogonalization, repeated because one pass loses digits.
     fn knot_functions(&self, powers: Vec<(f64, i32)>) -> KnotFunctions {
         let mass = &self.mass_rule;
         let raw: Vec<Vec<f64>> = mass
@@ -234,7 +233,7 @@ impl RadialBasis {
         }
     }
 
-    /// The functions of every n ≠ 1 at a radius.
+    /// The functions of n ≠ 1 at a radius.
     fn unturned(&self, r: f64) -> RadialValues {
         let Some(knots) = &self.knots else {
             return self.polynomials(r);
@@ -296,8 +295,8 @@ impl RadialBasis {
 }
 
 impl RadialBasis {
-    /// A J × J block between n and m diameters, from the functions shared by all
-    /// harmonics to those of n (rows) and m (columns).
+    /// A J × J block between n and m diameters: converts from the common functions to those of n (rows) and m
+    /// (columns).
     pub(crate) fn turned(
         &self,
         n: usize,
@@ -320,7 +319,7 @@ impl RadialBasis {
     }
 }
 
-/// The knots that get functions of their own, with the powers of each.
+/// The knots that get functions, with the powers of each.
 fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let apart = TOLD_APART * (b - a);
@@ -328,7 +327,7 @@ fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     for radius in blade.knots_m() {
         knots.push((radius, &AT_STEP));
     }
-    // Of two that are close the step.
+    // Of two close knots the step is kept.
     if let Some(rim) = blade.rim {
         knots.push((rim.radius_m, &AT_MASS));
     }

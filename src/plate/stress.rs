@@ -1,5 +1,5 @@
-//! In-plane stress of the steadily spinning annulus: in closed form where its thickness is uniform
-//! and its teeth have no mass, by finite elements otherwise.
+//! In-plane stress of the steadily spinning annulus: in closed form for uniform thickness without mass of
+//! teeth, by finite elements otherwise.
 
 use crate::scene::{Blade, Bore, InPlane};
 
@@ -26,9 +26,8 @@ struct UniformStress {
 }
 
 impl CentrifugalStress {
-    /// Stress of a blade with a free rim; the bore is free (spline, or a collar
-    /// that lets the blade slide) or has u(a) = 0. The mass of teeth pulls at its circle with
-    /// m Ω² r/2π for each radian.
+    /// Stress of a blade with a free rim. The bore is free (spline, or a collar in which the blade slides) or
+    /// has u(a) = 0. The mass of teeth pulls with m Ω² r/2π per radian of its circle.
     pub fn new(blade: &Blade) -> Self {
         if blade.is_plain() {
             return CentrifugalStress(Stress::Uniform(UniformStress::new(blade)));
@@ -39,7 +38,7 @@ impl CentrifugalStress {
         };
         let circle: Vec<(f64, f64)> = blade.rim.map(of_rim).into_iter().collect();
         let load = InPlaneLoad {
-            // ρΩ² is one.
+            // Normalized to ρΩ² = 1.
             body_n_per_m3: &|r| r,
             circle_n: &circle,
             bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),

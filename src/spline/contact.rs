@@ -1,16 +1,16 @@
-//! Flanks of the spline teeth: where they are, how they push, where the blade comes to rest.
+//! Flanks of the spline teeth: positions, forces, and the equilibrium of the blade.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::scene::Spline;
 
-/// The flanks in the frame that turns with the arbor, where they stand still.
+/// The flanks in the frame that turns with the arbor, in which they are fixed.
 ///
-/// A displacement of the blade is (x, y, r_p ψ); a force (F_x, F_y, T/r_p).
+/// Displacements of the blade are (x, y, r_p ψ), forces (F_x, F_y, T/r_p).
 #[derive(Debug, Clone)]
 pub struct Contact {
-    /// Two of every tooth, the leading one first: displacement times it is how far the
-    /// flank has opened.
+    /// Normals of the two flanks of every tooth, the leading one first; the product with the displacement is
+    /// the opening of the flank.
     normals: Vec<Vector3<f64>>,
     /// sin α, the share of the normal force that is radial.
     radial: f64,
@@ -25,26 +25,26 @@ pub struct Contact {
 pub struct Touch {
     /// Number of the tooth, from 0.
     pub tooth: usize,
-    /// How far it is pressed in.
+    /// Approach of the flanks.
     pub approach_m: f64,
     /// Normal force F.
     pub force_n: f64,
     /// Its elastic part K x^{3/2}.
     pub elastic_n: f64,
-    /// Direction of the force on the blade, as the arbor sees it.
+    /// Direction of the force on the blade in the frame of the arbor.
     pub normal: Vector3<f64>,
-    /// Its component along the radius; that along the circle is the third of `normal`.
+    /// Radial component of this direction; the circumferential one is the third component of `normal`.
     pub radial: f64,
 }
 
 impl Touch {
-    /// Components of the force on the blade along the radius of the tooth and the circle.
+    /// Components of the force on the blade, radial and circumferential at the tooth.
     pub fn radial_and_tangential_n(&self) -> [f64; 2] {
         [self.radial * self.force_n, self.normal.z * self.force_n]
     }
 }
 
-/// x^{3/2} of a number that is not negative.
+/// x^{3/2} for x ≥ 0.
 fn three_halves(x: f64) -> f64 {
     x * x.sqrt()
 }
@@ -73,7 +73,7 @@ impl Contact {
         }
     }
 
-    /// Normal force of a flank pressed in by x at the speed ẋ, and its elastic part, in N.
+    /// Normal force at the approach x with the speed ẋ, and its elastic part, in N.
     pub fn force(&self, approach_m: f64, approach_m_per_s: f64) -> [f64; 2] {
         if approach_m <= 0.0 {
             return [0.0; 2];
@@ -84,7 +84,7 @@ impl Contact {
         [force.max(0.0), elastic]
     }
 
-    /// The flanks that touch when the blade has moved by q at the speed q̇.
+    /// The flanks in contact for the displacement q with the speed q̇.
     pub fn touches(&self, q: Vector3<f64>, speed: Vector3<f64>) -> impl Iterator<Item = Touch> {
         self.normals.iter().enumerate().filter_map(move |(i, n)| {
             let approach_m = -n.dot(&q) - self.clearance_m;
@@ -109,12 +109,12 @@ impl Contact {
             .sum()
     }
 
-    /// Where a steady load (F_x, F_y, T/r_p) presses the blade on the arbor at rest; `None`
-    /// when it pushes where no flank resists.
+    /// Equilibrium of the blade on the resting arbor under a steady load (F_x, F_y, T/r_p); `None` if no
+    /// flank resists the load.
     ///
-    /// The energy of the contacts is convex: where they hold the load, its least value less
-    /// the work of the load is the seat. Newton's steps, damped where no flank touches yet
-    /// (Levenberg and Marquardt).
+    /// The energy of the contacts is convex: if they resist the load, the equilibrium is the minimum of the
+    /// energy minus the work of the load. It is found by Newton steps, which are damped (Levenberg and
+    /// Marquardt) where no flank touches yet.
     pub fn seat(&self, load: Vector3<f64>) -> Option<Vector3<f64>> {
         let target = 1e-13 * load.norm();
         let length = self.length_m(load.norm());
@@ -126,12 +126,12 @@ impl Contact {
             if residual.norm() <= target {
                 return Some(q);
             }
-            // A direction that no flank resists leaves the tangent singular.
+            // The tangent is singular in a direction that no flank resists.
             let shift = damping.max(1e-12 * tangent.trace());
             let step = (tangent + Matrix3::identity() * shift)
                 .lu()
                 .solve(&residual)?;
-            // Close to the seat the energy has no digits left to tell better from worse.
+            // Close to the equilibrium differences of the energy are rounding.
             let closer = self.residual(q + step, load).0.norm() < residual.norm();
             if closer || total(q + step) < total(q) {
                 q += step;
@@ -142,12 +142,12 @@ impl Contact {
                 damping *= 8.0;
             }
         }
-        // Approaches far below the gap keep few digits in the difference of the two.
+        // If approaches are much smaller than the gap, the difference of the two has few digits.
         let (residual, _) = self.residual(q, load);
         (residual.norm() <= 1e-9 * load.norm()).then_some(q)
     }
 
-    /// Load plus contact forces, and the contacts' stiffness −∂/∂q of it.
+    /// Load plus contact forces, and the stiffness of the contacts, −∂/∂q of it.
     fn residual(&self, q: Vector3<f64>, load: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         let mut force = load;
         let mut tangent = Matrix3::zeros();
@@ -159,13 +159,13 @@ impl Contact {
         (force, tangent)
     }
 
-    /// The gap and the approach of one flank that takes the whole load: a length to scale
-    /// by, at least a millionth of the radius, for there may be neither gap nor load.
+    /// Gap plus approach of a single flank under the whole load: a length for scaling, at least a millionth
+    /// of the radius, because gap and load may be zero.
     pub fn length_m(&self, load_n: f64) -> f64 {
         let approach = (load_n / self.stiffness_n_per_m_3_2).powf(2.0 / 3.0);
         (self.clearance_m + approach).max(1e-6 * self.pitch_radius_m)
     }
 }
 
-/// From the centre to the seat it takes some 20 steps; a load that no flank resists never ends.
+/// About 20 steps lead from the centre to the equilibrium; a load that no flank resists does not converge.
 const MAX_NEWTON_STEPS: usize = 400;

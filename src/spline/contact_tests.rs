@@ -1,4 +1,4 @@
-//! Statics of the contacts, and what they never do.
+//! Statics and invariants of the contacts.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::tests::scene_with;
 use super::*;
 use crate::analytical::oscillator::approach_m;
 
-/// A flank that a force meets head on gives way by the gap and (F/K)^{2/3}.
+/// A flank under a normal force moves by the gap and (F/K)^{2/3}.
 #[test]
 fn one_tooth_is_pressed_in_by_the_closed_form() {
     let scene = scene_with(|spline| {
@@ -18,7 +18,7 @@ fn one_tooth_is_pressed_in_by_the_closed_form() {
     });
     let contact = Contact::new(scene.spline().unwrap());
     for force in [1e-3, 78.0, 4000.0] {
-        // At θ = 0 along −y, with the torque that puts its line on the tooth.
+        // The force at θ = 0 points along −y, with a torque that moves its line of action to the tooth.
         let seat = contact.seat(Vector3::new(0.0, -force, -force)).unwrap();
         let pressed_in = -(seat.y + seat.z) - 0.25e-3;
         let exact = approach_m(force, 6.96e9);
@@ -34,8 +34,8 @@ fn one_tooth_is_pressed_in_by_the_closed_form() {
     );
 }
 
-/// By symmetry a push towards a tooth only moves the blade along it: one unknown, found
-/// by halving.
+/// By symmetry a push towards a tooth moves the blade in this direction only: the single unknown is found by
+/// bisection.
 #[test]
 fn many_teeth_share_a_push_as_the_static_balance_says() {
     for (teeth, degrees) in [(4, 45.0), (20, 0.0), (20, 30.0), (30, 14.5)] {
@@ -109,7 +109,7 @@ proptest! {
         }
     }
 
-    /// The elastic forces are the slope of the energy.
+    /// The elastic forces are the derivative of the energy.
     #[test]
     fn forces_follow_from_the_energy(q in prop::array::uniform3(-2e-3..2e-3_f64)) {
         let scene = scene_with(|_| ());

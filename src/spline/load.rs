@@ -1,4 +1,4 @@
-//! Resultant of what acts on the blade in its plane.
+//! Resultant of the in-plane loads on the blade.
 
 use crate::plate::RimForce;
 use crate::scene::Blade;
@@ -11,12 +11,12 @@ const GRAVITY_M_PER_S2: f64 = 9.80665;
 pub struct PlaneLoad {
     /// F_x, F_y; x points to the cut, θ = 0.
     pub force_n: [f64; 2],
-    /// About the axis, positive in the direction of rotation.
+    /// Torque about the axis, positive in the direction of rotation.
     pub torque_n_m: f64,
 }
 
 impl PlaneLoad {
-    /// Forces at the rim, and the weight of the blade towards `weight_angle_rad`.
+    /// Resultant of forces at the rim, and of the weight of the blade in the direction `weight_angle_rad`.
     pub fn new(blade: &Blade, loads: &[RimForce], weight_angle_rad: Option<f64>) -> Self {
         let mut sum = PlaneLoad::default();
         if let Some(angle) = weight_angle_rad {

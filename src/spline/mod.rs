@@ -1,24 +1,23 @@
-//! Motion of the blade in its own plane, loose on a splined arbor.
+//! Motion of the blade in its plane, loose on a splined arbor.
 //!
-//! The blade is a rigid disk with three freedoms: its centre (x, y) in the space-fixed
-//! frame and the angle ψ by which it leads the arbor, which turns at a constant Ω:
+//! The blade is a rigid disk with three degrees of freedom: its centre (x, y) in the space-fixed frame and
+//! the angle ψ by which it leads the arbor, which turns at a constant Ω:
 //!
 //!   m ẍ = F_load + Σ F_k n_k,   J ψ̈ = T_load + r_p Σ F_k n_k·t_k
 //!
-//! Every spline tooth has two flanks at the pitch radius r_p, turned by ±α (the pressure
-//! angle) from the tangent t_k: n_k = ±cos α t_k + sin α r_k is the direction in which
-//! the arbor's flank pushes the blade. A flank is pressed in by x_k = −u_k·n_k − c, where
-//! u_k = (x, y) + r_p ψ t_k is how far the blade has moved there and c the gap of the
-//! centred blade. It pushes with F = K x^{3/2} + C ẋ^{3/2} (the paper's equation 1), C
-//! with the sign of ẋ, and never pulls: F ≥ 0, and F = 0 without touch.
+//! Every spline tooth has two flanks at the pitch radius r_p, rotated by ±α (the pressure angle) from the
+//! tangent t_k: n_k = ±cos α t_k + sin α r_k is the direction in which the arbor's flank pushes the blade.
+//! The approach of a flank is x_k = −u_k·n_k − c, where u_k = (x, y) + r_p ψ t_k is the displacement of the
+//! blade there and c the gap of the centred blade. Its force is F = K x^{3/2} + C ẋ^{3/2} (the paper's
+//! equation 1), C with the sign of ẋ, and never tensile: F ≥ 0, and F = 0 without contact.
 //!
-//! Displacements are small beside the pitch of the teeth, so normals stay those of the
-//! centred arbor. Friction, unbalance and the blade's in-plane elasticity are left out;
-//! the cutting forces are their means. The integrator is DOP853 (order 8, adaptive
-//! steps, dense output) of `differential-equations`: the only fast motion is the
-//! vibration on the contacts, which an explicit method has to resolve anyway.
+//! Displacements are small compared with the pitch of the teeth, so the normals are those of the centred
+//! arbor. Friction, unbalance and in-plane elasticity of the blade are neglected; cutting forces are
+//! represented by their means. The integrator is DOP853 (order 8, adaptive steps, dense output) of
+//! `differential-equations`: the only fast motion is the vibration on the contacts, which an explicit method
+//! has to resolve anyway.
 //!
-//! Not run unless asked for: see [`crate::scene::SplineFile`].
+//! It is simulated on request only, see [`crate::scene::SplineFile`].
 
 mod contact;
 mod load;
@@ -37,37 +36,37 @@ pub use stiffness::{ReactionEffect, reaction_effect};
 use crate::plate::RimForce;
 use crate::scene::Scene;
 
-/// How long and how finely to simulate.
+/// Duration and accuracy of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[doc(hidden)]
 pub struct Run {
-    /// Where the blade begins.
+    /// Initial position of the blade.
     pub start: Start,
-    /// Revolutions given to the motion to settle.
+    /// Number of revolutions before forces are averaged.
     pub settling_revolutions: u32,
-    /// Revolutions over which forces are averaged.
+    /// Number of revolutions over which forces are averaged.
     pub averaged_revolutions: u32,
-    /// Relative tolerance of the integrator, on a step.
+    /// Relative tolerance of a step of the integrator.
     pub tolerance: f64,
-    /// Where to give up. A step takes some 20 µs with 20 teeth, and a usual run 2000 steps
-    /// seated and 40 000 bouncing.
+    /// Largest number of steps. A step takes some 20 µs with 20 teeth; a usual run takes 2000 steps if the
+    /// blade is seated and 40 000 if it bounces.
     pub max_steps: usize,
 }
 
-/// Where the blade begins; its centre is at rest.
+/// Initial position of the blade; its centre is at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[doc(hidden)]
 pub enum Start {
-    /// Seated on the teeth under the load, centred if the load does not press it on any.
+    /// In equilibrium on the teeth under the load, or centred if the load presses it on none.
     #[default]
     Seated,
-    /// Centred on the arbor: the load then throws it across the gap.
+    /// Centred on the arbor: the load then accelerates it across the gap.
     Centred,
 }
 
 impl Default for Run {
-    /// Ten revolutions let the shock of the first touch of a damped contact die out
-    /// (a light damping never does).
+    /// Within ten revolutions the motion after the first impact decays if contacts are damped; with light
+    /// damping it does not.
     fn default() -> Self {
         Run {
             start: Start::Seated,
@@ -79,61 +78,61 @@ impl Default for Run {
     }
 }
 
-/// What the simulation gives.
+/// Result of a simulation.
 #[derive(Debug, Clone)]
 #[doc(hidden)]
 pub struct SplineRun {
-    /// The centre at evenly spread times, settling included.
+    /// Positions of the centre at evenly spaced times, including the settling revolutions.
     pub orbit: Vec<OrbitPoint>,
     /// Index in `orbit` from which forces were averaged.
     pub settled_from: usize,
-    /// The reaction of the arbor, averaged in the space-fixed frame.
+    /// Reaction of the arbor, averaged in the space-fixed frame.
     pub reaction: MeanReaction,
-    /// Largest energy that came from nowhere, relative to the largest energy in motion
-    /// and contact: the error of the integration, a few times steps × tolerance.
+    /// Largest numerical gain of energy, relative to the largest energy of motion and contact; it is a few
+    /// times the number of steps times the tolerance.
     pub energy_defect: f64,
     /// Energy lost in the contacts.
     pub dissipated_j: f64,
-    /// Steps of the integrator, accepted and rejected.
+    /// Number of steps of the integrator, accepted and rejected.
     pub steps: usize,
 }
 
-/// Why the motion could not be simulated.
+/// Reason for which the motion could not be simulated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SplineError {
-    /// The scene does not ask for it.
+    /// The scene does not contain a spline.
     #[error("the scene has no `spline` block; give the teeth and their contact to simulate it")]
     NotAsked,
-    /// At rest the arbor passes no teeth.
+    /// At rest no teeth pass.
     #[error("the speed is {rad_per_s} rad/s, but must be positive; the arbor turns forward")]
     Speed {
-        /// The speed asked for.
+        /// The given speed.
         rad_per_s: f64,
     },
-    /// Nothing to average, or no tolerance to keep.
+    /// A setting is out of range.
     #[error("{what} is {value}, but must be {allowed}")]
     Run {
         /// Field of [`Run`].
         what: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
         /// What is allowed.
         allowed: &'static str,
     },
-    /// The vibration on the contacts is too fast for the time asked for.
+    /// The vibration on the contacts is too fast for the requested duration.
     #[error(
         "the contact vibrates too fast: {limit} steps reached {reached_s} of {asked_s} s; \
          lower the contact stiffness, the damping or the number of revolutions"
     )]
     Steps {
-        /// Most steps allowed.
+        /// Largest allowed number of steps.
         limit: usize,
         /// Time reached.
         reached_s: f64,
-        /// Time asked for.
+        /// Requested time.
         asked_s: f64,
     },
-    /// Numbers beyond what a double holds.
+    /// A number overflowed.
     #[error("the motion leaves the range of numbers; are load, mass and contact in SI units?")]
     NotFinite,
 }

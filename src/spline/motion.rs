@@ -12,19 +12,19 @@ use super::load::PlaneLoad;
 use super::reaction::{Accumulator, MeanReaction};
 use super::{Run, SplineError, SplineRun, Start};
 
-/// At least so many samples a revolution: enough for the mean of harmonics beyond any basis.
+/// Smallest number of samples per revolution; their mean resolves harmonics beyond any basis.
 const SAMPLES_PER_REVOLUTION: usize = 720;
 
 /// The blade at one time, in the space-fixed frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrbitPoint {
-    /// Since the start.
+    /// Time since the start.
     pub time_s: f64,
-    /// Centre, towards the cut.
+    /// Coordinate of the centre, towards the cut.
     pub x_m: f64,
-    /// Centre, a quarter turn further in the direction of rotation.
+    /// Coordinate of the centre, a quarter turn further in the direction of rotation.
     pub y_m: f64,
-    /// ψ, how far the blade leads the arbor.
+    /// ψ, the angle by which the blade leads the arbor.
     pub twist_rad: f64,
 }
 
@@ -43,7 +43,7 @@ pub struct InPlaneMotion {
     scale: Scale,
 }
 
-/// Units in which the numbers of a loaded blade are near one, as the tolerance supposes.
+/// Units in which the numbers of a loaded blade are of order one, as the tolerance assumes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Scale {
     length_m: f64,
@@ -51,8 +51,8 @@ struct Scale {
     energy_j: f64,
 }
 
-/// Displacement, velocity, energy lost in the contacts and work done by the arbor through
-/// the offset of the blade, all scaled.
+/// Displacement, velocity, energy lost in the contacts, and work of the arbor on the displaced blade, all
+/// scaled.
 type State = [f64; 8];
 
 impl InPlaneMotion {
@@ -76,7 +76,7 @@ impl InPlaneMotion {
         let load_n = Vector3::new(load.force_n[0], load.force_n[1], load.torque_n_m / r);
         let length_m = contact.length_m(load_n.norm());
         let lightest = mass.min(rotary);
-        // The speed that the load gives the blade over this length; without load, the arbor's.
+        // The speed that the load gives the blade over this length, or, without load, that of the arbor.
         let fall_per_s = (load_n.norm() / (lightest * length_m)).sqrt();
         let rate_per_s = fall_per_s.max(speed_rad_per_s);
         Ok(InPlaneMotion {
@@ -94,10 +94,10 @@ impl InPlaneMotion {
         })
     }
 
-    /// Integrates and averages.
+    /// Integrates the motion and averages the forces.
     ///
     /// # Errors
-    /// [`SplineError`] when a number of `run` is out of range or the motion too fast.
+    /// [`SplineError`] if a setting is out of range or the motion is too fast.
     pub fn run(&self, run: &Run) -> Result<SplineRun, SplineError> {
         check(run)?;
         let samples = self.teeth * SAMPLES_PER_REVOLUTION.div_ceil(self.teeth);
@@ -188,7 +188,7 @@ impl InPlaneMotion {
         )
     }
 
-    /// Displacement and velocity as the turning arbor sees them.
+    /// Displacement and velocity in the frame of the arbor.
     fn seen_from_arbor(
         &self,
         angle: f64,
@@ -214,13 +214,13 @@ impl InPlaneMotion {
         self.contact.touches(q, speed)
     }
 
-    /// The samples of whole revolutions; the last of all repeats the first.
+    /// The samples of whole revolutions, without the last one, which repeats the first.
     fn average(&self, states: &[State], from: usize, samples: usize) -> MeanReaction {
         let settled = &states[from.min(states.len())..];
         let revolutions = settled.len() / samples;
         let mut sums = Accumulator::new(self.teeth, samples, revolutions);
         for (index, y) in settled.iter().take(revolutions * samples).enumerate() {
-            // The angle of the sample itself: times have rounding, stations must not.
+            // The angle follows from the index, because times contain rounding errors.
             let angle = TAU * (index % samples) as f64 / samples as f64;
             let (_, q, velocity) = self.unscaled(0.0, y);
             sums.add(index, self.touches(angle, q, velocity));
@@ -272,10 +272,10 @@ fn check(run: &Run) -> Result<(), SplineError> {
     Ok(())
 }
 
-/// All samples are kept: 2000 revolutions are 150 megabytes.
+/// All samples are kept: 2000 revolutions take 150 megabytes.
 const MAX_REVOLUTIONS: u32 = 1000;
 
-/// Displacement or force turned about the axis; the third component turns with nothing.
+/// Displacement or force rotated about the axis; the third component does not change.
 fn turned(v: Vector3<f64>, angle: f64) -> Vector3<f64> {
     let (sin, cos) = angle.sin_cos();
     let plane = Vector2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos);

@@ -11,50 +11,48 @@ use super::contact::Touch;
 /// The reaction averaged over whole revolutions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanReaction {
-    /// Mean force on the blade at angles fixed in space, evenly spread: every tooth that
-    /// passes leaves there what it carries. Known as a Fourier series up to half their
-    /// number.
+    /// Mean force on the blade at evenly spaced angles fixed in space, by all teeth that pass. It represents
+    /// a Fourier series up to half the number of angles.
     pub stations: Vec<BoreForce>,
-    /// Their sum (F_x, F_y).
+    /// Sum of the forces (F_x, F_y).
     pub force_n: [f64; 2],
-    /// Their torque at the pitch radius.
+    /// Torque of the forces at the pitch radius.
     pub torque_n_m: f64,
-    /// What the teeth carry.
+    /// Forces on the teeth.
     pub teeth: ToothForces,
-    /// Mean reaction plus load, relative to the load (or to the contact forces, if these
-    /// are larger): the momentum that the averaged revolutions did not return.
+    /// Mean reaction plus load, relative to the load (or to the contact forces, if these are larger): the
+    /// change of momentum over the averaged revolutions.
     pub imbalance: f64,
-    /// Change of the harmonics m = 0, 1, 2 of the reaction from the first half of the
-    /// averaged revolutions to the second, relative to their size: how far from settled
-    /// the motion is.
+    /// Change of the harmonics m = 0, 1, 2 of the reaction from the first half of the averaged revolutions to
+    /// the second, relative to their size. It measures how far the motion is from being settled.
     pub unsteadiness: f64,
 }
 
-/// Normal forces on the spline teeth, both flanks of a tooth together.
+/// Normal forces on the spline teeth, summed over both flanks of a tooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothForces {
-    /// Mean on each tooth.
+    /// Mean force on each tooth.
     pub mean_n: Vec<f64>,
-    /// Largest on any tooth.
+    /// Largest force on any tooth.
     pub peak_n: f64,
     /// Mean number of teeth in contact.
     pub in_contact: f64,
-    /// Fewest teeth in contact at a time.
+    /// Smallest number of teeth in contact at a time.
     pub fewest: usize,
-    /// Most teeth in contact at a time.
+    /// Largest number of teeth in contact at a time.
     pub most: usize,
-    /// Deepest approach of any flank. Beyond a fraction of the tooth it says that the
-    /// contact is too soft to be one.
+    /// Largest approach of any flank. If it is a considerable part of the tooth, the contact stiffness is
+    /// unrealistic.
     pub deepest_m: f64,
 }
 
 /// Sums over the samples of whole revolutions.
 #[derive(Debug)]
 pub struct Accumulator {
-    /// [radial, tangential] sums at the stations, one row a half of the time.
+    /// Sums of [radial, tangential] at the stations, for each half of the time.
     halves: [Vec<[f64; 2]>; 2],
     samples: [usize; 2],
-    /// Samples in the first half.
+    /// Number of samples in the first half.
     first_half: usize,
     sum_n: Vec<f64>,
     now_n: Vec<f64>,
@@ -66,7 +64,7 @@ pub struct Accumulator {
 }
 
 impl Accumulator {
-    /// For `revolutions` of `per_revolution` samples, a multiple of the number of teeth.
+    /// For `revolutions` of `per_revolution` samples, which is a multiple of the number of teeth.
     pub fn new(teeth: usize, per_revolution: usize, revolutions: usize) -> Self {
         Accumulator {
             halves: [0, 1].map(|_| vec![[0.0; 2]; per_revolution]),
@@ -82,7 +80,7 @@ impl Accumulator {
         }
     }
 
-    /// Adds a sample; the first tooth then stands at station `sample`.
+    /// Adds a sample, in which the first tooth is at station `sample`.
     pub fn add(&mut self, sample: usize, touches: impl Iterator<Item = Touch>) {
         let half = usize::from(sample >= self.first_half);
         let stations = self.halves[half].len();
@@ -107,7 +105,7 @@ impl Accumulator {
         }
     }
 
-    /// Means, held against the load (F_x, F_y, T/r_p).
+    /// Means, compared with the load (F_x, F_y, T/r_p).
     pub fn mean(&self, pitch_radius_m: f64, load_n: Vector3<f64>) -> MeanReaction {
         let all = self.samples[0] + self.samples[1];
         let per_sample = 1.0 / all.max(1) as f64;
@@ -155,7 +153,7 @@ impl Accumulator {
     }
 }
 
-/// Norm of the Fourier coefficients of the orders 0, 1 and 2, which alone reach the tilts.
+/// Norm of the Fourier coefficients of the orders 0, 1 and 2, the only ones that act on the tilts.
 fn low_harmonics(stations: impl Iterator<Item = BoreForce>) -> f64 {
     let mut coefficients = [0.0; 12];
     for force in stations {
@@ -173,7 +171,7 @@ fn low_harmonics(stations: impl Iterator<Item = BoreForce>) -> f64 {
     coefficients.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// part / whole, and 0 of nothing.
+/// part / whole, and 0 if both are zero.
 fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! What the simulated reaction does to K_e.
+//! Effect of the simulated reaction on K_e.
 
 use faer::{Mat, MatRef};
 
@@ -6,20 +6,19 @@ use crate::plate::{EdgeStress, Plate, RimForce, edge_stiffness};
 
 use super::MeanReaction;
 
-/// K_e of the same loads with either reaction at the bore.
+/// K_e of equal loads with both reactions at the bore.
 #[derive(Debug, Clone)]
 pub struct ReactionEffect {
-    /// Reacted by a traction of constant direction and a uniform shear, in 1/s².
+    /// K_e with a traction of constant direction and a uniform shear as reaction, in 1/s².
     pub assumed: Mat<f64>,
-    /// Reacted by the mean contact forces of the spline teeth, in 1/s².
+    /// K_e with the mean contact forces of the spline teeth as reaction, in 1/s².
     pub simulated: Mat<f64>,
 }
 
 /// Assembles K_e of forces at the rim with the assumed and with the simulated reaction.
 ///
-/// The contact forces act at the bore, r = a. The weight, and what a pitch radius other
-/// than the bore's makes of the torque, is left to the assumed tractions: in K_e of the
-/// tilts neither shows.
+/// The contact forces act at the bore, r = a. The assumed tractions carry the weight, and the difference of
+/// torque if the pitch radius is not that of the bore; neither affects K_e of the tilts.
 pub fn reaction_effect(
     plate: &Plate,
     loads: &[RimForce],
@@ -39,14 +38,14 @@ pub fn reaction_effect(
 impl ReactionEffect {
     /// ‖K_simulated − K_assumed‖ / ‖K_assumed‖ in the Frobenius norm; 0 without any load.
     ///
-    /// In the full model steep functions, which feel the forces at the bore most, rule
-    /// this norm: it grows with the basis. See [`ReactionEffect::relative_change_on`].
+    /// On the full model functions that vary strongly near the bore dominate this norm, so that it grows with
+    /// the basis. See [`ReactionEffect::relative_change_on`].
     pub fn relative_change(&self) -> f64 {
         relative(&(&self.simulated - &self.assumed), &self.assumed)
     }
 
-    /// The same on the span of the columns of `modes`, orthonormal in the mass-normalised
-    /// basis: the modes that decide a verdict.
+    /// As [`ReactionEffect::relative_change`], on the span of the columns of `modes`, orthonormal in the
+    /// mass-normalised basis: the modes that decide a verdict.
     pub fn relative_change_on(&self, modes: MatRef<'_, f64>) -> f64 {
         let on_modes = |matrix: &Mat<f64>| modes.transpose() * matrix * modes;
         let (assumed, simulated) = (on_modes(&self.assumed), on_modes(&self.simulated));

@@ -1,4 +1,4 @@
-//! Energy and averages of the blade on its arbor.
+//! Energy balance and averages of the blade on its arbor.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -11,7 +11,7 @@ use crate::analytical::tilt;
 use crate::plate::{EdgeStress, Plate, Resolution, edge_stiffness};
 use crate::scene::{SplineFile, rad_per_s};
 
-/// The paper's blade on a spline of 20 teeth, K and C read in millimetres.
+/// The paper's blade on a spline of 20 teeth, with K and C interpreted in millimetres.
 pub fn scene_with(change: impl FnOnce(&mut SplineFile)) -> Scene {
     let mut spline = SplineFile {
         teeth: 20,
@@ -27,7 +27,7 @@ pub fn scene_with(change: impl FnOnce(&mut SplineFile)) -> Scene {
     scene.unwrap()
 }
 
-/// The paper's Table 3 at 2800 rpm: 4 teeth, one pitch of 42 apart.
+/// The paper's Table 3 at 2800 rpm: 4 teeth, at the pitch of 42 teeth.
 fn cut() -> [RimForce; 4] {
     [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
         angle_rad: pitches * TAU / 42.0,
@@ -50,8 +50,8 @@ fn motion_under(scene: &Scene, loads: &[RimForce], rpm: f64) -> InPlaneMotion {
     InPlaneMotion::new(scene.blade(), spline, load, rad_per_s(rpm)).unwrap()
 }
 
-/// Damped and turning slowly beside its vibrations, a blade thrown across the gap ends
-/// where it would be seated.
+/// With damping, and a rotation slower than its vibrations, a blade that starts centred ends in the
+/// equilibrium position.
 #[test]
 fn the_motion_settles_on_the_seat() {
     let scene = scene_with(|spline| {
@@ -91,8 +91,7 @@ fn the_motion_settles_on_the_seat() {
     }
 }
 
-/// Every step adds an error of the tolerance to a displacement, at forces that exceed the
-/// load several times when the blade strikes.
+/// Each step adds an error of the tolerance to a displacement, at impact forces of several times the load.
 fn assert_energy_is_accounted_for(result: &SplineRun, tolerance: f64) {
     let allowed = 10.0 * result.steps as f64 * tolerance;
     let defect = result.energy_defect;
@@ -106,8 +105,7 @@ fn assert_energy_is_accounted_for(result: &SplineRun, tolerance: f64) {
     );
 }
 
-/// Without damping, bouncing about the gap: what is stored is what load and arbor gave,
-/// the better the finer the steps.
+/// Without damping the stored energy is the work of load and arbor, more exactly with finer steps.
 #[test]
 fn undamped_energy_is_conserved_to_the_tolerance() {
     let scene = scene_with(|spline| spline.contact_damping_n_s_3_2_per_m_3_2 = 0.0);
@@ -128,7 +126,7 @@ fn undamped_energy_is_conserved_to_the_tolerance() {
     assert!(defects[2] < 0.1 * defects[1] && defects[1] < 0.1 * defects[0]);
 }
 
-/// Damping takes energy and accounts for all of it.
+/// The loss of energy by damping equals the energy dissipated in the contacts.
 #[test]
 fn damped_energy_goes_into_the_contacts() {
     let scene = scene_with(|_| ());
@@ -149,7 +147,7 @@ fn damped_energy_goes_into_the_contacts() {
 }
 
 proptest! {
-    /// Whatever the scene may hold: an answer in numbers, or an error, and no panic.
+    /// Every scene gives finite numbers or an error, and no panic.
     #[test]
     fn extremes_end_in_numbers_or_an_error(
         (teeth, degrees) in (1..=200_u32, 0.0..=60.0_f64),
@@ -190,8 +188,8 @@ proptest! {
 
 }
 
-/// Over the settled revolutions the arbor returns force and torque of the cut, and each
-/// tooth has carried the same.
+/// Over the settled revolutions the reaction of the arbor balances force and torque of the cut, and all teeth
+/// carry equal forces.
 #[test]
 fn the_mean_reaction_balances_the_cut() {
     for weight_angle_rad in [None, Some(0.7)] {
@@ -216,8 +214,8 @@ fn the_mean_reaction_balances_the_cut() {
     }
 }
 
-/// In that balance the assumed tractions carry nothing, and the tilts feel loads and
-/// contact forces alone: Σ sym(x ⊗ F).
+/// In equilibrium the assumed tractions are zero, and the tilts are affected by loads and contact forces
+/// alone: Σ sym(x ⊗ F).
 #[test]
 fn tilts_feel_the_virial_of_cut_and_contacts() {
     let scene = scene_with(|_| ());
@@ -263,7 +261,7 @@ fn tilts_feel_the_virial_of_cut_and_contacts() {
     }
 }
 
-/// A load turned by a whole pitch meets the same teeth: all it turns is the picture.
+/// A load rotated by a whole pitch acts on the same arrangement of teeth, so that the result is rotated too.
 #[test]
 fn turning_the_load_by_a_pitch_turns_the_reaction() {
     let scene = scene_with(|_| ());
@@ -287,7 +285,7 @@ fn turning_the_load_by_a_pitch_turns_the_reaction() {
     }
 }
 
-/// Without load and gap nothing moves and nothing touches.
+/// Without load and gap there is no motion and no contact.
 #[test]
 fn an_unloaded_blade_stays_centred() {
     for clearance_m in [0.0, 0.25e-3] {

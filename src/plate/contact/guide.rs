@@ -1,6 +1,6 @@
-//! Guide pads: how a rectangle fixed in space couples the harmonics.
+//! Guide pads: the coupling of harmonics by a rectangle fixed in space.
 //!
-//! A pad of any size, clipped to the blade, comes out to rounding.
+//! The integral over a pad of any size, clipped to the blade, is exact to rounding.
 
 use faer::Scale;
 
@@ -11,7 +11,7 @@ use super::super::quadrature;
 use super::patch::{Circle, coupling, sufficient_points};
 use super::{Contact, ContactTerms};
 
-/// The mean of φᵢφⱼ over the pad, times its stiffness, is K_g; times its damping, C.
+/// K_g is the mean of φᵢφⱼ over the pad times its stiffness, C the mean times its damping.
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let mut coupling = coupling(plate, self.angle_rad, circles(plate, self).into_iter());
@@ -19,14 +19,14 @@ impl Contact for Guide {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
         }
         if self.stiffness_n_per_m > 0.0 {
-            // In place: of a large basis one copy is hundreds of megabytes.
+            // The matrix is scaled in place, because a copy has hundreds of megabytes for a large basis.
             coupling *= Scale(self.stiffness_n_per_m);
             terms.add_symmetric_stiffness(coupling);
         }
     }
 }
 
-/// What the pad has of the circles of a rule over the radius.
+/// The arcs of the pad on the circles of a radial quadrature rule.
 fn circles(plate: &Plate, pad: &Guide) -> Vec<Circle> {
     if pad.is_point() {
         return vec![Circle {

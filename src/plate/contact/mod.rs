@@ -1,6 +1,6 @@
-//! What touches the blade, fixed in space, and what it adds to the equation of motion.
+//! Contacts of the blade that are fixed in space, and their terms in the equation of motion.
 //!
-//! A kind of contact is a type that implements [`Contact`], in a file of its own.
+//! Every kind of contact is a type that implements [`Contact`], in its own file.
 
 mod guide;
 mod patch;
@@ -10,13 +10,13 @@ use faer::{Mat, Scale};
 
 use super::Plate;
 
-/// Something fixed in space that acts on the blade, linearly in its deflection and velocity.
+/// A contact fixed in space that acts on the blade linearly in deflection and velocity.
 pub trait Contact {
-    /// Adds the terms of this contact to those of all, in the basis of the plate.
+    /// Adds the terms of this contact, in the basis of the plate.
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms);
 }
 
-/// Terms of the equation of motion that contacts make, N × N each; what none makes is absent.
+/// Terms of all contacts in the equation of motion, N × N each; zero terms are `None`.
 #[derive(Debug, Clone, Default)]
 pub struct ContactTerms {
     stiffness: Option<Mat<f64>>,
@@ -25,8 +25,8 @@ pub struct ContactTerms {
 }
 
 impl ContactTerms {
-    /// Stiffness K_g, in 1/s². What of it is not symmetric beyond rounding has no potential, and
-    /// goes where [`ContactTerms::add_nonconservative_stiffness`] puts it.
+    /// Adds to the stiffness K_g, in 1/s². The part that is not symmetric beyond rounding has no potential
+    /// and is added as by [`ContactTerms::add_nonconservative_stiffness`].
     pub fn add_stiffness(&mut self, term: &Mat<f64>) {
         let symmetric = Scale(0.5) * (term + term.transpose());
         let skew = term - &symmetric;
@@ -36,19 +36,19 @@ impl ContactTerms {
         add(&mut self.stiffness, symmetric);
     }
 
-    /// The same of a term that is symmetric to the last bit.
+    /// Adds a term to K_g that is exactly symmetric.
     pub fn add_symmetric_stiffness(&mut self, term: Mat<f64>) {
         add(&mut self.stiffness, term);
     }
 
-    /// Damping C, in 1/s, symmetric.
+    /// Adds to the damping C, in 1/s, symmetric.
     pub fn add_damping(&mut self, term: &Mat<f64>) {
         add(&mut self.damping, term.clone());
     }
 
-    /// Forces that follow the deflection without a potential, K_n in 1/s², of any symmetry:
-    /// follower loads, friction. A saw that has them is not conservative, so that its modes have
-    /// no Krein signs and it is charted as a damped one is.
+    /// Adds forces that depend on the deflection and have no potential, K_n in 1/s², of any symmetry:
+    /// follower loads, friction. With them a saw is not conservative: its modes have no Krein signs, and its
+    /// bands are searched as those of a damped saw.
     pub fn add_nonconservative_stiffness(&mut self, term: &Mat<f64>) {
         add(&mut self.nonconservative, term.clone());
     }
@@ -76,18 +76,18 @@ impl ContactTerms {
         }
     }
 
-    /// Whether only terms with a potential are there.
+    /// Whether all terms have a potential.
     pub fn is_conservative(&self) -> bool {
         self.damping.is_none() && self.nonconservative.is_none()
     }
 
-    /// Whether nothing touches the blade.
+    /// Whether there are no terms.
     pub fn is_empty(&self) -> bool {
         self.stiffness.is_none() && self.is_conservative()
     }
 }
 
-/// Share of the largest number of a matrix below which a difference is rounding.
+/// Differences below this share of the largest entry of a matrix are rounding.
 const ROUNDING: f64 = 1e-12;
 
 fn add(sum: &mut Option<Mat<f64>>, term: Mat<f64>) {

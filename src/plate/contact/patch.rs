@@ -1,14 +1,14 @@
-//! Integrals of products of two functions over a patch that stands in space.
+//! Integrals of products of two functions over a patch fixed in space.
 //!
-//! On a circle a patch covers a few arcs, the same on both sides of its centre line. The integrals of
-//! cos kψ over them are elementary, so only the radius needs quadrature.
+//! A circle intersects a patch in a few arcs, symmetric about the centre line. Over them the integrals of cos
+//! kψ are elementary, so only the radius needs quadrature.
 
 use nalgebra::DMatrix;
 
 use super::super::Plate;
 use super::super::radial::RadialBasis;
 
-/// What a patch has of a circle.
+/// Intersection of a patch with a circle.
 pub struct Circle {
     /// Its radius.
     pub radius_m: f64,
@@ -65,7 +65,8 @@ pub fn coupling(
     coupling
 }
 
-/// Points of a rule over the radius that integrate J functions twice with the arcs of order k.
+/// Number of points of a radial rule that integrates the product of two of J functions and the arcs of order
+/// k.
 pub fn sufficient_points(plate: &Plate) -> usize {
     plate.basis.count() + plate.max_diameters() + 12
 }
@@ -96,8 +97,8 @@ impl PatchHarmonics {
         }
     }
 
-    /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling,
-    /// from the products-to-sums rules and the turn by the angle of the centre line.
+    /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling, by the product-to-sum
+    /// identities and a rotation by the angle of the centre line.
     fn between(&self, n: usize, m: usize) -> [DMatrix<f64>; 4] {
         let (difference, sum) = (n - m, n + m);
         let (sin_d, cos_d) = (difference as f64 * self.angle_rad).sin_cos();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Which of the two waves of an order.
+/// One of the two waves of an order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
     /// cos nθ.
@@ -11,7 +11,7 @@ pub enum Phase {
     Sine,
 }
 
-/// factor · cos nθ, or the sine.
+/// factor · cos nθ or factor · sin nθ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wave {
     pub order: usize,
@@ -43,8 +43,8 @@ impl Wave {
     }
 }
 
-/// ∫ f g k dθ over the circle, exactly: π/2 for each choice of signs with
-/// ±n_f ± n_g = n_k, the products having become sums of cosines.
+/// ∫ f g k dθ over the circle, exactly: the product is a sum of cosines, and each choice of signs with ±n_f ±
+/// n_g = n_k contributes π/2.
 pub fn triple_product(f: Wave, g: Wave, k: Wave) -> f64 {
     let is_sine = [f, g, k].map(|wave| wave.phase == Phase::Sine);
     let [order_f, order_g, order_k] = [f, g, k].map(|wave| wave.order as i64);

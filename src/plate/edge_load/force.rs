@@ -7,7 +7,7 @@ use crate::scene::{Blade, Cut};
 /// A force at a point of the rim r = b, fixed in place and direction in space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct RimForce {
-    /// Where: θ, positive in the direction of rotation.
+    /// Angle θ, positive in the direction of rotation.
     pub angle_rad: f64,
     /// Component along the radius, positive outwards.
     pub radial_n: f64,
@@ -16,7 +16,7 @@ pub struct RimForce {
 }
 
 impl RimForce {
-    /// The forces of the teeth of a cut: against the rotation, and towards the axis.
+    /// The forces of the teeth in a cut, against the rotation and towards the axis.
     pub fn of_cut(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<Self> {
         cut.tooth_angles_rad()
             .map(|angle_rad| RimForce {
@@ -31,7 +31,7 @@ impl RimForce {
 /// A force on the blade at a point of the bore r = a, fixed in place and direction in space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BoreForce {
-    /// Where: θ, positive in the direction of rotation.
+    /// Angle θ, positive in the direction of rotation.
     pub angle_rad: f64,
     /// Component along the radius, positive outwards.
     pub radial_n: f64,
@@ -39,7 +39,7 @@ pub struct BoreForce {
     pub tangential_n: f64,
 }
 
-/// Factors of [cos mθ, sin mθ] of the stresses on an edge.
+/// Factors of [cos mθ, sin mθ] of the stresses at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HarmonicTraction {
     /// σ_rr.
@@ -49,7 +49,7 @@ pub struct HarmonicTraction {
 }
 
 impl HarmonicTraction {
-    /// Of order m at the rim, where the outward normal is +r.
+    /// The traction of order m at the rim, where the outward normal is +r.
     pub fn at_rim(blade: &Blade, loads: &[RimForce], order: usize) -> Self {
         let forces = loads
             .iter()
@@ -58,7 +58,8 @@ impl HarmonicTraction {
         Self::of_forces(b * blade.thickness_at_m(b), forces, order)
     }
 
-    /// Of order m at the bore, where the outward normal is −r: a force outwards presses.
+    /// The traction of order m at the bore, where the outward normal is −r, so that an outward force causes
+    /// compression.
     pub fn at_bore(blade: &Blade, reaction: &[BoreForce], order: usize) -> Self {
         let forces = reaction
             .iter()
@@ -67,8 +68,8 @@ impl HarmonicTraction {
         Self::of_forces(area_per_angle_m2, forces, order)
     }
 
-    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and the
-    /// same with sin, and half of it for m = 0.
+    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh), likewise with sin, and half of
+    /// it for m = 0.
     fn of_forces(
         area_per_angle_m2: f64,
         forces: impl Iterator<Item = (f64, f64, f64)>,

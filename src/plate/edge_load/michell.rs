@@ -15,13 +15,12 @@ pub struct ProfileStress {
     pub shear_pa: f64,
 }
 
-/// A term of the series: three stresses, in a fixed ratio, that follow one power of r.
+/// A term of the series: three stresses with a common power of r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Term {
     amplitude_pa: f64,
     ratio: ProfileStress,
-    /// The power is one at this edge and below one in the blade, so that no order
-    /// overflows.
+    /// Edge at which the power is one. Inside the blade it is below one, so that no order overflows.
     edge_m: f64,
     power: f64,
 }
@@ -65,10 +64,10 @@ pub struct Series {
 }
 
 impl Series {
-    /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and
-    /// q cos mθ, s sin mθ at the bore. For m = 0, where sin mθ is absent, t and s are
-    /// uniform shears. What the bore lacks to balance the torque of m = 0 and the net
-    /// force of m = 1 is added there, as uniform shear and as traction of one direction.
+    /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and q cos mθ, s sin mθ at
+    /// the bore. For m = 0, where sin mθ vanishes, t and s are uniform shears. At the bore the missing part
+    /// of the torque of m = 0 is added as uniform shear, and that of the net force of m = 1 as traction of
+    /// constant direction.
     pub fn new(blade: &Blade, order: usize, rim: [f64; 2], bore: [f64; 2]) -> Self {
         let terms = match order {
             0 => ring_and_torsion(blade, rim, bore),
@@ -91,9 +90,8 @@ impl Series {
     }
 }
 
-/// Lamé's ring, σ_rr = u − v a²/r² with u − v k² = p and u − v = q, k = a/b, and pure
-/// shear t b²/r². Stress function A r² + B ln r + C θ. The shear at the bore follows
-/// from that at the rim, whatever part of it is known beforehand.
+/// Lamé's ring, σ_rr = u − v a²/r² with u − v k² = p and u − v = q, k = a/b, and pure shear t b²/r². Stress
+/// function A r² + B ln r + C θ. The shear at the bore follows from that at the rim.
 fn ring_and_torsion(blade: &Blade, [p, t]: [f64; 2], [q, _]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let inverse = (p - q) * b / (b - a) * b / (b + a);
@@ -134,11 +132,11 @@ fn net_force(blade: &Blade, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
 /// m ≥ 2: stress function cos mθ times r^m, r^(m+2), r^−m, r^(2−m), which balance by
 /// themselves; four tractions at the two edges fix the four amplitudes.
 ///
-/// A stress function f(r) cos mθ has σ_rr = f′/r − m² f/r², σ_θθ = f″,
-/// σ_rθ = m (f′/r − f/r²); of each power a common factor is left out.
+/// A stress function f(r) cos mθ has σ_rr = f′/r − m² f/r², σ_θθ = f″, σ_rθ = m (f′/r − f/r²); a common
+/// factor of each power is omitted.
 ///
-/// On a narrow ring the powers grow alike and digits are lost: K_e keeps its virial
-/// to 1e-14 up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
+/// On a narrow ring the powers are nearly dependent and digits are lost: the virial of K_e is right to 1e-14
+/// up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
 fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let terms = [
@@ -151,7 +149,7 @@ fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> V
         let (rim, bore) = (term.at(b), term.at(a));
         Vector4::new(rim.radial_pa, rim.shear_pa, bore.radial_pa, bore.shear_pa)
     });
-    // Independent powers: singular only for numbers that are not finite.
+    // The powers are independent, so the matrix is singular only if numbers are not finite.
     let amplitudes = Matrix4::from_columns(&tractions)
         .lu()
         .solve(&Vector4::new(p, t, q, s))

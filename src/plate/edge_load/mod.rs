@@ -1,16 +1,14 @@
-//! Membrane stress of dead forces at the edges, and the stiffness it gives.
+//! Membrane stress of dead forces at the edges, and its geometric stiffness.
 //!
-//! The blade turns in a frame fixed in space, where it is axisymmetric and where the
-//! forces stand still: their plane stress is steady, whatever the speed. It is found
-//! exactly, harmonic by harmonic, by Michell's series rather than by a radial Ritz
-//! method: four powers of r per harmonic meet equilibrium and compatibility term by
-//! term, and the edges fix their amplitudes.
+//! In the frame fixed in space the blade is axisymmetric and the forces are fixed, so their plane stress is
+//! steady at every speed. It is computed exactly for each harmonic by Michell's series rather than by a
+//! radial Ritz method: four powers of r satisfy equilibrium and compatibility, and the conditions at the
+//! edges determine their amplitudes.
 //!
-//! A deflection of n₁ and one of n₂ nodal diameters meet in the harmonics
-//! |n₁ ± n₂| of the stress only, so orders up to 2 n_max give the exact K_e of
-//! point forces although their stress is singular at the rim.
+//! Deflections of n₁ and n₂ nodal diameters couple only through the harmonics |n₁ ± n₂| of the stress. Orders
+//! up to 2 n_max therefore give the exact K_e of point forces, although their stress is singular at the rim.
 //!
-//! Where the thickness varies the harmonics are found by finite elements over the radius instead.
+//! For a blade of varying thickness the harmonics are computed by finite elements over the radius.
 //!
 //! References: J. H. Michell, *On the direct determination of stress in an elastic
 //! solid*, Proc. London Math. Soc. 31 (1899) 100–124; Timoshenko & Goodier, *Theory of
@@ -43,26 +41,25 @@ pub struct HarmonicStress {
 
 /// Plane stress of an annulus under dead forces at its rim, as a Fourier series in θ.
 ///
-/// The bore takes the reaction: the net torque T as a uniform shear traction
-/// T/(2πa²h), the net force F as the traction −F/(2πah), of one direction all around.
-/// Forces given at the bore take their part of it, and the assumed tractions what is left.
-/// The same holds at a collar, whose grip on the higher harmonics is left out.
+/// The bore carries the reaction: the net torque T as a uniform shear traction T/(2πa²h), the net force F as
+/// the traction −F/(2πah) of constant direction. Forces given at the bore carry part of it, and the assumed
+/// tractions the remainder. The same holds at a collar; its constraint on the higher harmonics is neglected.
 #[derive(Debug, Clone)]
 pub struct EdgeStress {
-    /// Of each order m: the fields (cos, cos, sin) and (sin, sin, −cos) of
-    /// (σ_rr, σ_θθ, σ_rθ). The second is the first, turned by a quarter wave.
+    /// For each order m, the fields (cos, cos, sin) and (sin, sin, −cos) of (σ_rr, σ_θθ, σ_rθ). The second is
+    /// the first rotated by a quarter wave.
     harmonics: Vec<[Profile; 2]>,
 }
 
 impl EdgeStress {
-    /// Solves the orders 0 … `max_order`; 2 n_max of them make
-    /// [`edge_stiffness`] exact. Forces that are not finite give stresses that are not.
+    /// Computes the orders 0 … `max_order`; with 2 n_max [`edge_stiffness`] is exact. Non-finite forces give
+    /// non-finite stresses.
     pub fn new(blade: &Blade, loads: &[RimForce], max_order: usize) -> Self {
         Self::with_reaction(blade, loads, &[], max_order)
     }
 
-    /// The same with known forces at the bore, which replace the assumed reaction as far
-    /// as they balance the loads: all of it, if they are in equilibrium with them.
+    /// As [`EdgeStress::new`], with known forces at the bore. They replace the assumed reaction as far as
+    /// they balance the loads: entirely if they are in equilibrium with them.
     pub fn with_reaction(
         blade: &Blade,
         loads: &[RimForce],

@@ -8,9 +8,9 @@ use super::michell::{ProfileStress, Series};
 /// R, H and T as functions of the radius.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Profile {
-    /// In closed form.
+    /// Closed form.
     Uniform(Series),
-    /// By finite elements, and uniform torsion beside them.
+    /// Finite elements, with uniform torsion added.
     Varying(Box<Varying>),
 }
 
@@ -35,7 +35,7 @@ impl Profile {
         let at_bore = a * blade.thickness_at_bore_m();
         let mut bore_pa = bore;
         if order == 1 {
-            // The net force that the bore lacks, as a traction of constant direction.
+            // The part of the net force that is missing at the bore, as a traction of constant direction.
             let lacking = at_rim * (rim[0] - rim[1]) - at_bore * (bore[0] - bore[1]);
             bore_pa[0] += 0.5 * lacking / at_bore;
             bore_pa[1] -= 0.5 * lacking / at_bore;

@@ -1,4 +1,4 @@
-//! Loads that every radius sees alike, against Lamé's ring and pure shear.
+//! Axisymmetric loads, against Lamé's ring and pure shear.
 
 use std::f64::consts::TAU;
 
@@ -24,8 +24,8 @@ fn free_plate(radial_functions: usize) -> Plate {
     Plate::new(&scene, resolution)
 }
 
-/// More equal forces than harmonics: to the basis a uniform pressure, the tension
-/// positive. N forces P make p = N P / 2πbh.
+/// Equal forces, more than there are harmonics, act like a uniform pressure, positive in tension. N forces P
+/// make p = N P / 2πbh.
 fn uniform_tension(blade: &Blade, pressure_pa: f64, forces: usize) -> Vec<RimForce> {
     let each = pressure_pa * TAU * blade.outer_radius_m * blade.thickness_m / forces as f64;
     (0..forces)
@@ -48,7 +48,7 @@ fn lame(blade: &Blade, pressure_pa: f64, r: f64) -> RadialAndHoop {
     annulus(blade).stress_under_rim_tension(pressure_pa, r)
 }
 
-/// K of the axisymmetric stress of Lamé's ring for n, as `HarmonicBlock` would build it.
+/// K of the axisymmetric stress of Lamé's ring for n, in the form of `HarmonicBlock`.
 fn lame_block(plate: &Plate, pressure_pa: f64, n: usize) -> Mat<f64> {
     let density = plate.blade.material.density_kg_per_m3;
     let size = plate.basis.count();
@@ -98,7 +98,7 @@ fn a_uniform_pressure_is_lames_ring() {
     }
 }
 
-/// Squared frequencies of n diameters at rest: its cosines alone, K_b + K_e.
+/// Squared frequencies of n diameters at rest, from the cosine block of K_b + K_e.
 fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64> {
     let (size, first) = (plate.basis.count(), plate.offset(n));
     let bending = &plate.harmonics[n].bending;
@@ -109,7 +109,8 @@ fn squared_frequencies(plate: &Plate, stiffness: &Mat<f64>, n: usize) -> Vec<f64
     .unwrap()
 }
 
-/// A blade under uniform tension tilts as a rigid body as long as it hardly bends; the waves of n = 2 … 5 move by what the ring's own matrix says.
+/// Under uniform tension a blade tilts nearly as a rigid body; the frequencies of n = 2 … 5 change as the
+/// matrix of the ring predicts.
 #[test]
 fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
     let plate = free_plate(8);

@@ -15,8 +15,8 @@ const PHASES: [Phase; 2] = [Phase::Cosine, Phase::Sine];
 /// K_e,ij = ∫∫ h [σ_rr φᵢ,r φⱼ,r + σ_θθ φᵢ,θ φⱼ,θ / r² + σ_rθ S_ij / r] r dr dθ,
 /// S_ij = φᵢ,r φⱼ,θ + φᵢ,θ φⱼ,r.
 ///
-/// With a tension K_e is positive, with a thrust negative. On the rigid tilts it is
-/// the moment that dead forces exert on a tilted blade; on heave it vanishes.
+/// Under tension K_e is positive, under compression negative. On the rigid tilts it is the moment of dead
+/// forces on a tilted blade; on heave it vanishes.
 pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
     let size = plate.basis.count();
     let max_order = stress.max_order().min(2 * plate.max_diameters());
@@ -47,8 +47,8 @@ pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
         }
     }
     if plate.basis.has_rigid_motions() {
-        // Heave turns no surface against a dead force; rounding must not say otherwise,
-        // for a stiffness of any other sign would be an instability.
+        // Heave does no work against a dead force. Rounding must not add a stiffness, which could be negative
+        // and an instability.
         stiffness.row_mut(0).fill(0.0);
         stiffness.col_mut(0).fill(0.0);
     }
@@ -63,7 +63,7 @@ fn offset(plate: &Plate, wave: Wave) -> usize {
     }
 }
 
-/// The J × J block of two waves; only the orders |n₁ ± n₂| of the stress reach it.
+/// The J × J block of two waves; only the orders |n₁ ± n₂| of the stress contribute.
 fn between(
     integrals: &[[RadialIntegrals; 2]],
     size: usize,
@@ -100,7 +100,7 @@ fn between(
     block
 }
 
-/// Integrals over the radius of one order, cosine or sine, in Pa/m².
+/// Radial integrals of one order, cosine or sine, in Pa/m².
 struct RadialIntegrals {
     /// ∫ σ_rr R_j′ R_k′ r dr.
     radial: DMatrix<f64>,
@@ -146,18 +146,17 @@ impl RadialIntegrals {
     }
 }
 
-/// Points per panel for J functions and stresses that follow r^m to r^−(m+2). Towards
-/// the rim the integrand is a polynomial of degree m + 2J, which half as many points
-/// integrate exactly, however steep it is; on a panel, whose ends differ by a factor
-/// two at most, the negative powers need no more.
+/// Number of points per panel for J functions and stresses that vary as r^m to r^−(m+2). Near the rim the
+/// integrand is a polynomial of degree m + 2J, for which half this number is exact. Within a panel r changes
+/// by at most a factor two, so that the negative powers need no more.
 fn sufficient_points(functions: usize, max_order: usize) -> usize {
     functions + max_order / 2 + 12
 }
 
-/// The radial functions shared by all n ≠ 1 at a point of the quadrature rule.
+/// The radial functions common to all n ≠ 1 at a quadrature point.
 struct Sample {
     radius_m: f64,
-    /// Of the rule, times the thickness over that of the hub.
+    /// Weight of the rule times thickness over that of the hub.
     weight_m: f64,
     value: DVector<f64>,
     slope: DVector<f64>,

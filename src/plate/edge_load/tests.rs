@@ -1,5 +1,4 @@
-//! Each harmonic against the equations of plane stress, by differences that know
-//! nothing of the series.
+//! Each harmonic against the equations of plane stress, evaluated by finite differences.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,7 +23,7 @@ pub const LOADS: [RimForce; 3] = [
         tangential_n: 250.0,
     },
 ];
-/// At the bore, in no balance with the loads.
+/// Forces at the bore that do not balance the loads.
 const REACTION: [BoreForce; 2] = [
     BoreForce {
         angle_rad: 1.4,
@@ -45,12 +44,12 @@ pub fn blade_with(ratio: f64) -> Blade {
     blade
 }
 
-/// The paper's ring, a pin-hole, a narrow ring.
+/// The paper's ring, a ring with a very small hole, and a narrow ring.
 fn blades() -> [Blade; 3] {
     [200.0 / 710.0, 0.1, 0.8].map(blade_with)
 }
 
-/// First and second derivative by central differences of fourth order.
+/// First and second derivative by fourth-order central differences.
 fn derivatives(f: impl Fn(f64) -> f64, x: f64, step: f64) -> [f64; 2] {
     let [low2, low, mid, high, high2] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| f(x + k * step));
     [
@@ -59,7 +58,7 @@ fn derivatives(f: impl Fn(f64) -> f64, x: f64, step: f64) -> [f64; 2] {
     ]
 }
 
-/// Calls `check` with order, radius and a step that resolves r^m, all over the blade.
+/// Calls `check` with order, radius and a step that resolves r^m, at radii over the whole blade.
 fn everywhere(blade: &Blade, mut check: impl FnMut(&EdgeStress, usize, f64, f64)) {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     for reaction in [&[][..], &REACTION] {
@@ -132,15 +131,15 @@ fn every_harmonic_is_compatible() {
     }
 }
 
-/// u = U cos θ, v = V sin θ exists only if γ = V′ − (V + U)/r with U′ = ε_rr and
-/// V + U = r ε_θθ, that is γ = r ε_θθ′ − ε_rr: around the bore nothing is cut open.
+/// u = U cos θ, v = V sin θ exists only if γ = V′ − (V + U)/r with U′ = ε_rr and V + U = r ε_θθ, that is γ =
+/// r ε_θθ′ − ε_rr: the displacement is single-valued around the bore.
 #[test]
 fn the_net_force_leaves_the_displacement_single_valued() {
     for poisson_ratio in [-0.5, 0.0, 0.29, 0.49] {
         for mut blade in blades() {
             blade.material.poisson_ratio = poisson_ratio;
             let stress = EdgeStress::with_reaction(&blade, &LOADS, &REACTION, 1);
-            // Times E: ε_rr, ε_θθ, γ of (cos, cos, sin) and of (sin, sin, −cos).
+            // The strains ε_rr, ε_θθ, γ of (cos, cos, sin) and of (sin, sin, −cos), times E.
             let strain = |r: f64, part: usize| {
                 let s = stress.harmonic(1, r);
                 let (radial, hoop) = (s.radial_pa[part], s.hoop_pa[part]);
@@ -175,8 +174,8 @@ fn assert_close(left: [f64; 2], right: [f64; 2], tolerance: f64) {
     }
 }
 
-/// At the rim the load's own Fourier coefficients; at the bore the reaction of
-/// m = 0 and 1, and nothing else.
+/// At the rim the stress has the Fourier coefficients of the load; at the bore it is the reaction of m = 0
+/// and 1 only.
 #[test]
 fn the_edges_carry_the_loads_and_the_reaction() {
     for blade in blades() {
@@ -218,8 +217,8 @@ fn the_edges_carry_the_loads_and_the_reaction() {
     }
 }
 
-/// The same with forces at the bore: beyond m = 1 their own Fourier coefficients; in
-/// m = 1 these and the rest of the net force, half of it as pressure, half as shear.
+/// With forces at the bore the stress there has their Fourier coefficients for m > 1; for m = 1 the rest of
+/// the net force is added, half as pressure, half as shear.
 #[test]
 fn the_bore_carries_the_forces_given_there() {
     for blade in blades() {
@@ -266,7 +265,7 @@ fn the_bore_carries_the_forces_given_there() {
     }
 }
 
-/// Orders whose powers underflow, rings down to the narrowest scene, numbers that are none.
+/// Orders whose powers underflow, the narrowest rings of a scene, and numbers that are not finite.
 #[test]
 fn no_geometry_and_no_load_makes_it_fail() {
     for ratio in [1e-26, 1e-3, 0.99, 0.999] {
@@ -286,7 +285,7 @@ fn no_geometry_and_no_load_makes_it_fail() {
     assert_eq!(stress.harmonic(5, 0.3), HarmonicStress::default());
 }
 
-/// A pin-hole of a/b = 10⁻⁴ disturbs the stress of a full disk by (a/r)².
+/// A hole of a/b = 10⁻⁴ changes the stress of a full disk by (a/r)².
 #[test]
 fn a_pin_hole_is_a_disk_under_two_forces() {
     let blade = blade_with(1e-4);

@@ -1,9 +1,9 @@
-//! A symmetric positive definite band matrix.
+//! Symmetric positive definite band matrices.
 //!
-//! The libraries here have dense and sparse factorizations: a harmonic of high order takes twenty
-//! elements, and the dense one a hundred times the work.
+//! The libraries in use have dense and sparse factorizations only: a harmonic of high order has twenty
+//! elements, for which the dense one takes a hundred times the work.
 
-/// The matrix, lower triangle.
+/// The lower triangle of the matrix.
 pub struct Banded {
     /// Row i: columns i − width + 1 … i.
     rows: Vec<Vec<f64>>,
@@ -11,7 +11,7 @@ pub struct Banded {
 }
 
 impl Banded {
-    /// Zero, with `width` diagonals at and below the main one.
+    /// The zero matrix with `width` diagonals at and below the main one.
     pub fn new(order: usize, width: usize) -> Self {
         Banded {
             rows: vec![vec![0.0; width]; order],
@@ -24,7 +24,7 @@ impl Banded {
         self.rows[row][column + self.width - 1 - row] += value;
     }
 
-    /// Makes an unknown zero where its right side is.
+    /// Fixes an unknown at zero; its right side is zero.
     pub fn hold(&mut self, unknown: usize) {
         let end = self.rows.len().min(unknown + self.width);
         for row in unknown..end {
@@ -34,8 +34,7 @@ impl Banded {
         self.rows[unknown][self.width - 1] = 1.0;
     }
 
-    /// Cholesky's factorization within the band; entries that are no numbers where the matrix is
-    /// not positive definite.
+    /// Cholesky factorization within the band; its entries are NaN if the matrix is not positive definite.
     pub fn factored(mut self) -> BandedFactor {
         let (order, width) = (self.rows.len(), self.width);
         for i in 0..order {
@@ -58,7 +57,7 @@ impl Banded {
     }
 }
 
-/// First column of a row that is within the band.
+/// First column of a row within the band.
 fn first(row: usize, width: usize) -> usize {
     (row + 1).saturating_sub(width)
 }
@@ -67,7 +66,7 @@ fn first(row: usize, width: usize) -> usize {
 pub struct BandedFactor(Banded);
 
 impl BandedFactor {
-    /// Puts the solutions in place of right sides: `columns` of them, row by row.
+    /// Replaces right sides, `columns` of them, row by row, by the solutions.
     pub fn solve(&self, x: &mut [f64], columns: usize) {
         let Banded { rows, width } = &self.0;
         let width = *width;

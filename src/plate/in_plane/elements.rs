@@ -8,10 +8,10 @@ use crate::scene::Blade;
 pub const DEGREE: usize = 14;
 /// Largest ratio of the radii of an element: 1/r is then resolved to 1e-13.
 const GROWTH: f64 = 1.6;
-/// Largest logarithm by which the wave r^±m of harmonic m grows over an element.
+/// Largest logarithm of the growth of r^±m, the wave of harmonic m, over an element.
 const WAVE_GROWTH: f64 = 4.0;
 
-/// The elements of one harmonic, and their functions.
+/// The elements of one harmonic and their shape functions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elements {
     /// m.
@@ -21,19 +21,19 @@ pub struct Elements {
     reference: Reference,
 }
 
-/// Strains [ε_rr, ε_θθ, γ_rθ] of unit displacements u and v of each node of an element, and the
-/// functions themselves.
+/// Strains [ε_rr, ε_θθ, γ_rθ] for unit displacements u and v of each node of an element, and the shape
+/// functions.
 pub struct UnitStrains {
     /// N_k(r).
     pub values: [f64; DEGREE + 1],
-    /// Of u.
+    /// Strains for u.
     pub radial: [[f64; 3]; DEGREE + 1],
-    /// Of v.
+    /// Strains for v.
     pub along: [[f64; 3]; DEGREE + 1],
 }
 
 impl Elements {
-    /// Elements of harmonic m, which end where the thickness is not smooth, and at `knots_m`.
+    /// Elements of harmonic m, which end at `knots_m` and where the thickness is not smooth.
     pub fn new(blade: &Blade, order: usize, knots_m: &[f64]) -> Self {
         Elements {
             order: order as f64,
@@ -47,7 +47,7 @@ impl Elements {
         self.edges_m.len() - 1
     }
 
-    /// Number of nodes: neighbours share one.
+    /// Number of nodes; neighbouring elements share one.
     pub fn nodes(&self) -> usize {
         DEGREE * self.count() + 1
     }
@@ -62,7 +62,7 @@ impl Elements {
         (self.edges_m[element], self.edges_m[element + 1])
     }
 
-    /// The element that a radius is in; at an edge the inner one.
+    /// The element that contains a radius; at an edge, the inner one.
     pub fn at(&self, radius_m: f64) -> usize {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         next.saturating_sub(1).min(self.count() - 1)
@@ -89,7 +89,7 @@ impl Elements {
         2.0 * (radius_m - from) / (to - from) - 1.0
     }
 
-    /// Slopes at the nodes of an element of what has these values there.
+    /// Slopes at the nodes of an element for given values there.
     pub fn slopes_at_nodes(&self, element: usize, values: [f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
         let (from, to) = self.ends_m(element);
         std::array::from_fn(|node| {
@@ -115,14 +115,14 @@ impl Elements {
     }
 }
 
-/// Ends of the elements: edges and knots, and between them no more growth than allowed.
+/// Ends of the elements: edges, knots, and further radii that limit the growth over an element.
 fn element_edges(blade: &Blade, order: usize, knots_m: &[f64]) -> Vec<f64> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut knots = blade.edges_m();
     knots.extend(knots_m.iter().filter(|r| a < **r && **r < b));
     knots.sort_by(f64::total_cmp);
     knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
-    // The rim stays where it is.
+    // The rim is kept exactly.
     *knots.last_mut().expect("a ring has edges") = b;
     let growth = GROWTH.ln().min(WAVE_GROWTH / order.max(1) as f64);
     let mut edges = vec![a];
@@ -135,10 +135,10 @@ fn element_edges(blade: &Blade, order: usize, knots_m: &[f64]) -> Vec<f64> {
     edges
 }
 
-/// Share of the outer radius below which two knots are one.
+/// Knots closer than this share of the outer radius are merged.
 const MERGED: f64 = 1e-12;
 
-/// Lagrange functions on the Chebyshev points of [−1, 1].
+/// Lagrange functions of the Chebyshev points on [−1, 1].
 #[derive(Debug, Clone, PartialEq)]
 struct Reference {
     nodes: Vec<f64>,
@@ -162,7 +162,7 @@ impl Reference {
         Reference { nodes, slopes }
     }
 
-    /// Barycentric weight of a node, up to a factor that all have.
+    /// Barycentric weight of a node, up to a common factor.
     fn weight(k: usize) -> f64 {
         let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         if k == 0 || k == DEGREE {
@@ -183,8 +183,8 @@ impl Reference {
         shares.map(|share| share / sum)
     }
 
-    /// Slopes of the functions of these values at a point: a slope is a polynomial through its
-    /// values at the nodes. The derivative of the barycentric formula would cancel beside a node.
+    /// Slope at a point of the polynomial with these values, interpolated from its slopes at the nodes. The
+    /// derivative of the barycentric formula would suffer from cancellation near a node.
     fn slopes(&self, values: &[f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
         std::array::from_fn(|k| {
             (0..=DEGREE)

@@ -2,7 +2,7 @@ use super::*;
 use crate::analytical::annulus::Annulus;
 use crate::scene::{Scene, ThicknessRow};
 
-/// Thickness and load of the constant blade: the closed form.
+/// A blade of uniform thickness has the stress of the closed form.
 #[test]
 fn the_constant_blade_has_the_stress_of_the_textbook() {
     let blade = *Scene::paper().blade();
@@ -26,11 +26,11 @@ fn the_constant_blade_has_the_stress_of_the_textbook() {
     }
 }
 
-/// A disk whose thickness falls as 1/r: Stodola's hyperbolic disk, in closed form.
+/// A disk whose thickness falls as 1/r is Stodola's hyperbolic disk, with a closed form.
 ///
-/// u = c₁ r^s₁ + c₂ r^s₂ + p r³ with s² − s − (1 + ν) = 0 for h ∝ 1/r, and
-/// p = −(1 − ν²)ρΩ²/E /(9 − 3 − (1 + ν)) (A. Stodola, *Steam and Gas Turbines*, 1927).
-/// A profile is straight between rows: eight of them stay within 0.1 % of it.
+/// u = c₁ r^s₁ + c₂ r^s₂ + p r³ with s² − s − (1 + ν) = 0 for h ∝ 1/r, and p = −(1 − ν²)ρΩ²/E /(9 − 3 − (1 +
+/// ν)) (A. Stodola, *Steam and Gas Turbines*, 1927). A profile is linear between rows; eight rows approximate
+/// 1/r to 0.1 %.
 #[test]
 fn a_hyperbolic_disk_has_the_stress_of_stodola() {
     let (a, b) = (0.2_f64, 0.24_f64);

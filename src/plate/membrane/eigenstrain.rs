@@ -1,9 +1,9 @@
-//! Axisymmetric eigenstrains: what the metal would do if nothing around it held it.
+//! Axisymmetric eigenstrains: the strains of the metal if nothing constrained it.
 
 use crate::scene::{Blade, Profile, RollBand, Temperature, TemperatureShape};
 
-/// In-plane eigenstrain ε(r), the same in all directions of the plane, with its moment
-/// ∫ ε r dr in closed form, so that the stress is exact to rounding.
+/// In-plane eigenstrain ε(r), isotropic, with its moment ∫ ε r dr in closed form, so that the stress is exact
+/// to rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Eigenstrain {
     /// ε_b ((r − r₀)/(b − r₀))^p beyond r₀, zero within.
@@ -17,24 +17,24 @@ pub enum Eigenstrain {
         /// p.
         exponent: f64,
     },
-    /// Straight between rows.
+    /// Linear between rows.
     Table {
-        /// Scales the profile.
+        /// Factor of the profile.
         factor: f64,
-        /// Over the radius.
+        /// Profile over the radius.
         profile: Profile,
     },
     /// Constant within a band.
     Band(RollBand),
 }
 
-/// Panels towards the foot of a rise of broken power shrink by this factor, so many times:
-/// what is left of a foot of r^½ is then below 1e-11 of its integral.
+/// Towards r₀ panels shrink by this factor, for powers that are not integers: after as many panels the
+/// remainder of r^½ is below 1e-11 of its integral.
 const SHRINK: f64 = 0.15;
 const SHRUNK_PANELS: i32 = 9;
 
 impl Eigenstrain {
-    /// α T(r) of a temperature of the given peak.
+    /// α T(r) of a temperature with the given peak.
     pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let peak = temperature.expansion_per_k * peak_rise_k;
         match &temperature.shape {
@@ -112,7 +112,7 @@ impl Eigenstrain {
         }
     }
 
-    /// Radii at which it or one of its derivatives jumps, or near which it is not smooth.
+    /// Radii at which the eigenstrain or one of its derivatives jumps, or near which it is not smooth.
     pub fn knots_m(&self) -> Vec<f64> {
         match self {
             Eigenstrain::Power {
@@ -135,7 +135,7 @@ impl Eigenstrain {
         }
     }
 
-    /// Degree of the polynomial that it is between knots, as far as it is one.
+    /// Degree of the polynomial between knots, if it is one.
     pub fn degree(&self) -> usize {
         match self {
             Eigenstrain::Power { exponent, .. } => exponent.ceil() as usize,

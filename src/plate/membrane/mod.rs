@@ -1,17 +1,16 @@
-//! Membrane stress of heat, roll tension and manufacture, and the stiffness it gives.
+//! Membrane stress of heat, roll tension and manufacture, and its geometric stiffness.
 //!
-//! Plane stress with an eigenstrain ε(r), the same all around and in all directions of the
-//! plane, on a < r < b: with I(r) = ∫_a^r ε ρ dρ
+//! Plane stress with an axisymmetric, isotropic eigenstrain ε(r) on a < r < b: with I(r) = ∫_a^r ε ρ dρ
 //!
 //! σ_rr = A − B/r² − E I/r², σ_θθ = A + B/r² + E I/r² − E ε,
 //!
-//! which meets equilibrium, d(r σ_rr)/dr = σ_θθ, and compatibility. The rim is free; the bore is
-//! what it is to the centrifugal stress: free, or u(a) = 0 at a collar that holds it. With the
-//! latter a temperature counts from that of the collar. The two conditions of a collar bracket
-//! what the blade within it does: it is neither rigid nor absent.
+//! which satisfies equilibrium, d(r σ_rr)/dr = σ_θθ, and compatibility. The rim is free. The bore has the
+//! same condition as for centrifugal stress: free, or u(a) = 0 at a fixed collar, whose temperature is then
+//! the reference. These two conditions of a collar are limits for the real one, inside which the blade is
+//! neither rigid nor absent.
 //!
-//! A measured residual stress is taken as it is, with the radial stress that keeps it in
-//! equilibrium, see [`ResidualStress`].
+//! A measured residual stress is used as given, with the radial stress that is in equilibrium with it, see
+//! [`ResidualStress`].
 //!
 //! Reference: Timoshenko & Goodier, *Theory of Elasticity*, 3rd ed., section 150.
 
@@ -26,7 +25,7 @@ use super::quadrature;
 use super::radial::RadialBasis;
 use crate::scene::{Blade, Bore, InPlane, Membrane, ResidualStress, Temperature};
 
-/// Where a membrane stress comes from.
+/// Cause of a membrane stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MembraneSource {
     /// Temperature.
@@ -46,7 +45,7 @@ pub struct PlaneStress {
     pub hoop_pa: f64,
 }
 
-/// Membrane stress of a blade, the same all around; the sum of its parts.
+/// Axisymmetric membrane stress of a blade, the sum of its parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MembraneStress {
     blade: Blade,
@@ -102,7 +101,7 @@ impl EigenStress {
     }
 }
 
-/// Stress of one eigenstrain in a blade whose thickness varies.
+/// Stress of one eigenstrain in a blade of varying thickness.
 #[derive(Debug, Clone, PartialEq)]
 struct VaryingStress {
     eigenstrain: Eigenstrain,
@@ -148,7 +147,7 @@ impl Part {
 }
 
 impl MembraneStress {
-    /// Every stress that a scene names and that is not zero; `None` without any.
+    /// The sum of all stresses of a scene that are not zero; `None` without any.
     pub(crate) fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
         let heat = membrane.temperature.as_ref().map(|temperature| {
             let strain = Eigenstrain::of_heat(blade, temperature, temperature.peak_rise_k);
@@ -176,7 +175,7 @@ impl MembraneStress {
         })
     }
 
-    /// The stress of a temperature of the given peak alone.
+    /// The stress of a temperature with the given peak alone.
     pub(crate) fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let strain = Eigenstrain::of_heat(blade, temperature, peak_rise_k);
         let part = Part::of_eigenstrain(blade, strain);
@@ -186,7 +185,7 @@ impl MembraneStress {
         }
     }
 
-    /// Whether something of this kind is in it.
+    /// Whether a stress of this cause is part of it.
     pub fn has(&self, source: MembraneSource) -> bool {
         self.parts.iter().any(|(own, _)| *own == source)
     }
@@ -209,7 +208,7 @@ impl MembraneStress {
         sum
     }
 
-    /// The edges and, ascending between them, the radii at which the stress is not smooth.
+    /// The edges and the radii between them at which the stress is not smooth, ascending.
     pub fn knots_m(&self) -> Vec<f64> {
         let (a, b) = (self.blade.inner_radius_m, self.blade.outer_radius_m);
         let of_part = |(_, part): &(MembraneSource, Part)| match part {
@@ -222,12 +221,12 @@ impl MembraneStress {
         knots.retain(|r| a < *r && *r < b);
         knots.extend(self.blade.edges_m());
         knots.sort_by(f64::total_cmp);
-        // Of two that rounding parts the panel between would be empty.
+        // The panel between two knots that differ by rounding would be empty.
         knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
         knots
     }
 
-    /// Gauss points a panel that integrate products of two of J functions with it.
+    /// Number of Gauss points per panel that integrate the product of the stress and two of J functions.
     fn points(&self, functions: usize) -> usize {
         let degree =
             |(_, part): &(MembraneSource, Part)| part.eigenstrain().map_or(1, Eigenstrain::degree);
@@ -236,7 +235,7 @@ impl MembraneStress {
     }
 }
 
-/// Share of the outer radius below which two knots are one.
+/// Knots closer than this share of the outer radius are merged.
 const MERGED: f64 = 1e-12;
 
 /// Geometric stiffness K_m of n = 0 … n_max in the mass-normalised basis, in 1/s²:
@@ -261,7 +260,7 @@ fn stiffness_with(
     let mut hoop = DMatrix::zeros(size, size);
     for panel in stress.knots_m().windows(2) {
         for (r, w) in quadrature::graded(panel[0], panel[1], points).iter() {
-            // Those of n = 0 serve all n but 1, for which they are turned.
+            // The functions of n = 0 are those of all n except 1, for which they are rotated.
             let functions = basis.evaluate(0, r);
             let value = DVector::from_vec(functions.value);
             let slope = DVector::from_vec(functions.slope);
@@ -276,8 +275,8 @@ fn stiffness_with(
             let n2 = (n * n) as f64;
             let mut block = basis.turned(n, n, &radial + &hoop * n2);
             if basis.has_rigid_motions() && n <= 1 {
-                // A stress in equilibrium between free edges does no work on heave and tilt:
-                // ∫ d(r σ_rr R)/dr dr is zero. Rounding must not hold or tip them.
+                // A stress in equilibrium between free edges does no work on heave and tilt: ∫ d(r σ_rr R)/dr
+                // dr is zero. Rounding must not give them a stiffness of either sign.
                 block.row_mut(0).fill(0.0);
                 block.column_mut(0).fill(0.0);
             }

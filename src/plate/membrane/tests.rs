@@ -1,4 +1,4 @@
-//! Stresses against closed forms of other authors and against equilibrium and compatibility.
+//! Stresses against closed forms from the literature and against equilibrium and compatibility.
 
 use super::*;
 use crate::analytical::annulus::Annulus;
@@ -47,8 +47,8 @@ const MEASURED: &str = r#"{"residual_stress": [
     {"radius_m": 0.3, "hoop_pa": 35e6}, {"radius_m": 0.355, "hoop_pa": 100e6}]}"#;
 const PROFILES: [&str; 6] = [LINEAR, ROOT, STEEP, TABLE, ROLLED, MEASURED];
 
-/// d(r σ_rr)/dr = σ_θθ, in its integral form between any two radii, across every kink, jump
-/// and band; and the edges are as free as the bore says.
+/// d(r σ_rr)/dr = σ_θθ holds in integral form between any two radii, across every kink, jump and band; the
+/// edges satisfy the condition of the bore.
 #[test]
 fn every_profile_is_in_equilibrium() {
     for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
@@ -62,7 +62,7 @@ fn every_profile_is_in_equilibrium() {
             let hoop: f64 = rule.iter().map(|(r, w)| w * stress.at(r).hoop_pa).sum();
             let traction = |r: f64| r * stress.at(r).radial_pa;
             let residual = traction(high) - traction(low) - hoop;
-            // The root's foot is integrated to 1e-11 only.
+            // Near r₀ a root is integrated to 1e-11 only.
             let error = residual.abs() / (scale * high);
             assert!(error < 1e-10, "{profile} {bore:?}: {error:e}");
         }
@@ -79,8 +79,8 @@ fn every_profile_is_in_equilibrium() {
     }
 }
 
-/// The strains belong to a displacement: u/r = ε_θ has the derivative (ε_r − ε_θ)/r; and a collar
-/// that holds the blade has u(a) = 0.
+/// The strains belong to a displacement: u/r = ε_θ has the derivative (ε_r − ε_θ)/r, and a fixed collar has
+/// u(a) = 0.
 #[test]
 fn strains_are_compatible() {
     for (profile, bore) in [LINEAR, STEEP, TABLE, ROLLED]
@@ -146,8 +146,8 @@ fn a_square_rise_has_the_stress_of_the_textbook() {
     }
 }
 
-/// The steady flow of heat from rim to bore has a stress of its own in the textbook; a table of
-/// its temperature comes to that with the square of its spacing.
+/// The stress of steady heat conduction from rim to bore is a textbook result; a table of this temperature
+/// converges to it with the square of its spacing.
 #[test]
 fn a_table_of_the_conducted_heat_converges_to_the_textbook() {
     let blade = stress_of(LINEAR, Bore::Free).blade;
@@ -200,8 +200,8 @@ fn an_even_temperature_stresses_no_blade_with_free_edges() {
     }
 }
 
-/// Seen from outside, a rolled band is pressed and the rim is stretched; σ_rr is continuous and
-/// σ_θθ jumps by E times the eigenstrain.
+/// A rolled band is compressed and stretches the rim; σ_rr is continuous and σ_θθ jumps by E times the
+/// eigenstrain.
 #[test]
 fn a_rolled_band_is_pressed_and_stretches_the_rim() {
     let text = r#"{"roll_tension": [{"radius_m": 0.26, "width_m": 0.02, "eigenstrain": 5e-4}]}"#;
@@ -212,12 +212,12 @@ fn a_rolled_band_is_pressed_and_stretches_the_rim() {
     let jump = outside.hoop_pa - inside.hoop_pa;
     assert!((jump / (5e-4 * modulus) - 1.0).abs() < 1e-6);
     assert!(stress.at(0.26).hoop_pa < 0.0);
-    // It pushes the ring outside and pulls the one within.
+    // The band pushes the outer ring outwards and pulls the inner one.
     assert!(outside.radial_pa < 0.0 && stress.at(0.25).radial_pa > 0.0);
     assert!(stress.at(0.355).hoop_pa > 0.0);
 }
 
-/// A staircase of bands is the table it steps along, with the square of the step.
+/// Adjacent bands approximate a table with the square of their width.
 #[test]
 fn bands_side_by_side_become_a_temperature() {
     let (blade, named) = paper_with(LINEAR, Bore::Clamped(InPlane::Fixed));
@@ -249,7 +249,7 @@ fn bands_side_by_side_become_a_temperature() {
     assert!((order - 2.0).abs() < 0.15, "{order}");
 }
 
-/// Twice the points change no integral of the largest basis: the panels end at every kink.
+/// Twice the points change no integral of the largest basis, because panels end at every kink.
 #[test]
 fn the_quadrature_resolves_kinks_and_bands() {
     for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
@@ -263,7 +263,7 @@ fn the_quadrature_resolves_kinks_and_bands() {
             let tolerance = if profile == ROOT { 1e-9 } else { 1e-12 };
             assert!(error <= tolerance, "{profile} {bore:?} n = {n}: {error:e}");
         }
-        // Without panels the kinks alone would spoil it.
+        // Without panels the kinks alone would cause a larger error.
         if profile == ROLLED {
             let blind: f64 = basis
                 .rule()
@@ -278,8 +278,8 @@ fn the_quadrature_resolves_kinks_and_bands() {
     }
 }
 
-/// Before exact zeros are written: by quadrature alone no stress between free edges works on
-/// heave and tilt.
+/// Before exact zeros are inserted, quadrature alone gives no work of a stress between free edges on heave
+/// and tilt.
 #[test]
 fn rigid_motions_cost_nothing() {
     for profile in PROFILES {
@@ -318,7 +318,7 @@ fn what_is_zero_is_not_assembled() {
     assert!(plate.membrane.is_none() && plate.harmonics.iter().all(|h| h.membrane.is_none()));
 }
 
-/// The profile type is what tables are made of.
+/// Tables use the type `Profile`.
 #[test]
 fn a_measured_table_keeps_its_hoop_stress_but_for_the_mean() {
     let (blade, named) = paper_with(MEASURED, Bore::Free);

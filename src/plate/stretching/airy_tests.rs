@@ -1,5 +1,5 @@
-//! Bounds from below by truncated series of Airy's stress function, and rings by shooting: neither knows
-//! of displacements.
+//! References that use no displacements: lower bounds by truncated series of Airy's stress function, and
+//! rings by a shooting method.
 
 use std::f64::consts::PI;
 
@@ -13,13 +13,13 @@ use crate::scene::{Blade, InPlane};
 
 /// F and its first and second derivative.
 type Jet = [f64; 3];
-/// n, and the factor of cos nθ over the radius.
+/// n, and the radial factor of cos nθ.
 type EvenWave<'a> = (usize, &'a dyn Fn(f64) -> Jet);
 /// Radius, step, and [S, V].
 type Marched = (f64, f64, [f64; 2]);
 
-/// cos mθ times radial functions ψ of Airy's function for free edges: F and its slope vanish at the rim;
-/// at the bore they are those of a plane, which exerts no force.
+/// Radial factors ψ of cos mθ in Airy's function for free edges: F and its slope vanish at the rim; at the
+/// bore they are those of a linear function, which exerts no force.
 fn stress_functions(blade: &Blade, order: usize, count: usize, r: f64) -> Vec<Jet> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let product = |x: Jet, y: Jet| {
@@ -33,7 +33,7 @@ fn stress_functions(blade: &Blade, order: usize, count: usize, r: f64) -> Vec<Je
     let square = |root: f64| product(line(root), line(root));
     let mapped: Jet = [(2.0 * r - a - b) / (b - a), 2.0 / (b - a), 0.0];
     let mut functions = Vec::new();
-    // (b − r)²(r − c) with no slope at a.
+    // (b − r)²(r − c) with zero slope at a.
     let bowl = product(square(b), line(a + 0.5 * (a - b)));
     match order {
         0 => functions.push(bowl),
@@ -48,8 +48,8 @@ fn stress_functions(blade: &Blade, order: usize, count: usize, r: f64) -> Vec<Je
     functions
 }
 
-/// Energy of the best of the truncated series: that of stresses which are in equilibrium, hence not
-/// above U₄, for w = Σ wₙ(r) cos nθ.
+/// Energy of the best truncated series for w = Σ wₙ(r) cos nθ. Its stresses are in equilibrium, so that it
+/// does not exceed U₄.
 fn lower_bound(blade: &Blade, waves: &[EvenWave<'_>], count: usize) -> f64 {
     let e = blade.material.youngs_modulus_pa;
     let highest = 2 * waves.iter().map(|wave| wave.0).max().unwrap();
@@ -75,7 +75,7 @@ fn lower_bound(blade: &Blade, waves: &[EvenWave<'_>], count: usize) -> f64 {
                 }
             }
         }
-        // Of badly scaled powers: each on the unit of its own energy.
+        // The powers are badly scaled; each is normalized by its own energy.
         let unit: Vec<f64> = (0..count)
             .map(|i| compliance[(i, i)].sqrt().recip())
             .collect();
@@ -109,7 +109,8 @@ fn strain_of(waves: &[EvenWave<'_>], m: usize, r: f64) -> [f64; 3] {
     strain
 }
 
-/// The bound rises to U₄ and never beyond it: exact displacements and admissible stresses enclose it.
+/// The bound rises towards U₄ and does not exceed it: exact displacements and admissible stresses enclose the
+/// energy.
 #[test]
 fn truncated_stress_functions_bound_it_from_below() {
     let plate = plate((4, 8), |_| ());
@@ -148,14 +149,14 @@ fn truncated_stress_functions_bound_it_from_below() {
     }
 }
 
-/// Energy of w(r) on a ring whose thickness varies, by shooting: S = r h σ_rr and V = E u, with
-/// S′ = hV/r + νS/r and V′ = (1 − ν²)σ_rr − νV/r − Ew′²/2, both continuous at a step.
+/// Energy of w(r) on a ring of varying thickness, by a shooting method: S = r h σ_rr and V = E u, with S′ =
+/// hV/r + νS/r and V′ = (1 − ν²)σ_rr − νV/r − Ew′²/2, both continuous at a step.
 fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
     let (e, nu) = (
         blade.material.youngs_modulus_pa,
         blade.material.poisson_ratio,
     );
-    // Forced or not, from a start to S and V at the rim and the energy on the way.
+    // S and V at the rim and the energy, from a start, with or without forcing.
     let march = |start: [f64; 2], forced: f64| {
         let mut states = Vec::new();
         let [mut s, mut v] = start;
@@ -163,7 +164,7 @@ fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
             let steps = 400;
             let step = (ends[1] - ends[0]) / f64::from(steps);
             let rate = |r: f64, [s, v]: [f64; 2]| {
-                // Within the piece, whatever the rounding of r.
+                // The radius stays within the piece despite rounding.
                 let inside = r.clamp(ends[0] + 1e-9, ends[1]);
                 let h = blade.thickness_at_m(inside);
                 let radial = s / (r * h);
@@ -193,14 +194,14 @@ fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
         }
         states
     };
-    // One of S and V is free at the bore, and S vanishes at the rim.
+    // S or V is unknown at the bore, and S vanishes at the rim.
     let free = match blade.bore {
         crate::scene::Bore::Clamped(InPlane::Fixed) => [1.0, 0.0],
         _ => [0.0, 1.0],
     };
     let (forced, natural) = (march([0.0; 2], 1.0), march(free, 0.0));
     let share = -forced.last().unwrap().2[0] / natural.last().unwrap().2[0];
-    // Work of the stress on w′²/2, which is twice the energy: ½∫σ:E, and ∫σ:ε(u) = 0.
+    // The work of the stress on w′²/2 is twice the energy: ½∫σ:E, and ∫σ:ε(u) = 0.
     let density = |(forced, natural): (&Marched, &Marched)| {
         let (r, _, [s, _]) = *forced;
         0.5 * 2.0 * PI * (s + share * natural.2[0]) * 0.5 * slope(r).powi(2)
@@ -210,7 +211,7 @@ fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
         .zip(&natural)
         .map(|pair| (pair.0.1, density(pair)))
         .collect();
-    // Simpson's rule on pairs of steps; the last state of a piece has no step.
+    // Simpson's rule on pairs of steps; the last state of a piece starts no step.
     let mut energy = 0.0;
     let mut at = 0;
     while at + 2 < values.len() {
@@ -244,7 +245,7 @@ fn steps_tapers_and_collars_store_what_shooting_finds() {
         let q = projected(&plate, &[(0, [shape, &|_| 0.0])]);
         let energy = stretching.energy_j(&q).unwrap();
         let shot = by_shooting(&plate.blade, &slope);
-        // Functions at the knots of a profile are known to 1e-9, their slopes to fewer digits.
+        // Near the knots of a profile functions are accurate to 1e-9, their slopes to fewer digits.
         let most = if index == 0 { 1e-9 } else { 1e-6 };
         let error = energy / shot - 1.0;
         assert!(error.abs() < most, "{index}: {error:e}");

@@ -1,4 +1,4 @@
-//! Stretching against closed forms and invariants.
+//! Stretching compared with closed forms and invariants.
 
 use std::f64::consts::PI;
 
@@ -10,8 +10,8 @@ use crate::scene::rad_per_s;
 
 const ZERO: &dyn Fn(f64) -> f64 = &|_| 0.0;
 
-/// w = ½κr² and w = ½κr² cos 2θ on an annulus with free edges: πEhκ⁴b⁶(1 − a²/b²)³/384 both, for the
-/// same curvature κ²/4 − κ²/2 … of Gauss drives them, κ² and −κ²; ν does not appear.
+/// w = ½κr² and w = ½κr² cos 2θ on an annulus with free edges have the same energy πEhκ⁴b⁶(1 − a²/b²)³/384,
+/// because their Gaussian curvatures are κ² and −κ²; it does not depend on ν.
 #[test]
 fn the_bowl_and_the_saddle_have_the_energy_of_the_closed_form() {
     for (bore_m, poisson) in [(0.2, 0.29), (0.02, 0.0), (0.6, 0.45)] {
@@ -66,8 +66,8 @@ fn the_bowl_has_the_radial_stress_of_the_closed_form() {
     }
 }
 
-/// w = (x cos α + y sin α)² bends into a cylinder, which a sheet does without stretching, whatever its
-/// thickness. Functions at the knots of a profile are known to 1e-9 of the blade's size.
+/// w = (x cos α + y sin α)² bends a sheet into a cylinder without stretching, for any thickness. Functions at
+/// the knots of a profile are accurate to 1e-9 of the size of the blade.
 #[test]
 fn a_cylinder_is_not_stretched() {
     for (plate, most) in [
@@ -88,7 +88,7 @@ fn a_cylinder_is_not_stretched() {
     }
 }
 
-/// Heave and tilt move the blade as a rigid body, to the second order that von Kármán's strains know.
+/// Heave and tilt move the blade as a rigid body, to the second order of von Kármán's strains.
 #[test]
 fn rigid_motions_change_nothing() {
     for (plate, most) in [
@@ -124,7 +124,7 @@ fn a_turned_deflection_stores_the_same() {
     }
 }
 
-/// Euler's identities of a homogeneous function of degree four, and differences of five points.
+/// References: Euler's identities for a homogeneous function of degree four, and five-point differences.
 #[test]
 fn gradient_and_hessian_are_the_derivatives() {
     for plate in all((3, 3)) {
@@ -142,7 +142,7 @@ fn gradient_and_hessian_are_the_derivatives() {
         assert!(thrice < 1e-12 * gradient.norm_l2(), "{thrice:e}");
         let direction = Col::from_fn(bent.nrows(), |i| 3e-4 * (2.1 * i as f64 + 1.0).cos());
         let at = |step: f64| &bent + faer::Scale(step) * &direction;
-        // Exact for polynomials of degree four.
+        // This formula is exact for polynomials of degree four.
         let slope =
             |of: &dyn Fn(f64) -> f64| (8.0 * (of(0.5) - of(-0.5)) - (of(1.0) - of(-1.0))) / 6.0;
         let found = slope(&|step| stretching.energy_j(&at(step)).unwrap());
@@ -156,7 +156,7 @@ fn gradient_and_hessian_are_the_derivatives() {
     }
 }
 
-/// On some shapes the quartic form is the whole potential, its derivatives are, and Q has no negative
+/// On some shapes the quartic form equals the potential and so do its derivatives; Q has no negative
 /// eigenvalue.
 #[test]
 fn the_reduced_form_is_the_potential_on_its_shapes() {
@@ -189,9 +189,9 @@ fn the_reduced_form_is_the_potential_on_its_shapes() {
 
 /// Γ = 4U₄/Eh of the modes of a disk with a free edge, ∫φ² dA = 1, b = 1, ν = 0.33.
 ///
-/// 1.8965, 16.933, 8.529 and 31.726 are those of a separate program in another language, with truncated
+/// 1.8965, 16.933, 8.529 and 31.726 were computed by a separate program in another language, with truncated
 /// series in the plane. Touzé, Thomas & Chaigne (J. Sound Vib. 258 (2002), 649–676) print 1.898, 16.92 and
-/// 8.57 for the first three: 0.08 %, 0.08 % and 0.5 % from these.
+/// 8.57 for the first three: they differ by 0.08 %, 0.08 % and 0.5 %.
 #[test]
 fn a_free_disk_has_the_published_coefficients() {
     let disk = plate((3, 12), |saw| {

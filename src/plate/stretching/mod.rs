@@ -1,25 +1,25 @@
-//! Potential of stretching: what a plate that bends by more than a part of its thickness stores in
-//! its plane.
+//! Potential of stretching: the energy of in-plane strains that result from deflections comparable to the
+//! thickness.
 //!
-//! Kirchhoff plate with von Kármán's strains, of which the steady centrifugal stress is in K_σ
-//! already, and the inertia in the plane is left out:
+//! Kirchhoff plate with von Kármán's strains; the steady centrifugal stress is part of K_σ, and in-plane
+//! inertia is neglected:
 //!
 //! U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ,
 //!
-//! ℂ of plane stress, u the displacement in the plane. U₄ is homogeneous of degree four in q, is
-//! never negative, and does not change when the deflection is turned about the axis, so that it is
-//! the same function in space and on the turning blade. The edges are free in the plane; a collar
-//! that holds the bore there (`in_plane` `fixed`) holds u = 0.
+//! with ℂ of plane stress and the in-plane displacement u. U₄ is homogeneous of degree four in q, is never
+//! negative, and does not change when the deflection is rotated about the axis, so that it is the same
+//! function in space and on the turning blade. The edges are free in the plane; at a fixed collar (`in_plane`
+//! `fixed`) u = 0.
 //!
-//! **How.** With w = Σ wₙ(r) e^{inθ} the strains of w of harmonic m are sums of products of wₙ and
-//! w₍ₘ₋ₙ₎, and r² times them is a polynomial between the knots of the thickness: its values at so
-//! many nodes ([`Nodes`]) are all there is to know. For each m ≤ 2 n_max the displacement u that
-//! relaxes them is found by finite elements over the radius, as many as the roughest strains of the
-//! basis need ([`Relaxed`]): there is no number of functions in the plane to choose. What is left is a sum of squares,
-//! U₄ = Σₘ |Zₘ eₘ|², eₘ the strains at the nodes.
+//! **Method.** With w = Σ wₙ(r) e^{inθ} the strains of harmonic m are sums of products of wₙ and w₍ₘ₋ₙ₎.
+//! Times r² they are polynomials between the knots of the thickness, and values at a few nodes ([`Nodes`])
+//! determine them. For each m ≤ 2 n_max the displacement u that minimizes the energy is computed by finite
+//! elements over the radius, as many as the roughest strains of the basis need ([`Relaxed`]), so that no
+//! number of in-plane functions has to be chosen. The result is a sum of squares, U₄ = Σₘ |Zₘ eₘ|², with the
+//! strains eₘ at the nodes.
 //!
-//! In goes a [`Plate`]; out come U₄ in J, its gradient in N/√kg and its second derivatives in 1/s², for q in
-//! √kg·m. Slopes beyond about 0.1 are outside of what von Kármán's strains hold for.
+//! A [`Plate`] gives U₄ in J, its gradient in N/√kg and its second derivatives in 1/s², for q in √kg·m. Von
+//! Kármán's strains are valid for slopes up to about 0.1.
 //!
 //! References: T. von Kármán, *Festigkeitsprobleme im Maschinenbau*, Enzykl. Math. Wiss. IV/4 (1910), 348–352;
 //! C. Touzé, O. Thomas & A. Chaigne, *Asymmetric non-linear forced vibrations of free-edge circular plates*, part 1,
@@ -40,20 +40,20 @@ use nodes::Nodes;
 use relaxed::Relaxed;
 use strain::{Slopes, Strain};
 
-/// Why the potential of stretching, or a value of it, could not be computed.
+/// Reason for which the potential of stretching, or a value of it, could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum StretchingError {
-    /// A deflection of another basis.
+    /// The deflection belongs to another basis.
     #[error(
         "the deflection has {given} coordinates, the basis {expected} functions; give one coordinate for each"
     )]
     Length {
-        /// Coordinates that were given.
+        /// Number of given coordinates.
         given: usize,
-        /// Coordinates that are needed.
+        /// Number of required coordinates.
         expected: usize,
     },
-    /// Numbers too far apart.
+    /// The numbers differ too much in size.
     #[error(
         "the stiffness of the blade in its plane is no number for {harmonic} waves around; the scene's numbers are too far apart"
     )]
@@ -67,10 +67,10 @@ pub enum StretchingError {
 ///
 /// U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ, ℂ of plane stress.
 ///
-/// With it the equation of motion becomes q̈ + (2ΩG + C) q̇ + K(Ω) q + ∂U₄/∂q = f. q is in √kg·m, N
-/// values in the order of the unknowns of [`Plate`]. U₄ is homogeneous of degree four, never negative, and the
-/// same for a deflection turned about the axis; the displacement u in the plane leaves the edges free,
-/// or is zero at a collar that holds it. It holds for slopes up to about 0.1.
+/// With it the equation of motion becomes q̈ + (2ΩG + C) q̇ + K(Ω) q + ∂U₄/∂q = f. q is in √kg·m, N values in
+/// the order of the unknowns of [`Plate`]. U₄ is homogeneous of degree four, never negative, and invariant
+/// under rotation about the axis; the in-plane displacement u is free at the edges, or zero at a fixed
+/// collar. It is valid for slopes up to about 0.1.
 ///
 /// Source: T. von Kármán, *Festigkeitsprobleme im Maschinenbau*, Enzykl. Math. Wiss. IV/4 (1910), 348–352.
 #[derive(Debug, Clone)]
@@ -81,7 +81,7 @@ pub struct Stretching {
 }
 
 impl Stretching {
-    /// Relaxes the strains of every harmonic m ≤ 2 n_max.
+    /// Computes Zₘ of every harmonic m ≤ 2 n_max.
     ///
     /// # Errors
     /// [`StretchingError::NotFinite`].
@@ -94,7 +94,7 @@ impl Stretching {
         Ok(Stretching { nodes, harmonics })
     }
 
-    /// Number of coordinates of a deflection, that of the plate's unknowns.
+    /// Number of coordinates of a deflection, which is that of the plate's unknowns.
     pub fn order(&self) -> usize {
         self.nodes.degrees_of_freedom()
     }
@@ -134,8 +134,8 @@ impl Stretching {
                 let mut unit = Col::zeros(order);
                 unit[k] = 1.0;
                 let v = self.nodes.slopes(&unit);
-                // Of ∂(∂U₄/∂q): the stress that is there on the new slopes, and a new stress on
-                // those that are there.
+                // The derivative of the gradient has two parts: existing stress on new slopes, and new stress
+                // on existing slopes.
                 let added = self.stress(&self.relaxed(&Strain::of(&w, &v)));
                 let mut force = self.nodes.work(&stress.pulled_back(&v));
                 force += faer::Scale(2.0) * self.nodes.work(&added.pulled_back(&w));
@@ -155,7 +155,7 @@ impl Stretching {
         }
     }
 
-    /// Zₘ eₘ of all m, one after the other, the real part of each before the imaginary one.
+    /// Zₘ eₘ of all m in sequence, the real part of each before the imaginary one.
     fn relaxed(&self, strain: &Strain) -> Vec<f64> {
         let mut all = Vec::new();
         for (harmonic, parts) in self.harmonics.iter().zip(strain.harmonics()) {
@@ -166,7 +166,7 @@ impl Stretching {
         all
     }
 
-    /// Zₘᵀ yₘ of all m: stresses at the nodes, integrated over the width that each stands for.
+    /// Zₘᵀ yₘ of all m: stresses at the nodes, integrated over the width of each.
     fn stress(&self, relaxed: &[f64]) -> Strain {
         let mut stress = self.nodes.no_strain();
         let mut rest = relaxed;

@@ -1,4 +1,4 @@
-//! The radii at which the strains of a deflection are known.
+//! The radii at which the strains of a deflection are evaluated.
 
 use std::ops::Range;
 
@@ -8,21 +8,21 @@ use crate::plate::Plate;
 
 use super::strain::{Slopes, Strain};
 
-/// Chebyshev points of each interval between the knots of the thickness, as many as a polynomial
-/// of the degree of r² w′² needs, and the radial functions there.
+/// Chebyshev points of each interval between the knots of the thickness, as many as the degree of r² w′²
+/// requires, and the radial functions there.
 #[derive(Debug, Clone)]
 pub struct Nodes {
-    /// Points of an interval.
+    /// Number of points of an interval.
     count: usize,
     /// Ends of the intervals.
     edges_m: Vec<f64>,
     /// Radii, interval by interval.
     radii_m: Vec<f64>,
-    /// R′ and R/r of n ≠ 1 and of n = 1 at each node: one row of J values a node.
+    /// R′ and R/r of n ≠ 1 and of n = 1 at each node, one row of J values per node.
     functions: [Vec<[Vec<f64>; 2]>; 2],
     /// √(ρh₀ π(1+δ_n0)).
     norms: Vec<f64>,
-    /// Unknowns of the cosines and of the sines of each n.
+    /// Indices of the cosines and of the sines of each n.
     unknowns: Vec<[Range<usize>; 2]>,
     degrees_of_freedom: usize,
 }
@@ -71,13 +71,14 @@ impl Nodes {
         self.degrees_of_freedom
     }
 
-    /// Polynomial degree of what is interpolated.
+    /// Degree of the interpolated polynomial.
     pub fn degree(&self) -> usize {
         self.count - 1
     }
 
-    /// Radii that divide each interval for elements of a degree: none where it is that of the strains;
-    /// else a part for each `half_waves` of them, narrower towards the ends as the half-waves are.
+    /// Radii that divide each interval for elements of a degree: none if the degree is at least that of the
+    /// strains; otherwise one part for every `half_waves` half-waves, narrower towards the ends, as
+    /// half-waves of a polynomial are.
     pub fn divisions_m(&self, degree: usize, half_waves: usize) -> Vec<f64> {
         let parts = match self.degree() <= degree {
             true => 1,
@@ -91,8 +92,8 @@ impl Nodes {
         within.collect()
     }
 
-    /// Nodes of the interval that a radius is in, each with the strain at the radius of one that is
-    /// one at that node and zero at the others: r² e is the polynomial through its values.
+    /// Nodes of the interval that contains a radius, each with the strain at this radius for a unit strain at
+    /// the node and zero at the others: r² e is the polynomial through its values.
     pub fn interpolated(&self, radius_m: f64) -> Vec<(usize, f64)> {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         let interval = next.saturating_sub(1).min(self.edges_m.len() - 2);
@@ -135,7 +136,7 @@ impl Nodes {
         slopes
     }
 
-    /// Σ over the nodes of forces times the slopes of every basis function: 2 Re(fᵣ* φ′ + f_θ* φ_θ/r)
+    /// Work of forces on the slopes of every basis function, summed over the nodes: 2 Re(fᵣ* φ′ + f_θ* φ_θ/r)
     /// for n > 0, once for n = 0.
     pub fn work(&self, forces: &Slopes) -> Col<f64> {
         let mut work = Col::zeros(self.degrees_of_freedom());
@@ -157,25 +158,25 @@ impl Nodes {
         work
     }
 
-    /// Strains that are zero.
+    /// Zero strains.
     pub fn no_strain(&self) -> Strain {
         Strain::none(2 * (self.norms.len() - 1), self.len())
     }
 }
 
-/// Unknowns of the cosines and of the sines of n; n = 0 has no sines.
+/// Indices of the cosines and of the sines of n; n = 0 has no sines.
 fn unknowns(plate: &Plate, n: usize) -> [Range<usize>; 2] {
     let (first, size) = (plate.offset(n), plate.radial_functions());
     let sines = if n == 0 { 0 } else { size };
     [first..first + size, first + size..first + size + sines]
 }
 
-/// Points of [−1, 1], ascending.
+/// Chebyshev points of [−1, 1], ascending.
 fn chebyshev(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| -(std::f64::consts::PI * (k as f64 + 0.5) / count as f64).cos())
 }
 
-/// Lagrange's functions of these points, by the barycentric formula.
+/// Lagrange functions of these points, by the barycentric formula.
 fn lagrange(count: usize, x: f64) -> Vec<f64> {
     let share = |(k, node): (usize, f64)| {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };

@@ -1,4 +1,4 @@
-//! Large deflections under a point load against three-dimensional elements, and convergence.
+//! Large deflections under a point load against three-dimensional finite elements, and convergence.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, Side};
@@ -6,8 +6,8 @@ use faer::{Col, Mat, Scale, Side};
 use super::test_blades::{Wave, plate, projected};
 use super::*;
 
-/// Of CalculiX: load in N, zero for the linear answer to one newton, place, deflection in m of a blade
-/// whose thickness tends to zero, which is what plate theory is for.
+/// Results of CalculiX: load in N (zero for the linear response to one newton), position, deflection in m.
+/// They are extrapolated to zero thickness, for which plate theory is exact.
 fn calculix() -> Vec<(f64, String, f64)> {
     let table = include_str!("../../../tests/reference/large_deflection_point.csv");
     let rows = table.lines().filter(|line| line.starts_with("point,"));
@@ -20,8 +20,8 @@ fn calculix() -> Vec<(f64, String, f64)> {
     .collect()
 }
 
-/// Modes of a blade whose middle plane is held at the points of `held`, an orthonormal basis of what
-/// is even in θ, with the K_b of them and the answer to the load among them.
+/// Modes of a blade whose middle plane is supported at the points of `held`, in an orthonormal basis of
+/// deflections even in θ, with their K_b and the response to the load.
 struct HeldBlade {
     plate: Plate,
     shapes: Mat<f64>,
@@ -44,7 +44,7 @@ impl HeldBlade {
                 }
             }
         }
-        // Springs so stiff that the points do not move: 1e10 N/m against 8e3 N/m of the blade.
+        // Springs of 1e10 N/m, against 8e3 N/m of the blade, prevent motion of the points.
         let mut held = bending.clone();
         for angle in [60.0_f64, 180.0, 300.0] {
             let at = functions(&plate, plate.blade.inner_radius_m, angle);
@@ -73,7 +73,7 @@ impl HeldBlade {
         }
     }
 
-    /// Deflections under loads that grow, by Newton's method.
+    /// Deflections under increasing loads, by Newton's method.
     fn bent(&self, loads_n: &[f64], load: (f64, f64)) -> Vec<Col<f64>> {
         let stretching = Stretching::new(&self.plate).unwrap();
         let reduced = ReducedStretching::new(&stretching, self.shapes.as_ref()).unwrap();
@@ -102,8 +102,8 @@ fn functions(plate: &Plate, radius_m: f64, angle_deg: f64) -> Col<f64> {
     Col::from_fn(values.len(), |i| values[i])
 }
 
-/// Held at three points of its bore, pressed by a point force at the rim, from a tenth to five and a half
-/// thicknesses. Point supports converge with 1/n_max², so that two bases give the limit.
+/// A blade supported at three points of its bore, under a point force at the rim that deflects it by a tenth
+/// to five and a half thicknesses. Point supports converge as 1/n_max², so that two bases give the limit.
 #[test]
 fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
     let table = calculix();
@@ -144,7 +144,7 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
     }
 }
 
-/// U₄ of the saddle with a ripple that no polynomial is, over n_max and J.
+/// U₄ of a saddle with a ripple that is not a polynomial, over n_max and J.
 #[test]
 fn the_potential_converges_in_both_directions() {
     let energy = |resolution: (usize, usize)| {
@@ -179,7 +179,7 @@ fn the_potential_converges_in_both_directions() {
         stretching.energy_j(&projected(&plate, &waves)).unwrap()
     };
     let exact = energy((20, 9));
-    // Factors fall as (2 − √3)ⁿ = 0.27ⁿ around, as 0.09ʲ over the radius.
+    // Coefficients fall as (2 − √3)ⁿ = 0.27ⁿ around the blade, and as 0.09ʲ over the radius.
     for (resolution, most) in [((6, 9), 2e-2), ((10, 9), 3e-4), ((14, 9), 3e-6)] {
         let error = energy(resolution) / exact - 1.0;
         assert!(error.abs() < most, "{resolution:?}: {error:e}");

@@ -1,4 +1,4 @@
-//! The potential of stretching on a few shapes: a quadratic form in the products of their coordinates.
+//! The potential of stretching on a few shapes, as a quadratic form in the products of their coordinates.
 
 use faer::{Col, Mat, MatRef, Scale};
 use rayon::prelude::*;
@@ -11,12 +11,12 @@ use super::{Stretching, StretchingError};
 #[derive(Debug, Clone)]
 pub struct ReducedStretching {
     order: usize,
-    /// Q, r(r+1)/2 of each: pairs (0, 0), (1, 0), (1, 1), (2, 0) …
+    /// Q, of order r(r+1)/2, for the pairs (0, 0), (1, 0), (1, 1), (2, 0) …
     quartic: Mat<f64>,
 }
 
 impl ReducedStretching {
-    /// Of the shapes that are the columns of V, N × r.
+    /// The potential on the shapes that are the columns of V, N × r.
     ///
     /// # Errors
     /// [`StretchingError::Length`].
@@ -31,7 +31,7 @@ impl ReducedStretching {
             .map(|&(a, b)| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
             .collect();
         let height = columns.first().map_or(0, Vec::len);
-        // e is p_a p_b once for a = b and twice for a < b; U₄ = |Z e|².
+        // The strain of p_a p_b counts once for a = b and twice for a < b; U₄ = |Z e|².
         let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
             let times = if pairs[k].0 == pairs[k].1 { 1.0 } else { 2.0 };
             times * columns[k][i]
@@ -78,7 +78,7 @@ impl ReducedStretching {
         let tension = &self.quartic * self.products(coordinates)?;
         let mut hessian = self.symmetric(&tension);
         let p = coordinates;
-        // ∂z/∂pₐ has one entry for each b: a product with Q costs a sum of r of its columns.
+        // ∂z/∂pₐ has one entry for each b, so a product with Q is a sum of r of its columns.
         for a in 0..self.order {
             let mut tension = vec![0.0; self.quartic.nrows()];
             for b in 0..self.order {
@@ -116,7 +116,7 @@ impl ReducedStretching {
         Ok(Col::from_fn(products.len(), |i| products[i]))
     }
 
-    /// S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair at its two places, twice at one.
+    /// S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair at its two positions, twice on the diagonal.
     fn symmetric(&self, tension: &Col<f64>) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.order, self.order);
         for (i, (a, b)) in pairs(self.order).enumerate() {
@@ -127,7 +127,7 @@ impl ReducedStretching {
     }
 }
 
-/// Place of a pair among the products.
+/// Index of a pair among the products.
 fn pair(a: usize, b: usize) -> usize {
     let (more, less) = (a.max(b), a.min(b));
     more * (more + 1) / 2 + less

@@ -1,4 +1,4 @@
-//! What is left of the strains of one harmonic once the displacement in the plane has relaxed them.
+//! Energy of the strains of one harmonic after relaxation by the in-plane displacement.
 
 use faer::{Col, Mat, Scale};
 
@@ -9,25 +9,25 @@ use crate::scene::{Blade, Bore, InPlane, Material};
 use super::StretchingError;
 use super::nodes::Nodes;
 
-/// Z of harmonic m: |Z e|² is the energy, in J, that the strains e (cos mθ, cos mθ, sin mθ) at the
-/// nodes leave, and as much that those turned by a quarter of a wave leave.
+/// Z of harmonic m: |Z e|² is the energy, in J, of the strains e (cos mθ, cos mθ, sin mθ) at the nodes, and
+/// equally of those rotated by a quarter wave.
 #[derive(Debug, Clone)]
 pub struct Relaxed {
-    /// Rank × 3 values a node, row by row.
+    /// One row for each value of Z e, with three columns for each node.
     rows: Vec<Vec<f64>>,
 }
 
-/// Columns below this share of the largest are rounding: the energy that they carry is the square.
+/// Columns smaller than this share of the largest are rounding; their energy is the square of it.
 const RANK_TOLERANCE: f64 = 1e-10;
 
-/// Half-waves of the roughest strains in an element, where their degree is beyond that of its
-/// polynomials. Without this the strains of twelve radial functions are not relaxed; with it their
-/// energy is right to 1e-9 of the largest.
+/// Number of half-waves of the roughest strains per element, if their degree exceeds that of its polynomials.
+/// Without this the strains of twelve radial functions are not relaxed; with it their energy is accurate to
+/// 1e-9 of the largest.
 const HALF_WAVES: usize = 4;
 
 impl Relaxed {
-    /// E = e + B u at the points of a Gauss rule, u = −A⁻¹ Bᵀℂe, and E = Q R Pᵀ of what weighs their
-    /// squares: Z = R Pᵀ.
+    /// E = e + B u at the points of a Gauss rule, with u = −A⁻¹ Bᵀℂe. The weighted E equals Q R Pᵀ, so that Z
+    /// = R Pᵀ.
     pub fn new(blade: &Blade, nodes: &Nodes, order: usize) -> Result<Self, StretchingError> {
         let elements = Elements::new(blade, order, &nodes.divisions_m(DEGREE, HALF_WAVES));
         Self::on(&elements, blade, nodes, order)
@@ -73,8 +73,8 @@ impl Relaxed {
     }
 }
 
-/// Rows of R Pᵀ: the largest column that is left gives the next direction of Q, orthogonal to the
-/// others to rounding, and is taken out of all columns. Most columns are combinations of few.
+/// Rows of R Pᵀ by column pivoting: the largest remaining column gives the next direction of Q, which is
+/// removed from all columns. Most columns are combinations of a few.
 fn triangular(mut left: Mat<f64>) -> Vec<Vec<f64>> {
     let mut rows = Vec::new();
     let mut directions: Vec<Col<f64>> = Vec::new();
@@ -104,8 +104,8 @@ fn triangular(mut left: Mat<f64>) -> Vec<Vec<f64>> {
     rows
 }
 
-/// Unknowns at the bore that are zero: those that a collar holds, and of motions without strain, the
-/// turn of m = 0 and the translation of m = 1, one, which then carries no force.
+/// Unknowns at the bore that are fixed at zero: those of a fixed collar, and one for each motion without
+/// strain, the rotation of m = 0 and the translation of m = 1, which then carries no force.
 fn held(blade: &Blade, order: usize) -> &'static [usize] {
     match (blade.bore, order) {
         (Bore::Clamped(InPlane::Fixed), _) => &[0, 1],
@@ -115,25 +115,25 @@ fn held(blade: &Blade, order: usize) -> &'static [usize] {
     }
 }
 
-/// Points of the quadrature over the blade.
+/// Quadrature points over the blade.
 struct Points(Vec<Point>);
 
 struct Point {
     element: usize,
     unit: UnitStrains,
-    /// Node, and the strain here of a unit strain there.
+    /// Nodes, and the strain at this point for a unit strain at each.
     strains: Vec<(usize, f64)>,
     /// Factors [(rr, rr), (rr, tt), (tt, tt), (rt, rt)] of √(weight ℂ), triangular.
     root: [f64; 4],
-    /// Of the rule, times r h.
+    /// Weight of the rule, times r h.
     weight: f64,
     material: Material,
 }
 
 impl Points {
     fn new(blade: &Blade, nodes: &Nodes, elements: &Elements) -> Self {
-        // Products of the displacements' polynomials, and of those of the strains where an element
-        // is as wide as the blade.
+        // The rule integrates products of the displacement polynomials, and of those of the strains if one
+        // element has the width of the blade.
         let count = DEGREE + 4 + nodes.degree() / elements.count();
         let material = blade.material;
         let (e, nu) = (material.youngs_modulus_pa, material.poisson_ratio);
@@ -167,7 +167,7 @@ impl Points {
         Points((0..elements.count()).flat_map(of_element).collect())
     }
 
-    /// u and v at the nodes of the elements, each for all unit strains.
+    /// u and v at the nodes of the elements, for all unit strains.
     fn displacements(&self, elements: &Elements, strains: usize, held: &[usize]) -> Vec<f64> {
         let unknowns = 2 * elements.nodes();
         let mut stiffness = Banded::new(unknowns, 2 * (DEGREE + 1));
@@ -198,7 +198,7 @@ impl Points {
         forces
     }
 
-    /// √(weight ℂ) (e + B u), 3 rows a point, one column for each unit strain.
+    /// √(weight ℂ) (e + B u), three rows per point, one column for each unit strain.
     fn left(&self, elements: &Elements, displacements: &[f64], strains: usize) -> Mat<f64> {
         let nodes = strains / 3;
         let mut left = Mat::zeros(3 * self.0.len(), strains);
@@ -230,7 +230,7 @@ impl Points {
 }
 
 impl Point {
-    /// Strains of u and v of each node in turn.
+    /// Strains for u and v of each node in turn.
     fn unit_strains(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let both = self.unit.radial.iter().zip(&self.unit.along);
         both.flat_map(|(radial, along)| [*radial, *along])
@@ -242,8 +242,8 @@ mod tests {
     use super::super::test_blades::plate;
     use super::*;
 
-    /// Elements of half the width change the energy of strains that are one at a node and zero at all
-    /// others, the roughest that there are, by less than 1e-9 of the largest.
+    /// Unit strains at single nodes are the roughest. Elements of half the width change their energy by less
+    /// than 1e-9 of the largest.
     #[test]
     fn the_elements_are_fine_enough() {
         for (functions, bore_m) in [(4, 0.2), (8, 0.2), (12, 0.2), (12, 0.02), (16, 0.5)] {

@@ -1,9 +1,10 @@
-//! Slopes of a deflection and the strains of their products, harmonic by harmonic.
+//! Slopes of a deflection, and strains of products of slopes, for each harmonic.
 
-/// Real and imaginary part of something at all nodes.
+/// Real and imaginary part at all nodes.
 type Parts = [Vec<f64>; 2];
 
-/// wₙ′ and i n wₙ/r at the nodes, n = 0 … n_max; those of −n are the conjugates. Or forces on them.
+/// Slopes wₙ′ and i n wₙ/r at the nodes, n = 0 … n_max, or forces on them; those of −n are complex
+/// conjugates.
 #[derive(Debug, Clone)]
 pub struct Slopes {
     /// Radial and hoop slope of each n; `None` where both are zero.
@@ -20,7 +21,7 @@ impl Slopes {
         }
     }
 
-    /// Sets both slopes of n at a node, each as real and imaginary part.
+    /// Sets both slopes of n at a node, as real and imaginary parts.
     pub fn set(&mut self, n: usize, node: usize, radial: [f64; 2], hoop: [f64; 2]) {
         let nodes = self.nodes;
         let zero = || [0, 1].map(|_| vec![0.0; nodes]);
@@ -39,7 +40,7 @@ impl Slopes {
         }
     }
 
-    /// Those n, negative ones too, that are there.
+    /// All n, positive and negative, whose slopes are not zero.
     fn present(&self) -> impl Iterator<Item = (isize, &[Parts; 2])> {
         let waves = self.waves.iter().enumerate();
         waves.flat_map(|(n, wave)| {
@@ -51,11 +52,11 @@ impl Slopes {
     }
 }
 
-/// [ε_rr, ε_θθ, iγ_rθ] at the nodes, m = 0 … 2 n_max, of a product of two deflections: the factors of
-/// e^{imθ}. i makes one real stiffness serve all three. Or stresses, in their place.
+/// Strains [ε_rr, ε_θθ, iγ_rθ] at the nodes, m = 0 … 2 n_max, of a product of two deflections, or stresses:
+/// the coefficients of e^{imθ}. With the factor i one real stiffness applies to all three.
 #[derive(Debug, Clone)]
 pub struct Strain {
-    /// Real and imaginary part of each m, 3 values a node: all ε_rr, all ε_θθ, all iγ_rθ.
+    /// Real and imaginary part of each m, three values per node: all ε_rr, all ε_θθ, all iγ_rθ.
     harmonics: Vec<Parts>,
     nodes: usize,
 }
@@ -109,13 +110,13 @@ impl Strain {
         self.harmonics.iter()
     }
 
-    /// The same to be changed.
+    /// As [`Strain::harmonics`], mutable.
     pub fn harmonics_mut(&mut self) -> impl Iterator<Item = &mut Parts> {
         self.harmonics.iter_mut()
     }
 
-    /// Forces on the slopes of v, so that their work is the derivative 4 Σₘ Re(sₘ* eₘ(v, w)), s these
-    /// stresses: force n is 4 Σₘ wₘ₋ₙ* sₘ/2 over positive and negative m, for 2 Re of n > 0.
+    /// Forces on the slopes of v whose work is the derivative 4 Σₘ Re(sₘ* eₘ(v, w)) for these stresses s:
+    /// force n is 4 Σₘ wₘ₋ₙ* sₘ/2 over positive and negative m, for 2 Re of n > 0.
     pub fn pulled_back(&self, w: &Slopes) -> Slopes {
         let nodes = self.nodes;
         let mut forces = Slopes::none(w.waves.len() - 1, nodes);
@@ -130,7 +131,7 @@ impl Strain {
         forces
     }
 
-    /// Adds what the stress of harmonic m exerts through the wave k of w.
+    /// Adds the force of the stress of harmonic m with the wave k of w.
     fn add_force(
         &self,
         m: isize,
@@ -139,8 +140,8 @@ impl Strain {
     ) {
         let nodes = self.nodes;
         let [re, im] = &self.harmonics[m.unsigned_abs()];
-        // Stresses of −m are conjugate, and iτ changes its sign besides. Half of each pair of
-        // harmonics is ±m.
+        // Stresses of −m are complex conjugates, and the sign of iτ changes too. Each pair of harmonics
+        // counts half for ±m.
         let share = if m == 0 { 2.0 } else { 1.0 };
         let (side, wave_side) = (conjugation(m), -conjugation(k));
         for j in 0..nodes {
@@ -159,7 +160,7 @@ impl Strain {
     }
 }
 
-/// Sign of the imaginary part of a wave that is kept for positive n.
+/// Sign of the imaginary part of wave n, which is stored for positive n.
 fn conjugation(n: isize) -> f64 {
     if n < 0 { -1.0 } else { 1.0 }
 }

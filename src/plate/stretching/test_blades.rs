@@ -1,11 +1,11 @@
-//! Blades and deflections that the tests of stretching share.
+//! Blades and deflections for the tests of stretching.
 
 use faer::Col;
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{InPlane, Mount, Scene, SceneFile, ThicknessRow};
 
-/// The paper's blade without guides, changed.
+/// The paper's blade without guides, modified.
 pub fn plate(resolution: (usize, usize), edit: impl FnOnce(&mut SceneFile)) -> Plate {
     let scene = Scene::paper().edited(|saw| {
         saw.guides.clear();
@@ -41,7 +41,7 @@ pub fn collar(saw: &mut SceneFile, in_plane: InPlane) {
     };
 }
 
-/// A spline, both kinds of collar, and a profile on a spline and in a collar.
+/// Blades on a spline, in both kinds of collar, and with a profile on a spline and in a collar.
 pub fn all(resolution: (usize, usize)) -> [Plate; 5] {
     [
         plate(resolution, |_| ()),
@@ -76,7 +76,7 @@ pub fn projected(plate: &Plate, waves: &[Wave<'_>]) -> Col<f64> {
     q
 }
 
-/// A deflection in which every function takes part, about as large as the blade is thick.
+/// A deflection that contains every function, about as large as the thickness.
 pub fn any(plate: &Plate) -> Col<f64> {
     Col::from_fn(plate.degrees_of_freedom(), |i| {
         1e-3 * (1.3 * i as f64 + 0.2).sin() / (1.0 + i as f64 / 6.0)
