@@ -12,7 +12,6 @@
 //! half as many vectors find the same modes, and the eigenproblem among them takes an eighth (V. Mehrmann, D. Watkins,
 //! SIAM J. Sci. Comput. 22, 2001).
 
-mod inverse;
 mod operator;
 
 use faer::{Col, Mat, Scale};
@@ -20,10 +19,9 @@ use faer::{Col, Mat, Scale};
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-pub use self::inverse::Inverse;
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
-use super::inertia::UndampedFullModel;
+use super::full_model::FullModel;
 use super::mode::rigid_noise;
 use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, unit};
@@ -67,7 +65,7 @@ pub fn lowest_eigenpairs(
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
 pub(super) fn nearly_lowest_eigenpairs(
-    basis: &UndampedFullModel,
+    full: &FullModel,
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     count: usize,
@@ -76,7 +74,7 @@ pub(super) fn nearly_lowest_eigenpairs(
     if !is_hamiltonian(system) {
         return Ok(None);
     }
-    let inverse = ShiftedInverse::by_structure(basis, speed_rad_per_s, shift_per_s);
+    let inverse = ShiftedInverse::by_structure(full, speed_rad_per_s, shift_per_s);
     let Some(inverse) = inverse else {
         return Ok(None);
     };

@@ -60,7 +60,7 @@ impl Assembled {
     /// Number of critical speeds below a speed, where the structure tells it with certainty.
     pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
         let (structure, _) = self.structured()?;
-        structure.basis.critical_speeds_below(speed_rad_per_s)
+        structure.full.critical_speeds_below(speed_rad_per_s)
     }
 
     /// The critical speeds of the plate up to a limit, which may depend on those found so far, and the lowest; all
@@ -123,7 +123,7 @@ fn critical_speeds_by(
         let speeds: Vec<f64> = squares.iter().map(|square| square.sqrt()).collect();
         Some(limit_rad_per_s(&speeds).powi(2).max(lowest))
     };
-    let count = |square: f64| structure.basis.critical_speeds_below(square.sqrt());
+    let count = |square: f64| structure.full.critical_speeds_below(square.sqrt());
     let found = pencil.lowest(&limit, &count)?.into_iter();
     let speed = |(square, shape): (f64, Col<f64>)| CriticalSpeed {
         speed_rad_per_s: square.sqrt(),
@@ -144,7 +144,7 @@ fn modes_at_rest_by(
         softening: Softening::Mass,
     };
     let limit = |squares: &[f64]| squares.get(count - 1).copied();
-    let below = |square: f64| structure.basis.modes_at_rest_below(square.sqrt());
+    let below = |square: f64| structure.full.modes_at_rest_below(square.sqrt());
     let found = pencil.lowest(&limit, &below)?.into_iter().take(count);
     let mode = |(square, shape): (f64, Col<f64>)| RestingMode {
         frequency_rad_per_s: square.sqrt(),

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
 use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
-use super::inertia::UndampedFullModel;
+use super::full_model::FullModel;
 use super::interval::{Interval, StandingWave};
 use super::mode::{ModeKind, classify, is_seen};
 use super::model::{CHART_MODES, chart_height};
@@ -43,7 +43,7 @@ pub struct Reduction {
 pub struct Guided<'a> {
     pub system: &'a GyroscopicSystem,
     /// Blocks and columns of its matrices, where it has such.
-    pub structure: Option<&'a UndampedFullModel>,
+    pub structure: Option<&'a FullModel>,
     /// Size of its frequencies.
     pub scale: f64,
     /// Every critical speed of the range.

@@ -27,13 +27,13 @@ mod deflation;
 mod error;
 mod event_name;
 mod free_wave;
+mod full_model;
 mod generalized;
 mod growth;
 mod guided_reduction;
 mod half_order;
 mod hamiltonian;
 mod hermitian;
-mod inertia;
 mod interval;
 mod larger_basis;
 mod lowest;
@@ -71,12 +71,12 @@ pub use critical::{CriticalSpeed, critical_speeds};
 pub(crate) use critical::{clear_range, searched_range, standing_name};
 pub use error::SpectrumError;
 pub use event_name::{EventName, EventWaves};
+pub(crate) use full_model::{AtSpeed, FullModel};
 pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
 pub use growth::fastest_growing_of;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
 pub(crate) use hermitian::negative_eigenvalues;
-pub(crate) use inertia::{AtSpeed, DampedFullModel, UndampedFullModel};
 pub(crate) use interval::SearchModel;
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]

@@ -17,8 +17,8 @@ use super::component::{Component, Solution};
 use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::error::SpectrumError;
+use super::full_model::FullModel;
 use super::guided_reduction::{Guided, of_guided};
-use super::inertia::UndampedFullModel;
 use super::interval::{interval_at, states_at};
 use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
 use super::mode_name::ModeName;
@@ -74,7 +74,7 @@ pub struct SpectralModel {
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
-    structure: OnceLock<UndampedFullModel>,
+    full: OnceLock<FullModel>,
 }
 
 /// Modes a chart shows at the lowest speed.
@@ -132,7 +132,7 @@ impl SpectralModel {
             components,
             structure,
         } = saw.into();
-        let structure = structure.into_inner().flatten().map(|found| found.basis);
+        let full = structure.into_inner().flatten().map(|found| found.full);
         let mut model = SpectralModel {
             components,
             plate,
@@ -141,7 +141,7 @@ impl SpectralModel {
             reflected_to_rad_per_s: 0.0,
             unsettled_rad_per_s: 0.0,
             counters,
-            structure: structure.map_or_else(OnceLock::new, OnceLock::from),
+            full: full.map_or_else(OnceLock::new, OnceLock::from),
         };
         match (strategy, model.plate.is_axisymmetric()) {
             (Strategy::Dense, _) => (),
@@ -171,10 +171,7 @@ impl SpectralModel {
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
         let is_large = self.plate.degrees_of_freedom() >= STRUCTURED;
-        let structure = is_large.then(|| {
-            self.structure
-                .get_or_init(|| UndampedFullModel::new(&self.plate))
-        });
+        let structure = is_large.then(|| self.full.get_or_init(|| FullModel::new(&self.plate)));
         for component in &mut self.components {
             let guided = Guided {
                 system: &component.full,
@@ -270,10 +267,9 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The blade and what couples its harmonics, without damping.
-    pub(crate) fn undamped_full_model(&self) -> &UndampedFullModel {
-        self.structure
-            .get_or_init(|| UndampedFullModel::new(&self.plate))
+    /// The blade and what couples its harmonics.
+    pub(crate) fn full_model(&self) -> &FullModel {
+        self.full.get_or_init(|| FullModel::new(&self.plate))
     }
 
     /// Whether the scene is undamped: then modes have Krein signs.

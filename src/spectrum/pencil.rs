@@ -67,7 +67,7 @@ impl Pencil<'_> {
     ) -> Option<Vec<(f64, Col<f64>)>> {
         let cancellation = Cancellation::current();
         let mut span = Span::new(self.system.order());
-        let start = self.structure.basis.first_waves();
+        let start = self.structure.full.first_waves();
         let mut blocks = (0..start.ncols()).step_by(BLOCK).map(|first| {
             let width = BLOCK.min(start.ncols() - first);
             start.subcols(first, width)
@@ -112,7 +112,10 @@ impl Pencil<'_> {
             });
             // One more step of the inverse iteration costs less than the Ritz pairs of another round.
             let softened = span.add(self, open.as_ref());
-            span.add(self, unit_columns(self.structure.solve(&softened)).as_ref());
+            span.add(
+                self,
+                unit_columns(self.structure.at_rest.solve(softened.as_ref())).as_ref(),
+            );
         }
         None
     }
@@ -125,7 +128,7 @@ impl Pencil<'_> {
             let residual = ax.col(k) - Scale(ritz.multiples[k]) * bx.col(k);
             residuals.col_mut(k).copy_from(residual);
         }
-        let corrections = self.structure.solve(&residuals);
+        let corrections = self.structure.at_rest.solve(residuals.as_ref());
         let errors = (0..count).map(|k| {
             let gain: f64 = corrections.col(k).transpose() * residuals.col(k);
             let energy: f64 = x.col(k).transpose() * ax.col(k);
@@ -184,7 +187,7 @@ impl Span {
         let mut new = qr.compute_thin_Q().subcols(0, rank).to_owned();
         let shares = span.transpose() * &new;
         new -= span * shares;
-        let structure = Some(&pencil.structure.basis);
+        let structure = Some(&pencil.structure.full);
         let product = structured::times(pencil.system, structure, new.as_ref());
         let stiffened = product.stiffness;
         let softened = match pencil.softening {

@@ -4,7 +4,7 @@ use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
-use super::inertia::UndampedFullModel;
+use super::full_model::FullModel;
 use super::residual::Lifted;
 use super::structured;
 use super::vectors::{Eigenpair, split};
@@ -22,11 +22,7 @@ pub struct Projection {
 
 impl Projection {
     /// Projects a component; by its structure where that is known.
-    pub fn new(
-        system: &GyroscopicSystem,
-        structure: Option<&UndampedFullModel>,
-        basis: Mat<f64>,
-    ) -> Self {
+    pub fn new(system: &GyroscopicSystem, structure: Option<&FullModel>, basis: Mat<f64>) -> Self {
         let products = structured::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());
         Projection {

@@ -8,7 +8,6 @@ use faer::{Col, Mat, c64};
 
 use super::derivative::with_lambda;
 use super::error::SpectrumError;
-use super::inertia::DampedFullModel;
 use super::mode::Mode;
 use super::model::SpectralModel;
 use super::residual::Lifted;
@@ -32,16 +31,18 @@ const SAME: f64 = 0.1;
 
 impl SpectralModel {
     /// The eigenvalue next to an expected one, refined on the full model. `None` where the reduced model has none
-    /// there, and where the iteration leaves it.
+    /// there, where the iteration leaves it, and of a saw whose full model has no blocks and columns.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn refined(
         &self,
-        basis: &DampedFullModel,
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Result<Option<RefinedPair>, SpectrumError> {
+        if self.plate.is_axisymmetric() || !self.full_model().is_structured() {
+            return Ok(None);
+        }
         let modes = self.all_modes(speed_rad_per_s)?;
         let distance = |lambda: c64| (lambda - expected).norm();
         let nearest = |x: &&Mode, y: &&Mode| distance(x.lambda).total_cmp(&distance(y.lambda));
@@ -74,7 +75,13 @@ impl SpectralModel {
             if backward_error <= ROUNDING || step == STEPS {
                 break;
             }
-            let corrected = corrected(&matrices, basis, speed_rad_per_s, lambda, &lifted);
+            let corrected = corrected(
+                &matrices,
+                self.full_model(),
+                speed_rad_per_s,
+                lambda,
+                &lifted,
+            );
             let Some(next) = corrected else { break };
             (lambda, shape) = next;
         }
@@ -101,14 +108,16 @@ fn residual([stiffness, velocity]: &[Mat<f64>; 2], lambda: c64, q: &Col<c64>) ->
 /// One step.
 fn corrected(
     [_, velocity]: &[Mat<f64>; 2],
-    basis: &DampedFullModel,
+    full: &super::FullModel,
     speed: f64,
     lambda: c64,
     Lifted { shape, residual }: &Lifted,
 ) -> Option<(c64, Col<c64>)> {
     let slope = with_lambda(velocity, lambda, shape);
-    let [u, v] = basis.solved(speed, lambda, [residual, &slope])?;
-    let change = -(shape.adjoint() * &u) / (shape.adjoint() * &v);
+    let loads = Mat::from_fn(shape.nrows(), 2, |i, k| [residual[i], slope[i]][k]);
+    let solved = full.eliminated(speed, lambda)?.solve(loads.as_ref());
+    let (u, v) = (solved.col(0), solved.col(1));
+    let change = -(shape.adjoint() * u) / (shape.adjoint() * v);
     let next = Col::from_fn(shape.nrows(), |i| shape[i] - u[i] - change * v[i]);
     let lambda = lambda + change;
     (lambda.is_finite() && next.is_all_finite()).then(|| (lambda, unit(next.as_ref())))

@@ -1,9 +1,8 @@
 //! K₀ of a guided blade by its structure: blocks of one number of nodal diameters, and few columns.
 
-use faer::{Mat, MatRef};
+use faer::MatRef;
 
-use super::arnoldi::Inverse;
-use super::inertia::UndampedFullModel;
+use super::full_model::{Elimination, FullModel};
 use super::work::Cancellation;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
@@ -15,9 +14,9 @@ pub const LARGE: usize = 200;
 #[derive(Debug)]
 pub struct StructuredStiffness {
     /// Blocks and columns.
-    pub basis: UndampedFullModel,
-    /// Nearly K₀⁻¹.
-    pub inverse: Inverse,
+    pub full: FullModel,
+    /// K₀, nearly.
+    pub at_rest: Elimination<f64>,
 }
 
 impl StructuredStiffness {
@@ -25,36 +24,25 @@ impl StructuredStiffness {
     /// couple every wave with every other, where K₀ is singular, and once the computation was asked to end.
     pub fn of(plate: &Plate) -> Option<Self> {
         Cancellation::current().check().ok()?;
-        Self::by(UndampedFullModel::new(plate))
+        Self::by(FullModel::new(plate))
     }
 
     /// The same to a millionth.
     pub fn nearly(plate: &Plate) -> Option<Self> {
-        Self::by(UndampedFullModel::nearly(plate))
+        Self::by(FullModel::nearly(plate))
     }
 
-    fn by(basis: UndampedFullModel) -> Option<Self> {
+    fn by(full: FullModel) -> Option<Self> {
         Cancellation::current().check().ok()?;
-        let inverse = Inverse::by_blocks(&basis.at_rest()?)?;
-        Some(StructuredStiffness { basis, inverse })
-    }
-
-    /// K₀⁻¹ X.
-    pub fn solve(&self, loads: &Mat<f64>) -> Mat<f64> {
-        let mut solved = Mat::zeros(loads.nrows(), loads.ncols());
-        for k in 0..loads.ncols() {
-            solved
-                .col_mut(k)
-                .copy_from(self.inverse.times(loads.col(k)));
-        }
-        solved
+        let at_rest = full.eliminated_at_rest()?;
+        Some(StructuredStiffness { full, at_rest })
     }
 }
 
 /// The matrices of a system times the columns of V, by the structure of an undamped blade where that is exact.
 pub fn times(
     system: &GyroscopicSystem,
-    structure: Option<&UndampedFullModel>,
+    structure: Option<&FullModel>,
     basis: MatRef<'_, f64>,
 ) -> GyroscopicSystem {
     let is_sum = system.is_conservative() && system.free_rigid.is_empty();

@@ -191,7 +191,7 @@ impl Analysis {
             .into_iter()
             .partition(|mode| mode.mode.is_overdamped());
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
-        let mut listed = is_refined.then(|| Listed::new(&model, &modes_at_rest));
+        let mut listed = is_refined.then(|| Listed::new(&modes_at_rest));
         if let Some(listed) = &mut listed {
             listed.refine_peaks(&model, &mut chart.instabilities)?;
         }

@@ -10,8 +10,7 @@ use super::mode_counts::{Miscount, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
-    DampedFullModel, LowestModes, Mode, SpectrumError, UndampedFullModel, krein_index,
-    negative_eigenvalues,
+    FullModel, LowestModes, Mode, SpectrumError, krein_index, negative_eigenvalues,
 };
 
 /// Growing modes of a plate at a speed, and what was checked of them.
@@ -95,7 +94,7 @@ impl GrowingModes {
                 .fold(0.0, |top: f64, mode| top.max(mode.lambda.im));
             let claims = claims(&signature, highest);
             let counted = of_claims(
-                &UndampedFullModel::new(plate),
+                &FullModel::new(plate),
                 speed,
                 &claims,
                 Some(negative as isize),
@@ -108,14 +107,13 @@ impl GrowingModes {
 
     fn damped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
         let mut found = Self::of_modes(modes);
-        let basis = DampedFullModel::new(plate);
-        let Some(basis) = basis.filter(|_| !plate.is_axisymmetric() && !has_free_motions(lowest))
-        else {
+        if plate.is_axisymmetric() || has_free_motions(lowest) {
             return found;
-        };
+        }
+        let full = FullModel::new(plate);
         let listed: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
         let highest = listed.iter().fold(0.0, |top: f64, value| top.max(value.im));
-        if let Some(miscount) = counted_in_window(&basis, speed, &listed, highest) {
+        if let Some(miscount) = counted_in_window(&full, speed, &listed, highest) {
             found.full_basis_counts = 1;
             found.miscounts = miscount.into_iter().collect();
         }

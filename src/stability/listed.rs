@@ -5,24 +5,19 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::band::Instability;
-use crate::spectrum::{DampedFullModel, DescribedMode, RefinedPair, SpectralModel, SpectrumError};
+use crate::spectrum::{DescribedMode, RefinedPair, SpectralModel, SpectrumError};
 
 /// Eigenvalues refined on the full model, and the largest backward error among them.
 pub(super) struct Listed {
-    basis: Option<DampedFullModel>,
     /// `None` where one could not be refined.
     largest_error: Option<f64>,
 }
 
 impl Listed {
     /// Begins with the modes at rest, which are those of the full model.
-    pub fn new(model: &SpectralModel, modes_at_rest: &[DescribedMode]) -> Self {
+    pub fn new(modes_at_rest: &[DescribedMode]) -> Self {
         let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
-        let is_guided = !model.plate.is_axisymmetric();
         Listed {
-            basis: is_guided
-                .then(|| DampedFullModel::new(&model.plate))
-                .flatten(),
             largest_error: Some(errors.fold(0.0, f64::max)),
         }
     }
@@ -40,7 +35,7 @@ impl Listed {
             .par_iter()
             .map(|band| {
                 let expected = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
-                self.refined(model, band.peak_rad_per_s, expected)
+                model.refined(band.peak_rad_per_s, expected)
             })
             .collect();
         for (band, refined) in bands.iter_mut().zip(refined?) {
@@ -63,7 +58,7 @@ impl Listed {
         speed_rad_per_s: f64,
         lambda: c64,
     ) -> Result<c64, SpectrumError> {
-        let refined = self.refined(model, speed_rad_per_s, lambda)?;
+        let refined = model.refined(speed_rad_per_s, lambda)?;
         self.note(refined);
         let re = |refined: RefinedPair| match lambda.re == 0.0 {
             true => 0.0,
@@ -75,18 +70,6 @@ impl Listed {
     /// Largest backward error of what is listed; `None` where one could not be refined.
     pub fn largest_error(&self) -> Option<f64> {
         self.largest_error
-    }
-
-    fn refined(
-        &self,
-        model: &SpectralModel,
-        speed: f64,
-        expected: c64,
-    ) -> Result<Option<RefinedPair>, SpectrumError> {
-        match &self.basis {
-            Some(basis) => model.refined(basis, speed, expected),
-            None => Ok(None),
-        }
     }
 
     fn note(&mut self, refined: Option<RefinedPair>) {
@@ -136,14 +119,14 @@ mod tests {
     /// solves with the whole matrix.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
-    fn listed_eigenvalues_are_those_of_the_undamped_full_model() {
+    fn listed_eigenvalues_are_those_of_the_full_model() {
         let damped = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
         for (scene, least) in [(Scene::paper(), 6), (damped.unwrap(), 2)] {
             let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
             let range = (0.0, rad_per_s(2600.0));
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
             let mut bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
-            let mut listed = Listed::new(&model, &[]);
+            let mut listed = Listed::new(&[]);
             listed.refine_peaks(&model, &mut bands).unwrap();
             assert!(bands.len() >= least, "{}", bands.len());
             let system = &model.components[0].full;

@@ -13,12 +13,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::signature::{Sign, Signature};
-use crate::spectrum::{AtSpeed, SpectralModel, SpectrumError, UndampedFullModel};
+use crate::spectrum::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
 /// Counts of one saw.
 pub struct ModeCounts<'a> {
     model: &'a SpectralModel,
-    basis: &'a UndampedFullModel,
+    basis: &'a FullModel,
     counted: AtomicUsize,
 }
 
@@ -147,7 +147,7 @@ impl<'a> ModeCounts<'a> {
     pub fn new(model: &'a SpectralModel) -> Option<Self> {
         (!model.plate.is_axisymmetric()).then(|| ModeCounts {
             model,
-            basis: model.undamped_full_model(),
+            basis: model.full_model(),
             counted: AtomicUsize::new(0),
         })
     }
@@ -227,7 +227,7 @@ pub(super) struct Counted {
 /// Holds ascending claims against counts; what is not certain contradicts nothing. `begins` is n₋(K), with which the
 /// counts begin at ω = 0; where it is not known, the first of them is taken for right.
 pub(super) fn of_claims(
-    basis: &UndampedFullModel,
+    basis: &FullModel,
     speed_rad_per_s: f64,
     claims: &[Claim],
     begins: Option<isize>,

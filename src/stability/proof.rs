@@ -7,7 +7,7 @@
 //! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
 //!
 //! so many − modes there are at least. Where the counts are the same all along lines ωᵢ(Ω), which
-//! [`UndampedFullModel`](crate::spectrum::UndampedFullModel) settles by two factorizations, and no critical speed
+//! [`FullModel`](crate::spectrum::FullModel) settles by two factorizations, and no critical speed
 //! changes n₋(K), this holds at every speed of the stretch. The spectra only propose the lines. Next to
 //! a crossing or the edge of a band the gap closes and stretches are halved, down to a least width: what
 //! is left is named, and was only searched.

@@ -163,7 +163,7 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
 /// The probe's record on the few motions of the time history against the same on the
 /// full model.
 #[test]
-fn few_motions_make_the_record_of_the_undamped_full_model() {
+fn few_motions_make_the_record_of_the_full_model() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
     let probe = *Scene::paper().probe();

@@ -57,7 +57,7 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
 /// The projected and the whole system have the same onsets: 1e-6 is asked, and what the
 /// projection promises (1e-8 of the chart's height in frequency) is well below.
 #[test]
-fn onsets_of_the_projection_are_those_of_the_undamped_full_model() {
+fn onsets_of_the_projection_are_those_of_the_full_model() {
     let range = (0.0, rad_per_s(2300.0));
     let resolution = Resolution {
         max_diameters: 7,

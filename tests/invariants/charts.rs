@@ -44,7 +44,7 @@ fn charts_of_random_saws_miss_nothing() {
 
 /// The modes of the projection are those of the full model, where it says they are.
 #[test]
-fn projected_modes_are_those_of_the_undamped_full_model() {
+fn projected_modes_are_those_of_the_full_model() {
     check(8, (any_saw(), 0.0..1.6_f64), |(file, share)| {
         let top = 1.6 * lowest_critical(&file);
         let speed = share / 1.6 * top;

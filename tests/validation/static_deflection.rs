@@ -32,7 +32,7 @@ fn answer(system: &GyroscopicSystem, speed: f64, load: &DVector<f64>) -> DVector
 }
 
 #[test]
-fn stiffness_over_speed_and_the_speed_that_fills_a_gap_are_those_of_the_undamped_full_model() {
+fn stiffness_over_speed_and_the_speed_that_fills_a_gap_are_those_of_the_full_model() {
     let plate = Plate::new(&saw(None), POINT_LOADS);
     let system = GyroscopicSystem::of_plate(&plate);
     let at = |radius_m: f64, angle_deg: f64| {

@@ -48,7 +48,7 @@ impl AddedFunctions {
             .flatten();
         // A blade that is not certain to be stable is looked at closely.
         let structured =
-            structured.filter(|larger| larger.basis.critical_speeds_below(0.0) == Some(0));
+            structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
         if let Some(larger) = structured {
             return Ok(AddedFunctions::Structured {
                 larger: Box::new(larger),
@@ -69,7 +69,7 @@ impl AddedFunctions {
             }
             AddedFunctions::Structured { larger, kept } => {
                 let force = force_on_new(larger, kept, speed_rad_per_s, columns);
-                force.transpose() * larger.solve(&force)
+                force.transpose() * larger.at_rest.solve(force.as_ref())
             }
         }
     }
@@ -84,7 +84,7 @@ impl AddedFunctions {
             }
             AddedFunctions::Structured { larger, kept } => {
                 let force = force_on_new(larger, kept, speed_rad_per_s, columns);
-                let given_way = larger.solve(&force);
+                let given_way = larger.at_rest.solve(force.as_ref());
                 places
                     .map(|k| force.col(k).transpose() * given_way.col(k))
                     .collect()
@@ -100,7 +100,7 @@ impl AddedFunctions {
         };
         let mut force = part * widened(larger, kept, shape);
         kept.iter().for_each(|&place| force[(place, 0)] = 0.0);
-        Some((force.transpose() * larger.solve(&force))[(0, 0)])
+        Some((force.transpose() * larger.at_rest.solve(force.as_ref()))[(0, 0)])
     }
 }
 
@@ -112,7 +112,7 @@ fn force_on_new(
     columns: &Mat<f64>,
 ) -> Mat<f64> {
     let wide = widened(larger, kept, columns);
-    let product = larger.basis.times(wide.as_ref());
+    let product = larger.full.times(wide.as_ref());
     let mut force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
     for k in 0..columns.ncols() {
         kept.iter().for_each(|&place| force[(place, k)] = 0.0);
@@ -122,7 +122,7 @@ fn force_on_new(
 
 /// Columns of the old functions in the unknowns of the larger basis.
 fn widened(larger: &StructuredStiffness, kept: &[usize], columns: &Mat<f64>) -> Mat<f64> {
-    let mut wide = Mat::zeros(larger.inverse.order(), columns.ncols());
+    let mut wide = Mat::zeros(larger.at_rest.order(), columns.ncols());
     for k in 0..columns.ncols() {
         for (row, &place) in kept.iter().enumerate() {
             wide[(place, k)] = columns[(row, k)];

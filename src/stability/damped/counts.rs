@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::spectrum::{Solver, Spectrum};
-use crate::spectrum::{DampedFullModel, SpectralModel, SpectrumError};
+use crate::spectrum::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
 use crate::stability::mode_counts::Miscount;
@@ -50,9 +50,10 @@ impl Counts {
         if model.plate.is_axisymmetric() || is_free {
             return Ok(Counts::default());
         }
-        let Some(basis) = DampedFullModel::new(&model.plate) else {
+        let full = model.full_model();
+        if !full.is_structured() {
             return Ok(Counts::default());
-        };
+        }
         let spectra: Result<Vec<Spectrum>, SpectrumError> = speeds(bands, range)
             .par_iter()
             .map(|&speed| solver.at(speed))
@@ -60,7 +61,7 @@ impl Counts {
         let spectra = spectra?;
         let counted: Vec<Option<Option<Miscount>>> = spectra
             .par_iter()
-            .map(|spectrum| counted(&basis, spectrum, solver.highest()))
+            .map(|spectrum| counted(full, spectrum, solver.highest()))
             .collect();
         Ok(Counts {
             made: counted.iter().flatten().count(),
@@ -82,21 +83,21 @@ fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
     speeds
 }
 
-fn counted(basis: &DampedFullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
+fn counted(full: &FullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
     let listed: Vec<c64> = spectrum.values.iter().map(|value| value.lambda).collect();
-    counted_in_window(basis, spectrum.speed, &listed, highest)
+    counted_in_window(full, spectrum.speed, &listed, highest)
 }
 
 /// Growing eigenvalues that a list lacks or has too many, below the highest frequency up to which it is complete.
 /// `None` where nothing is certain, for an eigenvalue lies on the path.
 pub fn counted_in_window(
-    basis: &DampedFullModel,
+    full: &FullModel,
     speed_rad_per_s: f64,
     listed: &[c64],
     highest_rad_per_s: f64,
 ) -> Option<Option<Miscount>> {
     let top = window(listed, highest_rad_per_s)?;
-    let unlisted = basis.unlisted(speed_rad_per_s, listed, [top, top])?;
+    let unlisted = full.unlisted(speed_rad_per_s, listed, [top, top])?;
     // A complex pair is one mode.
     let modes = (unlisted + unlisted.signum()) / 2;
     Some((unlisted != 0).then_some(Miscount {
@@ -136,11 +137,11 @@ mod tests {
         let counts = Counts::new(&model, &solver, &[], range).unwrap();
         assert_eq!(counts.made, DRAWN as usize);
         assert!(counts.miscounts.is_empty(), "{:?}", counts.miscounts);
-        let basis = DampedFullModel::new(&model.plate).unwrap();
+        let full = model.full_model();
         let spectra = (0..40).map(|k| solver.at(rad_per_s(1540.0 + 25.0 * f64::from(k))).unwrap());
         let grows = |s: &Spectrum| s.values.iter().any(|v| v.lambda.re > 0.01);
         let sound = spectra.into_iter().find(grows).unwrap();
-        assert_eq!(counted(&basis, &sound, solver.highest()), Some(None));
+        assert_eq!(counted(full, &sound, solver.highest()), Some(None));
         let growing = sound
             .values
             .iter()
@@ -148,14 +149,12 @@ mod tests {
             .unwrap();
         let mut missing = sound.clone();
         missing.values.remove(growing);
-        let found = counted(&basis, &missing, solver.highest())
-            .unwrap()
-            .unwrap();
+        let found = counted(full, &missing, solver.highest()).unwrap().unwrap();
         assert_eq!(found.missing, 1);
         let mut invented = sound.clone();
         let decaying = &mut invented.values[usize::from(growing == 0)].lambda;
         decaying.re = decaying.re.abs() + 0.1;
-        let found = counted(&basis, &invented, solver.highest()).unwrap();
+        let found = counted(full, &invented, solver.highest()).unwrap();
         let was_growing = sound.values[usize::from(growing == 0)].lambda.re > 0.0;
         assert!(was_growing || found.unwrap().missing == -1);
     }

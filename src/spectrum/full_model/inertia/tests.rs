@@ -1,7 +1,7 @@
 use faer::Side;
 
 use super::*;
-use crate::plate::{Resolution, RimForce};
+use crate::plate::{Plate, Resolution, RimForce};
 use crate::scene::{GuideFile, Scene, SceneFile, rad_per_s};
 use crate::system::GyroscopicSystem;
 
@@ -24,7 +24,7 @@ struct Place {
     frequency_rad_per_s: f64,
 }
 
-fn counted(basis: &UndampedFullModel, place: Place) -> Option<usize> {
+fn counted(basis: &FullModel, place: Place) -> Option<usize> {
     let at = basis.at(place.speed_rad_per_s);
     basis.count_along([&at; 2], [place.frequency_rad_per_s; 2])
 }
@@ -85,10 +85,7 @@ fn counts_are_those_of_all_eigenvalues_for_drawn_saws() {
     for guides in [1, 1, 2, 3, 4] {
         let scene = Scene::try_from(drawn_saw(&mut draw, guides)).unwrap();
         let plate = Plate::new(&scene, small());
-        let (basis, system) = (
-            UndampedFullModel::new(&plate),
-            GyroscopicSystem::of_plate(&plate),
-        );
+        let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
         for place in places(&mut draw, 40) {
             match counted(&basis, place) {
                 Some(count) => assert_eq!(count, exact(&system, place), "{place:?}"),
@@ -103,10 +100,7 @@ fn counts_are_those_of_all_eigenvalues_for_drawn_saws() {
 #[test]
 fn counts_hold_at_the_poles_of_the_free_blade() {
     let plate = Plate::new(&Scene::paper(), small());
-    let (basis, system) = (
-        UndampedFullModel::new(&plate),
-        GyroscopicSystem::of_plate(&plate),
-    );
+    let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
     assert!(!basis.is_dense());
     for speed in [0.0, 100.0, 250.0] {
         for harmonic in &basis.harmonics {
@@ -156,10 +150,7 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
     });
     let cut = Plate::new(&Scene::paper(), small()).with_edge_loads(&loads);
     for (plate, is_dense) in [(stiff, false), (heated, false), (cut, true)] {
-        let (basis, system) = (
-            UndampedFullModel::new(&plate),
-            GyroscopicSystem::of_plate(&plate),
-        );
+        let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
         assert_eq!(basis.is_dense(), is_dense);
         for place in places(&mut draw, 30) {
             assert_eq!(
@@ -176,10 +167,7 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
 fn a_line_is_proven_only_where_no_mode_meets_it() {
     let mut draw = Draw(0.55);
     let plate = Plate::new(&Scene::paper(), small());
-    let (basis, system) = (
-        UndampedFullModel::new(&plate),
-        GyroscopicSystem::of_plate(&plate),
-    );
+    let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
     let (mut proven, mut refuted) = (0, 0);
     for width in [20.0, 5.0, 1.0] {
         for start in places(&mut draw, 40) {
@@ -231,7 +219,7 @@ fn cost_of_a_count() {
     ] {
         let plate = Plate::new(&Scene::paper(), Resolution::of(accuracy));
         let start = std::time::Instant::now();
-        let basis = UndampedFullModel::new(&plate);
+        let basis = FullModel::new(&plate);
         let prepared = start.elapsed();
         let columns = match &basis.coupling {
             Coupling::Columns(columns) => columns.rests[0].0 * 1000 + columns.rests[LOOKS - 1].0,
@@ -246,11 +234,10 @@ fn cost_of_a_count() {
             counted(&basis, place);
         }
         let spent = start.elapsed() / 20;
-        let damped = DampedFullModel::new(&plate).unwrap();
         let start = std::time::Instant::now();
         let values = [c64::new(-0.1, 50.0), c64::new(-0.1, 100.0)];
-        let unlisted = damped.unlisted(250.0, &values, [120.0, 120.0]);
-        println!("damped: {unlisted:?} unlisted, {:?}", start.elapsed());
+        let unlisted = basis.unlisted(250.0, &values, [120.0, 120.0]);
+        println!("{unlisted:?} unlisted, {:?}", start.elapsed());
         println!(
             "{accuracy:?}: {} functions, {columns} columns, prepared {prepared:?}, a count {:?}",
             plate.degrees_of_freedom(),

@@ -14,14 +14,11 @@ pub enum Coupling {
     Dense(Mat<c64>),
 }
 
-/// P in the basis of waves. The wave e^{inθ} has the rows `cosine` − i `sine`, e^{−inθ} their conjugates.
+/// P.
 #[derive(Debug)]
 pub struct Columns {
-    /// Rows of cos nθ, over √2 for n > 0; J rows of every n.
-    pub cosine: Mat<f64>,
-    /// Rows of sin nθ, the same way; zero for n = 0.
-    pub sine: Mat<f64>,
-    /// Both in the waves of the blade at rest, those of cosines above those of sines.
+    /// In the waves of the blade at rest, J rows of every n, those of cos nθ above those of sin nθ, which are zero for
+    /// n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second, e^{−inθ} their conjugates.
     pub resting: Mat<f64>,
     /// Numbers of columns of each look, and of what solves, with the ε of those left out.
     pub rests: [(usize, f64); LOOKS + 1],
@@ -106,7 +103,7 @@ impl Columns {
         self.unknowns.subcols(0, self.rests[LOOKS].0)
     }
 
-    /// Sorted by waves, those that are not left out.
+    /// With those that are not left out in the waves at rest.
     fn of_unknowns(
         unknowns: Mat<f64>,
         is_exact: bool,
@@ -115,35 +112,23 @@ impl Columns {
     ) -> Self {
         let rows: usize = harmonics.iter().map(Harmonic::radial).sum();
         let count = rests[LOOKS].0;
-        let mut cosine = Mat::zeros(rows, count);
-        let mut sine = Mat::zeros(rows, count);
-        let mut row = 0;
-        for harmonic in harmonics {
-            let norm = match harmonic.diameters {
-                0 => 1.0,
-                _ => std::f64::consts::FRAC_1_SQRT_2,
-            };
-            for (first, rows) in harmonic.firsts().zip([&mut cosine, &mut sine]) {
-                let own = Scale(norm) * unknowns.get(first..first + harmonic.radial(), ..count);
-                rows.subrows_mut(row, harmonic.radial()).copy_from(own);
-            }
-            row += harmonic.radial();
-        }
         let mut resting = Mat::zeros(2 * rows, count);
         let mut row = 0;
         for harmonic in harmonics {
             let (radial, vectors) = (harmonic.radial(), &harmonic.resting.eigenvectors);
             let turn = Mat::from_fn(radial, radial, |i, j| vectors[(j, i)]);
-            for (first, own) in [(row, &cosine), (rows + row, &sine)] {
-                let turned = resting.subrows_mut(first, radial);
-                let own = own.subrows(row, radial);
-                matmul(turned, Accum::Replace, &turn, own, 1.0, Par::Seq);
+            let norm = match harmonic.diameters {
+                0 => 1.0,
+                _ => std::f64::consts::FRAC_1_SQRT_2,
+            };
+            for (first, row) in harmonic.firsts().zip([row, rows + row]) {
+                let turned = resting.subrows_mut(row, radial);
+                let own = unknowns.get(first..first + radial, ..count);
+                matmul(turned, Accum::Replace, &turn, own, norm, Par::Seq);
             }
             row += radial;
         }
         Columns {
-            cosine,
-            sine,
             resting,
             rests,
             unknowns,

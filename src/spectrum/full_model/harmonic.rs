@@ -65,6 +65,11 @@ impl Harmonic {
         }
     }
 
+    /// B_n = K_b + K_m + Ω²K_σ.
+    pub fn stiffness(&self, speed_rad_per_s: f64) -> DMatrix<f64> {
+        &self.rest + &self.tension * speed_rad_per_s.powi(2)
+    }
+
     /// J.
     pub fn radial(&self) -> usize {
         self.rest.nrows()

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Harmonic;
 use super::jacobi::Eigenvectors;
+use crate::spectrum::full_model::Harmonic;
 
 /// The waves of a harmonic at a speed, in those at rest.
 #[derive(Debug)]

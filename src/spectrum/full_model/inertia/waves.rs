@@ -7,7 +7,8 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, MatRef, Par, Scale, c64};
 
 use super::free_waves::FreeWaves;
-use super::{Bound, BoundedBlock, Harmonic};
+use super::{Bound, BoundedBlock};
+use crate::spectrum::full_model::Harmonic;
 use crate::spectrum::hermitian::negative_eigenvalues;
 
 /// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.

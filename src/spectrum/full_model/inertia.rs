@@ -1,12 +1,7 @@
-//! How many eigenvalues of L(iω) are negative, on the full model and without its modes.
+//! How many eigenvalues of L(iω) of the undamped blade are negative, without its modes.
 //!
-//! Seen from the blade, a wave of n nodal diameters that turns at frequency ω in space has frequency
-//! ω + nΩ, and −n for the opposite one. Without guides
-//!
-//! L(iω) = K(Ω) − ω² + iω 2ΩG
-//!
-//! is therefore block diagonal with the real symmetric blocks B_n(Ω) − (ω ± nΩ)², B_n = K_b + K_m +
-//! Ω²K_σ. The guides add K_g = PPᵀ, few columns, and Haynsworth's additivity of inertia (Linear
+//! L(iω) = K(Ω) − ω² + iω 2ΩG is block diagonal with the real symmetric blocks B_n(Ω) − (ω ± nΩ)² without guides,
+//! B_n = K_b + K_m + Ω²K_σ. The guides add K_g = PPᵀ, few columns, and Haynsworth's additivity of inertia (Linear
 //! Algebra Appl. 1, 1968) gives
 //!
 //! n₋(A + PPᵀ) = n₋(A) + n₋(−1 − PᴴA⁻¹P) − columns.
@@ -17,13 +12,8 @@
 //! the line or zero, so that two counts settle a line. What is left out of PPᵀ, and rounding, are
 //! on the same footing: L_high has them in full.
 
-mod coupling;
-mod damped;
 mod free_waves;
-mod harmonic;
 mod jacobi;
-mod matrices;
-mod solved;
 mod waves;
 
 use std::ops::Range;
@@ -31,24 +21,12 @@ use std::sync::OnceLock;
 
 use faer::{Mat, c64};
 
-pub use self::damped::DampedFullModel;
-pub use self::harmonic::Harmonic;
-pub use self::matrices::{ShiftedBlock, ShiftedBlocks};
-
-use self::coupling::{Columns, Coupling, Kept, LOOKS, in_waves};
 use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
 use self::waves::Waves;
-use super::hermitian::negative_eigenvalues;
-use super::scale::frequency_scale;
-use crate::plate::{HarmonicBlock, Plate};
-
-/// The blade and what couples its harmonics, without damping.
-#[derive(Debug)]
-pub struct UndampedFullModel {
-    harmonics: Vec<Harmonic>,
-    coupling: Coupling,
-}
+use super::coupling::{Coupling, LOOKS};
+use super::{FullModel, Harmonic};
+use crate::spectrum::hermitian::negative_eigenvalues;
 
 /// Share of T = B(0) + σ that rounding may change L by.
 const ROUNDING: f64 = 1e-11;
@@ -57,52 +35,7 @@ const STIFF: [f64; LOOKS] = [1e2, 1e4];
 /// Share of the speed beyond which a line is so long that more columns do not help.
 const LONG: f64 = 1e-3;
 
-impl UndampedFullModel {
-    /// Of a plate; its damping is left aside.
-    pub fn new(plate: &Plate) -> Self {
-        Self::with_columns(plate, Kept::All)
-    }
-
-    /// The same, to be solved and multiplied with to a millionth: in a third of the time.
-    pub fn nearly(plate: &Plate) -> Self {
-        Self::with_columns(plate, Kept::Few)
-    }
-
-    fn with_columns(plate: &Plate, kept: Kept) -> Self {
-        let harmonics = Self::harmonics(plate);
-        let order = plate.degrees_of_freedom();
-        let guides = plate.contact.stiffness();
-        let columns = match (&plate.edge_stiffness, guides) {
-            (None, Some(guides)) => Columns::new(guides, &harmonics, kept),
-            (None, None) => Columns::new(&Mat::zeros(order, order), &harmonics, kept),
-            (Some(_), _) => None,
-        };
-        let coupling = columns.map_or_else(
-            || {
-                let mut sum = Mat::zeros(order, order);
-                for term in [guides, plate.edge_stiffness.as_ref()]
-                    .into_iter()
-                    .flatten()
-                {
-                    sum += term;
-                }
-                Coupling::Dense(in_waves(&sum, &harmonics))
-            },
-            |columns| Coupling::Columns(Box::new(columns)),
-        );
-        UndampedFullModel {
-            harmonics,
-            coupling,
-        }
-    }
-
-    fn harmonics(plate: &Plate) -> Vec<Harmonic> {
-        let scale = frequency_scale(plate);
-        let harmonic =
-            |block: &HarmonicBlock| Harmonic::new(block, plate.offset(block.diameters), scale);
-        plate.harmonics.iter().map(harmonic).collect()
-    }
-
+impl FullModel {
     /// Number of waves of the undamped blade at rest below a frequency, where that is certain.
     pub fn modes_at_rest_below(&self, frequency_rad_per_s: f64) -> Option<usize> {
         let rest = self.at(0.0);
@@ -113,11 +46,6 @@ impl UndampedFullModel {
     pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
         let at = self.at(speed_rad_per_s);
         self.count_along([&at, &at], [0.0; 2])
-    }
-
-    /// Whether a count needs a factorization of the order of the basis.
-    pub fn is_dense(&self) -> bool {
-        matches!(self.coupling, Coupling::Dense(_))
     }
 
     /// What counts at a speed have in common.
@@ -220,7 +148,7 @@ impl UndampedFullModel {
     fn add_blocks(&self, matrix: &mut Mat<c64>, speed_rad_per_s: f64, bounds: &[BoundedBlock]) {
         let mut first = 0;
         for (harmonic, bound) in self.harmonics.iter().zip(bounds) {
-            let stiffness = &harmonic.rest + &harmonic.tension * speed_rad_per_s.powi(2);
+            let stiffness = harmonic.stiffness(speed_rad_per_s);
             for sign in harmonic.signs() {
                 for (k, column) in stiffness.column_iter().enumerate() {
                     for (j, value) in column.iter().enumerate() {
