@@ -138,8 +138,8 @@ class SceneData(Mapping[str, Any]):
         Parameters
         ----------
         changes : dict
-            New values by path, like ``"guides[0].radius_m"``: numbers, those of NumPy, or quantities
-            of pint. None takes a key out; a block that is not there, like ``damping`` in
+            New values by path, like ``"guides[0].radius_m"``: numbers, those of NumPy, quantities
+            of pint, or texts with a unit, like ``"2.6 mm"``. None takes a key out; a block that is not there, like ``damping`` in
             ``"damping.air_n_s_per_m3"``, is begun.
 
         Returns
@@ -159,9 +159,14 @@ class SceneData(Mapping[str, Any]):
         >>> free = sf.Scene.paper().replace({"guides": []})
         >>> round(float(free.run_campbell().critical_rpm[0]))
         1477
+        >>> sf.Scene.paper().replace({"blade.thickness_m": "2.6 mm"})["blade.thickness_m"]
+        0.0026
         """
         data = json.loads(self._text)
         for path, value in changes.items():
+            if isinstance(value, str) and isinstance(path, str):
+                number = _native.number(path, value)
+                value = value if number is None else number
             _paths.put(data, path, _values.plain(value, path.rpartition(".")[2]))
         return type(self)(data)
 

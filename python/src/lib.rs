@@ -25,7 +25,7 @@ mod _native {
     #[pymodule_export]
     use super::study::{Study, StudyLog, processor};
     #[pymodule_export]
-    use super::{panic, paper, program, read_scene, read_text, scene, schema};
+    use super::{number, panic, paper, program, read_scene, read_text, scene, schema};
 }
 
 /// The scene of a JSON text, validated, as JSON.
@@ -33,6 +33,17 @@ mod _native {
 fn scene(text: &str) -> PyResult<String> {
     let scene = arguments::scene(text)?;
     Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+}
+
+/// The number of a text like `2.6mm` in the unit that a path of a scene has; none where the path is that of no number.
+#[pyfunction]
+fn number(path: &str, text: &str) -> PyResult<Option<f64>> {
+    if sawflutter::scene::Quantity::of(path).is_none() {
+        return Ok(None);
+    }
+    let refused = |error| failure::Failure::from(sawflutter::scene::SceneError::Value(error));
+    let found = sawflutter::scene::number_of(path, text).map_err(refused)?;
+    Ok(Some(found))
 }
 
 /// The scene that comes with the program.

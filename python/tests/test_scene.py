@@ -198,6 +198,16 @@ def test_quantities_have_the_unit_of_their_key() -> None:
         saw.replace({"blade.material.poisson_ratio": Quantity(m=0.3)})
 
 
+def test_texts_with_a_unit_are_numbers() -> None:
+    saw = sf.Scene.paper()
+    texts = {"blade.thickness_m": "2.6 mm", "guides[0].stiffness_n_per_m": "20 kN/mm", "operating_rpm": "20 rev/s"}
+    numbers = {"blade.thickness_m": 0.0026, "guides[0].stiffness_n_per_m": 2e7, "operating_rpm": 1200}
+    assert saw.replace({**texts, "accuracy": "draft"}) == saw.replace({**numbers, "accuracy": "draft"})
+    with pytest.raises(sf.SceneError, match="must be a number in m") as refused:
+        saw.replace({"blade.thickness_m": "2.6 N"})
+    assert refused.value.key == "blade.thickness_m"
+
+
 def test_pint_understands_every_unit() -> None:
     pint = pytest.importorskip("pint")
     units = pint.UnitRegistry()

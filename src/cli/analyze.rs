@@ -9,7 +9,7 @@ use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
 use clap::Args;
 
-use super::common::{Finely, NamedFile, Output, number, read_scene};
+use super::common::{Changes, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
 use super::pictures::{self, figure_names};
 use super::progress::watched_with_remarks;
@@ -22,6 +22,7 @@ Examples:
   sawflutter analyze saws/*.json --out saws-out       # a folder each, a table
   cat my-saw.json | sawflutter analyze -              # a scene from a program
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
+  sawflutter analyze --set blade.thickness_m=2.6mm    # a thinner blade
   sawflutter analyze --at-rpm 1800                    # the modes of one speed
   sawflutter analyze --amplitude                      # how far flutter rises
   sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
@@ -34,7 +35,7 @@ pub struct Arguments {
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     #[command(flatten)]
-    finely: Finely,
+    changes: Changes,
     #[command(flatten)]
     output: Output,
     /// Of several scenes chart those that can be, where one is refused
@@ -98,7 +99,7 @@ impl Drawn {
 /// Charts saws, writes their files and prints the summary, or a table of several.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let asked = |scene: Scene| {
-        let scene = arguments.finely.applied(scene)?;
+        let scene = arguments.changes.applied(scene)?;
         match arguments.in_cut {
             Some(rpm) => in_cut(&scene, rpm),
             None => Ok(scene),

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError};
+use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting};
 use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -11,18 +11,22 @@ use clap::{Args, ValueEnum};
 use super::output::{OutputFolder, Writing};
 use super::paint::Paint;
 
-/// The saw to look at, and how finely.
+/// The saw to look at, and what is changed in it.
 #[derive(Args, Default)]
 pub struct Input {
     /// Scene to look at, - for standard input; without it, the built-in guided spline saw
     scene: Option<PathBuf>,
     #[command(flatten)]
-    finely: Finely,
+    changes: Changes,
 }
 
-/// How finely to look at a saw.
+/// What the command line changes in a scene.
 #[derive(Args, Default)]
-pub struct Finely {
+pub struct Changes {
+    /// Set a number of the scene by its path, in the unit of its key or with a unit, like
+    /// blade.thickness_m=2.6mm; may be given more than once
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
@@ -68,7 +72,7 @@ impl Input {
             Some(path) => read_scene(path)?,
             None => Scene::paper(),
         };
-        self.finely.applied(scene)
+        self.changes.applied(scene)
     }
 }
 
@@ -129,9 +133,15 @@ pub fn say(text: &str) -> std::io::Result<()> {
     write!(std::io::stdout().lock(), "{text}")
 }
 
-impl Finely {
-    /// The scene, looked at as finely as asked.
+impl Changes {
+    /// The scene with what is asked for.
     pub fn applied(&self, mut scene: Scene) -> anyhow::Result<Scene> {
+        if !self.set.is_empty() {
+            let settings = self.set.iter().map(|text| text.parse());
+            let settings = settings.collect::<Result<Vec<Setting>, _>>();
+            let settings = settings.context("--set was refused")?;
+            scene = (scene.file().set(&settings)).context("--set was refused")?;
+        }
         if let Some(name) = self.accuracy {
             let accuracy = match name {
                 AccuracyName::Draft => Accuracy::Draft,

@@ -1,7 +1,7 @@
 //! Numbers of a scene that a command may move: `--free guides[0].radius_m=0.15..0.3`.
 
-use crate::scene::NamedBounds;
-use anyhow::bail;
+use crate::scene::{NamedBounds, number_of};
+use anyhow::{Context, bail};
 
 /// The paths asked for, with their bounds where they are given.
 pub fn named_bounds(asked: &[String]) -> anyhow::Result<Vec<NamedBounds>> {
@@ -12,13 +12,13 @@ fn parse(text: &str) -> anyhow::Result<NamedBounds> {
     let Some((path, range)) = text.split_once('=') else {
         return Ok((text.trim().to_owned(), None));
     };
-    let bounds = range
-        .split_once("..")
-        .map(|(from, to)| (from.trim().parse(), to.trim().parse()));
-    let Some((Ok(from), Ok(to))) = bounds else {
+    let Some((from, to)) = range.split_once("..") else {
         bail!(
             "the range of --free {text} is {range:?}, but must be two numbers; write it like 0.15..0.3"
         );
     };
-    Ok((path.trim().to_owned(), Some((from, to))))
+    let path = path.trim();
+    let bound =
+        |bound| number_of(path, bound).with_context(|| format!("--free {text} was refused"));
+    Ok((path.to_owned(), Some((bound(from)?, bound(to)?))))
 }

@@ -1,6 +1,7 @@
 //! The command line: arguments → library calls → output, and no physics.
 
 mod analyze;
+mod assumed;
 mod check;
 mod common;
 mod cut;

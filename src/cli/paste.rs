@@ -1,4 +1,4 @@
-//! Blocks of JSON to paste into a scene that lacks them.
+//! Blocks of a scene that lacks them: to paste, and assumed where options give a part of one.
 
 use std::f64::consts::PI;
 
@@ -18,7 +18,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
     needed.map_err(|refused| {
         let (block, place) = match refused.key.as_str() {
             "cut" => (cut_block(scene.file()), "the scene"),
-            "runup" => (runup_block(scene.file()), "the scene"),
+            "runup" => (block("runup", &usual_runup(scene.file())), "the scene"),
             "cut.washboarding" => (washboarding_block(), "its block \"cut\""),
             _ => return refused.into(),
         };
@@ -30,8 +30,8 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
     })
 }
 
-/// The key `cut`, of a middling cut for this blade.
-fn cut_block(scene: &SceneFile) -> String {
+/// A middling cut for this blade.
+pub fn usual_cut(scene: &SceneFile) -> Value {
     let depth_m = rounded(0.25 * scene.blade.outer_diameter_m);
     let mut cut = json!({
         "depth_m": depth_m,
@@ -44,7 +44,12 @@ fn cut_block(scene: &SceneFile) -> String {
     if scene.operating_rpm.is_none() {
         cut["speeds"] = json!([{ "rpm": usual_rpm(scene) }]);
     }
-    let mut text = block("cut", &cut);
+    cut
+}
+
+/// The key `cut`, of a middling cut.
+fn cut_block(scene: &SceneFile) -> String {
+    let mut text = block("cut", &usual_cut(scene));
     if scene.blade.teeth.is_none_or(|teeth| teeth == 0) {
         text += "\n\nand the number of its teeth, \"teeth\": 40, into its block \"blade\"";
     }
@@ -59,16 +64,15 @@ fn washboarding_block() -> String {
     )
 }
 
-/// The key `runup`, to half as fast again as the saw runs.
-fn runup_block(scene: &SceneFile) -> String {
+/// A run-up to half as fast again as the saw runs.
+pub fn usual_runup(scene: &SceneFile) -> Value {
     let usual_rpm = scene.operating_rpm.unwrap_or_else(|| usual_rpm(scene));
-    let runup = json!({
+    json!({
         "from_rpm": 0,
         "to_rpm": rounded(1.5 * usual_rpm),
         "duration_s": 60,
         "force_n": 1
-    });
-    block("runup", &runup)
+    })
 }
 
 fn usual_rpm(scene: &SceneFile) -> f64 {

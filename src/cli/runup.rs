@@ -1,11 +1,13 @@
 //! `sawflutter runup`.
 
 use crate::report::RunUpReport;
+use crate::scene::Scene;
 use crate::transient::RunningUp;
 use clap::Args;
 
+use super::assumed::{Block, Given};
 use super::common::Common;
-use super::paste::pasted;
+use super::paste::{pasted, usual_runup};
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
@@ -13,6 +15,7 @@ pub const EXAMPLES: &str = "\
 Examples:
   sawflutter runup                         # the built-in saw, 0 to 4000 rpm
   sawflutter runup my-saw.json --out runup # your own saw
+  sawflutter runup my-saw.json --to 4000 --seconds 60 --force 5N
   sawflutter runup --stretching            # past five thicknesses
   sawflutter runup --json | jq '.bands[]'  # for scripts
 
@@ -25,11 +28,56 @@ pub struct Arguments {
     /// Let the blade stretch where it bends by more than a part of its thickness, as `runup.stretching` does
     #[arg(long)]
     stretching: bool,
+    #[command(flatten)]
+    course: Course,
+}
+
+/// Numbers of the scene's `runup`, with or without a unit. Where the scene has no run-up, the others are assumed, and
+/// said.
+#[derive(Args)]
+#[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
+struct Course {
+    /// First speed, in rpm
+    #[arg(long, value_name = "SPEED")]
+    from: Option<String>,
+    /// Last speed, in rpm
+    #[arg(long, value_name = "SPEED")]
+    to: Option<String>,
+    /// Time it takes, in s, or like 2min
+    #[arg(long, value_name = "TIME")]
+    seconds: Option<String>,
+    /// Lateral force at the rim, in N
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    force: Option<String>,
+    /// Angle of the force, in degrees, positive with the rotation
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    angle: Option<String>,
+}
+
+impl Course {
+    fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let given = |option, key, text| Given { option, key, text };
+        let given = [
+            given("from", "from_rpm", self.from.as_ref()),
+            given("to", "to_rpm", self.to.as_ref()),
+            given("seconds", "duration_s", self.seconds.as_ref()),
+            given("force", "force_n", self.force.as_ref()),
+            given("angle", "angle_deg", self.angle.as_ref()),
+        ];
+        let block = Block {
+            name: "runup",
+            is_missing: scene.file().runup.is_none(),
+            usual: usual_runup,
+            given: &given,
+            wins: &[],
+        };
+        block.applied(scene)
+    }
 }
 
 /// Computes a run-up, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let mut scene = arguments.common.scene()?;
+    let mut scene = arguments.course.applied(arguments.common.scene()?)?;
     if arguments.stretching {
         scene = scene.edited(|file| {
             file.runup

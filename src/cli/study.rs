@@ -12,7 +12,7 @@ use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::common::{Finely, Output, read_scene, read_text, refused, say};
+use super::common::{Changes, Output, read_scene, read_text, refused, say};
 use super::output::OutputFolder;
 use super::pictures::drawn;
 use super::scheduler;
@@ -46,7 +46,7 @@ pub struct Arguments {
     #[arg(required = true)]
     study: Option<PathBuf>,
     #[command(flatten)]
-    finely: Finely,
+    changes: Changes,
     /// Compute part k of n only, into a log of its own
     #[arg(long, value_name = "k/n", value_parser = shard)]
     shard: Option<Shard>,
@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let (scene, file) = (arguments.scene.as_deref(), arguments.study.as_deref());
     let scene = read_scene(scene.context("a scene is missing")?)?;
-    let scene = arguments.finely.applied(scene)?;
+    let scene = arguments.changes.applied(scene)?;
     let study = read_study(file.context("a study is missing")?)?;
     let study = Study::new(scene, study).context("the study was refused")?;
     let folder = arguments.output.folder()?;

@@ -21,9 +21,11 @@ mod read;
 mod refused;
 mod residual;
 mod runup;
+mod setting;
 mod spline;
 mod teeth_in_cut;
 mod thickness;
+mod unit;
 mod unusual;
 mod validate;
 mod validated;
@@ -54,7 +56,7 @@ pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "explore"))]
 pub(crate) use quantity::QUANTITIES;
-pub(crate) use quantity::Quantity;
+pub use quantity::Quantity;
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
@@ -64,6 +66,7 @@ pub(crate) use residual::ResidualStress;
 pub use residual::ResidualStressRow;
 pub(crate) use runup::Probe;
 pub use runup::{ProbeFile, RunUp, RunUpFile};
+pub use setting::{Setting, number_of};
 pub(crate) use spline::Spline;
 pub use spline::SplineFile;
 pub(crate) use thickness::RimMass;

@@ -73,7 +73,7 @@ impl SceneFile {
     }
 }
 
-fn value(scene: &SceneFile) -> Value {
+pub(super) fn value(scene: &SceneFile) -> Value {
     serde_json::to_value(scene).expect("keys are strings and numbers of a scene finite")
 }
 

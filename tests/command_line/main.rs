@@ -9,6 +9,7 @@ mod memory_of_a_chart;
 mod pressed;
 
 mod analyze;
+mod changes;
 mod cutting;
 mod deflect;
 mod design;

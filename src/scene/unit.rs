@@ -1,0 +1,262 @@
+//! Units as they are written: `mm`, `kN/mm`, `g/cm³`, `N·s/m`, `1/K`.
+//!
+//! A unit is a factor to SI and the powers of the base units that it is made of. Two units of the same powers
+//! measure the same quantity. An angle counts as a base unit of its own, so that revolutions per minute
+//! are not taken for hertz.
+
+/// Powers of metre, kilogram, second, kelvin and angle.
+type Powers = [f64; 5];
+
+/// A unit, as its factor to SI and its powers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    pub factor: f64,
+    powers: Powers,
+}
+
+const fn u(symbol: &'static str, factor: f64, powers: Powers) -> (&'static str, Unit) {
+    (symbol, Unit { factor, powers })
+}
+
+const LENGTH: Powers = [1.0, 0.0, 0.0, 0.0, 0.0];
+const MASS: Powers = [0.0, 1.0, 0.0, 0.0, 0.0];
+const TIME: Powers = [0.0, 0.0, 1.0, 0.0, 0.0];
+const FORCE: Powers = [1.0, 1.0, -2.0, 0.0, 0.0];
+const PRESSURE: Powers = [-1.0, 1.0, -2.0, 0.0, 0.0];
+const POWER: Powers = [2.0, 1.0, -3.0, 0.0, 0.0];
+const ANGLE: Powers = [0.0, 0.0, 0.0, 0.0, 1.0];
+const TURNING: Powers = [0.0, 0.0, -1.0, 0.0, 1.0];
+const NUMBER: Powers = [0.0; 5];
+const TURN: f64 = 2.0 * std::f64::consts::PI;
+const POUND_KG: f64 = 0.453_592_37;
+const POUND_N: f64 = POUND_KG * 9.806_65;
+const INCH_M: f64 = 0.0254;
+
+/// Units that take a prefix.
+const PREFIXED: [(&str, Unit); 9] = [
+    u("m", 1.0, LENGTH),
+    u("g", 1e-3, MASS),
+    u("s", 1.0, TIME),
+    u("K", 1.0, [0.0, 0.0, 0.0, 1.0, 0.0]),
+    u("N", 1.0, FORCE),
+    u("Pa", 1.0, PRESSURE),
+    u("W", 1.0, POWER),
+    u("Hz", 1.0, [0.0, 0.0, -1.0, 0.0, 0.0]),
+    u("rad", 1.0, ANGLE),
+];
+
+/// Units that take none. They go first: `min` is no milli-inch.
+const PLAIN: [(&str, Unit); 18] = [
+    u("1", 1.0, NUMBER),
+    u("%", 1e-2, NUMBER),
+    u("min", 60.0, TIME),
+    u("h", 3600.0, TIME),
+    u("°", TURN / 360.0, ANGLE),
+    u("deg", TURN / 360.0, ANGLE),
+    u("rev", TURN, ANGLE),
+    u("rpm", TURN / 60.0, TURNING),
+    u("rps", TURN, TURNING),
+    u("bar", 1e5, PRESSURE),
+    u("in", INCH_M, LENGTH),
+    u("inch", INCH_M, LENGTH),
+    u("ft", 12.0 * INCH_M, LENGTH),
+    u("lb", POUND_KG, MASS),
+    u("lbf", POUND_N, FORCE),
+    u("psi", POUND_N / (INCH_M * INCH_M), PRESSURE),
+    u("ksi", 1e3 * POUND_N / (INCH_M * INCH_M), PRESSURE),
+    u("hp", 550.0 * 12.0 * INCH_M * POUND_N, POWER),
+];
+
+const PREFIXES: [(char, f64); 9] = [
+    ('n', 1e-9),
+    ('u', 1e-6),
+    ('µ', 1e-6),
+    ('μ', 1e-6),
+    ('m', 1e-3),
+    ('c', 1e-2),
+    ('k', 1e3),
+    ('M', 1e6),
+    ('G', 1e9),
+];
+
+const SIGNS: [char; 7] = ['*', '·', '⋅', '/', '^', '(', ')'];
+
+impl Unit {
+    /// The unit of a text, if it is one; nothing is the unit of a mere number.
+    pub fn parse(text: &str) -> Option<Unit> {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let ends = |word: &str| word.ends_with(SIGNS);
+        let begins = |word: &str| word.starts_with(SIGNS);
+        // A mere blank is no sign of a product: `m s` would be read as milliseconds.
+        if (words.windows(2)).any(|pair| !ends(pair[0]) && !begins(pair[1])) {
+            return None;
+        }
+        let text = words.concat();
+        if text.is_empty() {
+            return Some(PLAIN[0].1);
+        }
+        let mut rest = text.as_str();
+        let unit = product(&mut rest)?;
+        rest.is_empty().then_some(unit)
+    }
+
+    /// Whether it measures the same quantity.
+    pub fn is_of(&self, other: &Unit) -> bool {
+        self.powers == other.powers
+    }
+
+    fn times(self, other: Unit, exponent: f64) -> Unit {
+        let mut powers = self.powers;
+        for (power, of) in powers.iter_mut().zip(other.powers) {
+            *power += exponent * of;
+        }
+        Unit {
+            factor: self.factor * other.factor.powf(exponent),
+            powers,
+        }
+    }
+}
+
+/// Factors from left to right, up to a closing bracket or the end.
+fn product(rest: &mut &str) -> Option<Unit> {
+    let mut unit = power(rest)?;
+    while let Some(sign) = rest.chars().next().filter(|c| "*·⋅/".contains(*c)) {
+        *rest = &rest[sign.len_utf8()..];
+        unit = unit.times(power(rest)?, if sign == '/' { -1.0 } else { 1.0 });
+    }
+    Some(unit)
+}
+
+/// A symbol or a product in brackets, with its exponent.
+fn power(rest: &mut &str) -> Option<Unit> {
+    let base = match rest.strip_prefix('(') {
+        Some(inner) => {
+            *rest = inner;
+            let unit = product(rest)?;
+            *rest = rest.strip_prefix(')')?;
+            unit
+        }
+        None => {
+            let is_one = rest.starts_with('1');
+            let end = rest.find(|c: char| !(c.is_alphabetic() || c == '°' || c == '%'));
+            let end = if is_one { 1 } else { end.unwrap_or(rest.len()) };
+            let (symbol, after) = rest.split_at(end);
+            *rest = after;
+            of_symbol(symbol)?
+        }
+    };
+    Some(
+        Unit {
+            factor: 1.0,
+            powers: NUMBER,
+        }
+        .times(base, exponent(rest)?),
+    )
+}
+
+fn of_symbol(symbol: &str) -> Option<Unit> {
+    let named = |table: &[(&str, Unit)], name: &str| {
+        let found = table.iter().find(|(own, _)| *own == name);
+        found.map(|(_, unit)| *unit)
+    };
+    let whole = named(&PLAIN, symbol).or_else(|| named(&PREFIXED, symbol));
+    whole.or_else(|| {
+        let first = symbol.chars().next()?;
+        let (_, factor) = PREFIXES.iter().find(|(prefix, _)| *prefix == first)?;
+        let mut unit = named(&PREFIXED, &symbol[first.len_utf8()..])?;
+        unit.factor *= factor;
+        Some(unit)
+    })
+}
+
+/// `²`, `³`, `2`, `^2`, `**2`, `^-1`, `^(3/2)`; 1 where there is none.
+fn exponent(rest: &mut &str) -> Option<f64> {
+    for (sign, value) in [('²', 2.0), ('³', 3.0)] {
+        if let Some(after) = rest.strip_prefix(sign) {
+            *rest = after;
+            return Some(value);
+        }
+    }
+    let marked = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
+    *rest = marked.unwrap_or(rest);
+    if let Some(inner) = rest.strip_prefix('(') {
+        // Only behind a mark: a bracket alone is a factor without a sign before it.
+        marked?;
+        let (fraction, after) = inner.split_once(')')?;
+        *rest = after;
+        let (above, below) = fraction.split_once('/').unwrap_or((fraction, "1"));
+        let (above, below): (f64, f64) = (above.parse().ok()?, below.parse().ok()?);
+        return (below != 0.0).then_some(above / below);
+    }
+    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '-'));
+    let (digits, after) = rest.split_at(end.unwrap_or(rest.len()));
+    *rest = after;
+    match (digits, marked) {
+        ("", None) => Some(1.0),
+        _ => digits.parse().ok(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quantity::QUANTITIES;
+    use super::*;
+
+    /// The factors are those of the SI brochure and of NIST's guide SP 811, appendix B.
+    #[test]
+    fn factors_are_those_of_the_tables_of_units() {
+        let cases = [
+            ("mm", "m", 1e-3),
+            ("in", "m", 0.0254),
+            ("kN/mm", "N/m", 1e6),
+            ("N/µm", "N/m", 1e6),
+            ("lbf/in", "N/m", 175.126_835),
+            ("GPa", "Pa", 1e9),
+            ("N/mm²", "Pa", 1e6),
+            ("N/mm^2", "Pa", 1e6),
+            ("psi", "Pa", 6_894.757),
+            ("g/cm³", "kg/m³", 1e3),
+            ("g/cm3", "kg/m**3", 1e3),
+            ("kg*m/s^2", "N", 1.0),
+            ("kW", "W", 1e3),
+            ("hp", "W", 745.699_9),
+            ("N·m/s", "W", 1.0),
+            ("m/min", "m/s", 1.0 / 60.0),
+            ("km/h", "m/s", 1.0 / 3.6),
+            ("rad", "°", 57.295_779_5),
+            ("rad/s", "rpm", 9.549_296_6),
+            ("rev/s", "rpm", 60.0),
+            ("%", "", 1e-2),
+            ("kg/s", "N·s/m", 1.0),
+            ("kN/mm^(3/2)", "N/m^(3/2)", 1e3 * 1e3_f64.powf(1.5)),
+        ];
+        for (from, to, factor) in cases {
+            let units = (Unit::parse(from), Unit::parse(to));
+            let (from_unit, to_unit) = (units.0.expect(from), units.1.expect(to));
+            assert!(from_unit.is_of(&to_unit), "{from} {to}");
+            let found = from_unit.factor / to_unit.factor;
+            assert!((found / factor - 1.0).abs() < 1e-7, "{from}: {found}");
+        }
+    }
+
+    #[test]
+    fn what_measures_something_else_is_no_unit_of_it() {
+        let of = |a: &str, b: &str| Unit::parse(a).unwrap().is_of(&Unit::parse(b).unwrap());
+        assert!(!of("mm", "N"));
+        assert!(!of("Hz", "rpm"));
+        assert!(!of("1/min", "rpm"));
+        assert!(!of("m", "m^2"));
+        for text in [
+            "furlong", "m/", "/m", "m)", "(m", "m^", "mm2/", "kmin", "m(m)", "m s",
+        ] {
+            assert_eq!(Unit::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_unit_of_every_quantity_is_read() {
+        for quantity in QUANTITIES {
+            assert!(Unit::parse(quantity.unit).is_some(), "{}", quantity.unit);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Goal: numbers of a scene are changed on the command line as in its file, with their units.
+//!
+//! Independent value: the report of the same scene with the numbers typed into its file in SI.
+
+use sawflutter::report::Report;
+use sawflutter::scene::SceneFile;
+use tempfile::TempDir;
+
+use super::program::{names_in, out, quick_scene, run, sawflutter, text, write_scene};
+
+fn report(arguments: &[&str], folder: &TempDir) -> Report {
+    let output = run(arguments, folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let written = std::fs::read(out(folder).join("report.json")).unwrap();
+    serde_json::from_slice(&written).unwrap()
+}
+
+#[test]
+fn a_number_that_is_set_is_that_of_a_scene_with_it() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    let scene = write_scene(&folder, &file);
+    let plain = ["analyze", scene.to_str().unwrap()];
+    let set = [
+        "--set",
+        "blade.thickness_m=2.6mm",
+        "--set",
+        "operating_rpm=12.5rev/s",
+    ];
+    let found = report(&[&plain[..], &set].concat(), &folder);
+    file.blade.thickness_m = 0.0026;
+    file.operating_rpm = Some(750.0);
+    let scene = write_scene(&folder, &file);
+    let typed = report(&["analyze", scene.to_str().unwrap()], &folder);
+    assert_eq!(found.scene, file);
+    assert_eq!(
+        serde_json::to_string(&found).unwrap(),
+        serde_json::to_string(&typed).unwrap()
+    );
+}
+
+/// What reads a scene has the option, and refuses what no scene has before it computes or writes anything.
+#[test]
+fn every_command_that_reads_a_scene_takes_settings() {
+    let folder = TempDir::new().unwrap();
+    let file = |name: &str| crate::common::path(name).to_str().unwrap().to_owned();
+    let scene = file("scenes/paper.json");
+    let study = file("scenes/studies/paper-tolerances.json");
+    let commands: [&[&str]; 10] = [
+        &["analyze", &scene],
+        &["cut", &scene],
+        &["runup", &scene],
+        &["deflect", &scene],
+        &["washboard", &scene],
+        &["fit", &scene],
+        &["place", &scene],
+        &["study", &scene, &study],
+        &["tradeoff", &scene],
+        &["export", "--matrices", &scene],
+    ];
+    for command in commands {
+        let set = ["--set", "guides[0].radius_m=20kN"];
+        let output = run(&[command, &set].concat(), &folder);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{command:?}: {message}");
+        assert!(
+            message.contains("guides[0].radius_m is \"20kN\""),
+            "{message}"
+        );
+        assert!(names_in(&out(&folder)).is_empty(), "{command:?}");
+    }
+    let mut check = sawflutter();
+    let check = check.args(["check", &scene, "--set", "operating_rpm=20rps"]);
+    assert_eq!(check.output().unwrap().status.code(), Some(0));
+}
+
+/// The scene of a report of a command, without its block.
+fn scene_of(arguments: &[&str], name: &str, folder: &TempDir) -> (SceneFile, String) {
+    let output = run(arguments, folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let written = std::fs::read(out(folder).join(name)).unwrap();
+    let json: serde_json::Value = serde_json::from_slice(&written).unwrap();
+    let scene = serde_json::from_value(json["scene"].clone()).unwrap();
+    (scene, text(&output.stderr).to_owned())
+}
+
+#[test]
+fn a_scene_without_a_run_up_takes_one_from_options_and_says_what_is_assumed() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    file.runup = None;
+    file.operating_rpm = Some(1000.0);
+    let scene = write_scene(&folder, &file);
+    let scene = scene.to_str().unwrap();
+    let options = ["runup", scene, "--seconds", "500ms", "--force", "-5N"];
+    let (found, said) = scene_of(&options, "runup.json", &folder);
+    let runup = found.runup.unwrap();
+    assert_eq!((runup.duration_s, runup.force_n), (0.5, -5.0));
+    assert_eq!((runup.from_rpm, runup.to_rpm), (0.0, 1500.0));
+    assert!(said.contains("runup.to_rpm = 1500"), "{said}");
+    assert!(!said.contains("force_n"), "{said}");
+}
+
+#[test]
+fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
+    let folder = TempDir::new().unwrap();
+    let mut file = quick_scene();
+    file.cut = None;
+    file.operating_rpm = Some(1000.0);
+    file.blade.teeth = Some(40);
+    let scene = write_scene(&folder, &file);
+    let scene = scene.to_str().unwrap();
+    let options = ["cut", scene, "--tangential", "0.1kN", "--teeth-in-cut", "4"];
+    let (found, said) = scene_of(&options, "cut.json", &folder);
+    let cut = found.cut.unwrap();
+    assert_eq!(
+        (cut.tangential_n_per_tooth, cut.power_w),
+        (Some(100.0), None)
+    );
+    assert_eq!((cut.teeth_in_cut, cut.depth_m), (Some(4), None));
+    assert_eq!(cut.lateral_n_per_tooth, Some(1.0));
+    assert!(said.contains("cut.lateral_n_per_tooth = 1"), "{said}");
+    assert!(!said.contains("power") && !said.contains("depth"), "{said}");
+    let refused = run(&["cut", scene, "--power", "20mm"], &folder);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = text(&refused.stderr);
+    assert!(
+        message.contains("--power is \"20mm\", but must be a number in W"),
+        "{message}"
+    );
+}
