@@ -1,9 +1,10 @@
-//! Where a blade that stretches stands still while its speed slowly rises and falls, under a side force.
+//! Equilibria of a blade that stretches while its speed slowly rises and falls, under a side force.
 //!
-//! The linear model says at which speeds the flat blade is unstable; it does not say where the blade goes.
-//! With the potential of [`stretched`](crate::stretched) it leans to one side and stands still there: this
-//! follows the stable equilibria up and down in speed, with the jumps from one to another, finds the
-//! unstable ones between them, and the frequencies of small motions about each.
+//! The linear model gives the speeds at which the flat blade is unstable, but not the deflection that
+//! results. With the potential of [`stretched`](crate::stretched) the blade deflects to one side and has an
+//! equilibrium there. This module follows the stable equilibria for rising and falling speed, including jumps
+//! from one to another, and computes the unstable ones between them and the frequencies of small motions
+//! about each.
 //!
 //! ```
 //! use sawflutter::deflect::{Deflecting, Options};
@@ -37,57 +38,57 @@ use crate::stretched::{Branch, Equilibrium, Extent, StretchedBlade, StretchedErr
 
 use reading::Reader;
 
-/// Why the lean of a blade could not be computed.
+/// Reason for which the equilibria of a blade could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum DeflectError {
-    /// The force or the speed asked for.
+    /// The force or the speed is out of range.
     #[error(transparent)]
     Refused(#[from] RefusedValue),
-    /// No sweep reaches as far as asked.
+    /// No sweep extends as far as requested.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// No equilibrium, or none in particular.
+    /// No equilibrium was found, or equilibria are not isolated.
     #[error(transparent)]
     Stretched(#[from] StretchedError),
 }
 
-/// Modes at rest beside the shapes that lean and the answer to the force, to begin with. With 24 the lean of the paper's
-/// saw changes by less than 1 % for more of them.
+/// Initial number of modes at rest, in addition to the shapes that diverge and the response to the force.
+/// With 24 the deflection of the paper's saw changes by less than 1 % if more are added.
 const MODES: usize = 24;
-/// Most of them, beside which half as many more are computed.
+/// Largest number of modes; a check uses half as many more.
 const MOST_MODES: usize = 54;
-/// Relative change of the lean with half as many modes more that is small enough.
+/// Relative change of the deflection, with half as many modes more, that is small enough.
 const CLOSE: f64 = 1e-2;
-/// Equilibria of a sweep that are computed with more modes.
+/// Number of equilibria of a sweep that are computed with more modes.
 const COMPARED: usize = 9;
 
-/// A blade that leans.
+/// A blade that stretches, and its equilibria over speed.
 #[derive(Debug)]
 pub struct Deflecting {
     /// The saw.
     pub scene: Scene,
     /// The side force.
     pub force: SideForce,
-    /// The linear model over the same speeds.
+    /// The linear analysis over the same speeds.
     pub analysis: Analysis,
-    /// Shapes that the deflection is made of.
+    /// Number of shapes.
     pub shapes: usize,
-    /// How much the deflection changes, at most, with half as many modes at rest more, relative; `None` where the blade
-    /// stays flat.
+    /// Largest relative change of the deflection with half as many modes more; `None` if the blade remains
+    /// flat.
     pub estimated_relative_error: Option<f64>,
-    /// While the speed rises.
+    /// Equilibria for rising speed.
     pub up: SlowSweep,
-    /// While the speed falls from where it rose to.
+    /// Equilibria for falling speed, starting from the last one of `up`.
     pub down: SlowSweep,
-    /// Every curve of equilibria that was found, unstable ones included.
+    /// All curves of equilibria that were found, including unstable ones.
     pub curves: Vec<Curve>,
 }
 
 impl Deflecting {
-    /// Follows the equilibria over the scene's sweep, or up to the speed asked for.
+    /// Follows the equilibria over the scene's sweep, or up to the requested speed.
     ///
     /// # Errors
     /// [`DeflectError`].
@@ -136,10 +137,11 @@ impl Deflecting {
     }
 }
 
-/// The sweep up, the sweep down, the other curves, and what is read off them.
+/// Number of parts: the sweep up, the sweep down, the other curves, and their evaluation.
 const PARTS: usize = 4;
 
-/// A blade of so many shapes that the deflection hardly changes with more of them, its sweep upwards, and that change.
+/// A blade with so many shapes that more of them hardly change the deflection, with its sweep for rising
+/// speed, and that change.
 fn resolved(
     force: &SideForce,
     plate: &Plate,
@@ -160,7 +162,7 @@ fn resolved(
     }
 }
 
-/// The largest change with more shapes, of equilibria spread over a sweep.
+/// The largest change with more shapes, over equilibria distributed over a sweep.
 fn change(
     blade: &StretchedBlade,
     finer: &StretchedBlade,
@@ -177,7 +179,7 @@ fn change(
         let Some(e) = leaned.get(k * leaned.len() / COMPARED) else {
             continue;
         };
-        // Beside a fold the other blade has none.
+        // Near a fold the other blade may have no equilibrium.
         if let Ok(change) = blade.change_with(finer, e) {
             largest = Some(largest.map_or(change, |most| most.max(change)));
         }
@@ -185,8 +187,8 @@ fn change(
     Ok(largest)
 }
 
-/// The curves that the blade follows from one jump to the next, through their folds, those through its mirror images, and
-/// those that leave the flat blade at its critical speeds, on both sides.
+/// The curves that the blade follows from one jump to the next, through their folds; those through its mirror
+/// images; and those that branch from the flat blade at its critical speeds, on both sides.
 fn curves(
     blade: &StretchedBlade,
     range: (f64, f64),
@@ -220,8 +222,9 @@ fn curves(
     Ok(curves)
 }
 
-/// Where the blade comes to rest from mirror images of the equilibria of the sweeps, at some speeds: a side force opens each
-/// pitchfork, and the curve on its other side begins at a fold beyond the critical speed, to which no sweep leads.
+/// Equilibria that the blade reaches from mirror images of those of the sweeps, at some speeds. A side force
+/// splits each pitchfork, and the curve on its other side begins at a fold beyond the critical speed, to
+/// which no sweep leads.
 fn mirrored(
     blade: &StretchedBlade,
     sweeps: [&Sweep; 2],
@@ -235,19 +238,20 @@ fn mirrored(
                 continue;
             };
             let image = faer::Scale(-1.0) * &e.coordinates;
-            // Where nothing is found no curve is drawn.
+            // If the blade reaches no equilibrium there is no curve.
             found.extend(blade.settled(e.speed_rad_per_s, &image));
         }
     }
     Ok(found)
 }
 
-/// Share of the range of speeds above a critical speed at which the curve that leaves there is looked for.
+/// Distance above a critical speed, as a share of the range of speeds, at which the branching curve is
+/// searched for.
 const ABOVE: f64 = 2e-3;
-/// Most curves that are followed: a blade far beyond its critical speeds has hundreds of unstable ones.
+/// Largest number of curves; far beyond its critical speeds a blade has hundreds of unstable ones.
 const MOST_CURVES: usize = 24;
 
-/// Adds the curve through an equilibrium, followed to each of the sides, unless it is there.
+/// Adds the curve through an equilibrium, followed in each of the directions, unless it is known already.
 fn add_curve(
     blade: &StretchedBlade,
     curves: &mut Vec<Branch>,
@@ -261,7 +265,7 @@ fn add_curve(
         return Ok(());
     }
     for upwards in sides {
-        // A curve that is lost ends what is known of it.
+        // A curve that cannot be followed is omitted.
         if let Ok(curve) = blade.branch(start, *upwards, range, Extent::Drawn) {
             curves.push(curve);
         }
@@ -283,7 +287,7 @@ fn is_known(blade: &StretchedBlade, curves: &[Branch], e: &Equilibrium) -> bool 
         .any(|found| is_near(&found.coordinates, 1e-6))
 }
 
-/// Coordinates on the straight line between two equilibria at a speed between theirs.
+/// Linear interpolation of the coordinates of two equilibria at a speed between theirs.
 fn between(a: &Equilibrium, b: &Equilibrium, speed: f64) -> Option<Col<f64>> {
     let (low, high) = (a.speed_rad_per_s, b.speed_rad_per_s);
     let share = (speed - low) / (high - low);

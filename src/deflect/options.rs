@@ -1,13 +1,13 @@
-//! The side force, and how far the speed rises.
+//! The side force, and the range of speeds.
 
 use crate::plate::Plate;
 use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
 use crate::stretched::{StretchedBlade, StretchedError};
 
-/// What is asked of a blade that leans.
+/// Options of the computation of equilibria.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// Force across the blade at its rim, fixed in space; by default that of the scene's run-up, or 1 N.
+    /// Lateral force at the rim, fixed in space; by default that of the scene's run-up, or 1 N.
     pub force_n: Option<f64>,
     /// Its angle; by default that of the scene's run-up, or 0.
     pub angle_deg: Option<f64>,
@@ -15,23 +15,23 @@ pub struct Options {
     pub to_rpm: Option<f64>,
 }
 
-/// A constant force across the blade at its rim, fixed in space.
+/// A constant lateral force at the rim, fixed in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideForce {
-    /// Size, positive as the deflection is.
+    /// Magnitude, with the sign of the deflection.
     pub force_n: f64,
-    /// Place, positive with the rotation.
+    /// Angle, positive in the direction of rotation.
     pub angle_rad: f64,
 }
 
-/// Of a scene without a run-up.
+/// Default for a scene without a run-up.
 const USUAL_FORCE_N: f64 = 1.0;
-/// A force that would bend any saw by far more than the model holds for.
+/// A larger force would deflect any saw beyond the validity of the model.
 const MAX_FORCE_N: f64 = 1e6;
 const MAX_ANGLE_DEG: f64 = 3600.0;
 
 impl Options {
-    /// Refuses numbers that are none.
+    /// Checks the options.
     ///
     /// # Errors
     /// [`RefusedValue`].
@@ -39,7 +39,7 @@ impl Options {
         self.side_force(scene).map(|_| ())
     }
 
-    /// The force, validated; and so is the speed.
+    /// The validated force; checks the speed too.
     pub(super) fn side_force(&self, scene: &Scene) -> Result<SideForce, RefusedValue> {
         if let Some(to_rpm) = self.to_rpm {
             speed_rad_per_s("to_rpm", to_rpm)?;

@@ -1,4 +1,4 @@
-//! What is read off an equilibrium: deflections, slope, and small motions about it.
+//! Evaluation of an equilibrium: deflections, slope, and small motions about it.
 
 use faer::c64;
 use rayon::prelude::*;
@@ -8,49 +8,50 @@ use crate::stretched::{
     Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep, TurnKind,
 };
 
-/// A blade that stands still.
+/// Results for an equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
     /// Ω.
     pub speed_rad_per_s: f64,
     /// Deflection at the scene's probe.
     pub deflection_m: f64,
-    /// Largest deflection of any place of the blade, without its sign.
+    /// Largest magnitude of the deflection over the blade.
     pub largest_m: f64,
     /// Largest slope.
     pub largest_slope: f64,
-    /// Negative eigenvalues of ∂²V/∂q²: none where it is stable.
+    /// Number of negative eigenvalues of ∂²V/∂q²; zero if the equilibrium is stable.
     pub negative_eigenvalues: usize,
-    /// Eigenvalues of small motions about it, with Im λ ≥ 0, by magnitude; none of a curve.
+    /// Eigenvalues of small motions about it, with Im λ ≥ 0, by magnitude; empty for curves.
     pub eigenvalues_per_s: Vec<c64>,
 }
 
-/// A place at which the blade leaves a stable equilibrium for another.
+/// A speed at which the blade leaves a stable equilibrium for another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jump {
-    /// Whether the equilibrium ceases to be there, or another one crosses it.
+    /// Whether the equilibrium ends or another one crosses it.
     pub kind: TurnKind,
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Deflection at the probe before, and after it.
+    /// Deflection at the probe before and after the jump.
     pub deflection_m: [f64; 2],
-    /// Largest deflection of any place before, and after it.
+    /// Largest deflection over the blade before and after the jump.
     pub largest_m: [f64; 2],
 }
 
-/// Stable equilibria while the speed rises, or falls.
+/// Stable equilibria for rising or falling speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlowSweep {
-    /// Stretches from one jump to the next.
+    /// Arcs between jumps.
     pub arcs: Vec<Vec<Reading>>,
-    /// What ends each stretch but the last.
+    /// Jumps at the ends of all arcs but the last.
     pub jumps: Vec<Jump>,
-    /// Ω from which on slopes exceed 0.1, where von Kármán's strains do not hold; what is beyond is left out.
+    /// Ω from which on slopes exceed 0.1, where von Kármán's strains are not valid; equilibria beyond are
+    /// omitted.
     pub valid_until_rad_per_s: Option<f64>,
 }
 
 impl SlowSweep {
-    /// All of them, in the order of the sweep.
+    /// All equilibria in the order of the sweep.
     pub fn readings(&self) -> impl Iterator<Item = &Reading> + Clone {
         self.arcs.iter().flatten()
     }
@@ -59,9 +60,9 @@ impl SlowSweep {
 /// A curve of equilibria.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// One after the other.
+    /// Equilibria in the order of the curve.
     pub readings: Vec<Reading>,
-    /// Where it turns back, or another one crosses: kind, Ω, and the deflection at the probe.
+    /// Folds and bifurcations: kind, Ω, and deflection at the probe.
     pub turns: Vec<(TurnKind, f64, f64)>,
 }
 
@@ -102,7 +103,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A sweep as far as slopes are small.
+    /// The part of a sweep with small slopes.
     pub(super) fn sweep(&self, sweep: &Sweep) -> Result<SlowSweep, StretchedError> {
         let arcs = sweep.arcs.iter().map(|arc| {
             let arc = arc.par_iter().map(|e| self.with_motions(e));
@@ -143,7 +144,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A curve, where slopes are small.
+    /// The part of a curve with small slopes.
     pub(super) fn curve(&self, curve: &Branch) -> Curve {
         let readings = curve.equilibria.par_iter().map(|e| self.reading(e));
         let mut readings: Vec<Reading> = readings.collect();

@@ -1,4 +1,4 @@
-//! How far the flutter of each band of an analysis rises.
+//! Amplitude to which the flutter of each band rises.
 
 use faer::c64;
 
@@ -6,8 +6,8 @@ use crate::spectrum::Work;
 use crate::stability::{Analysis, Instability, InstabilityKind};
 use crate::stretched::{FlutterRise, Saturation, StretchedError};
 
-/// How far the flutter of each band rises at its largest growth; `None` of divergence, and where the blade without
-/// damping does not flutter.
+/// Amplitude to which the flutter of each band rises at its largest growth; `None` for divergence, and if the
+/// blade without damping does not flutter.
 ///
 /// # Errors
 /// [`StretchedError`].

@@ -1,4 +1,4 @@
-//! Sweeps of the paper's saw against critical speeds, energies, and each other.
+//! Sweeps of the paper's saw, compared with critical speeds and energies.
 
 use super::*;
 use crate::scene::Accuracy;
@@ -9,8 +9,8 @@ fn draft() -> Scene {
         .unwrap()
 }
 
-/// Without a force the blade is flat up to its first critical speed, exactly, and leans from there on; while the
-/// speed falls it comes back to the flat one there.
+/// Without a force the blade is exactly flat up to its first critical speed and deflects beyond it; for
+/// falling speed it returns to the flat equilibrium there.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn without_a_force_the_blade_leans_from_its_first_critical_speed_on() {
@@ -38,7 +38,7 @@ fn without_a_force_the_blade_leans_from_its_first_critical_speed_on() {
     }
 }
 
-/// Small forces deflect a slow blade as the linear model says: K(Ω)⁻¹f at the probe.
+/// Small forces deflect a slow blade as in the linear model: K(Ω)⁻¹f at the probe.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
@@ -59,7 +59,8 @@ fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
             .partial_piv_lu()
             .solve(&place);
         let linear = 1e-3 * (place.transpose() * answer);
-        // The static answer at rest and the modes at rest span the one under rotation to a part in a hundred.
+        // The static response at rest and the modes at rest approximate the response under rotation to one
+        // percent.
         let error = at.deflection_m / linear - 1.0;
         assert!(error.abs() < 1e-2, "{}: {error:e}", at.speed_rad_per_s);
     }
@@ -87,8 +88,8 @@ fn what_no_blade_answers_is_refused() {
     assert!(said.contains("guide"), "{said}");
 }
 
-/// Beyond its fold the curve on the other side of the paper's first pitchfork is there at `draft` as well: from many
-/// deflections the blade comes to rest on curves that are known.
+/// The curve on the other side of the paper's first pitchfork is found at `draft` too: starting from many
+/// deflections, the blade reaches equilibria on known curves.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn wherever_the_blade_comes_to_rest_a_curve_is_drawn() {

@@ -1,4 +1,4 @@
-//! Equilibria along a curve over speed, through its folds.
+//! Curves of equilibria over speed, through their folds.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
@@ -11,18 +11,18 @@ use super::{Equilibrium, StretchedBlade, StretchedError, finite};
 /// A curve of equilibria.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
-    /// One after the other along the curve.
+    /// Equilibria in the order of the curve.
     pub equilibria: Vec<Equilibrium>,
-    /// Where ∂²V/∂p² is singular, in the order of the curve.
+    /// Points at which ∂²V/∂p² is singular, in the order of the curve.
     pub turns: Vec<Turn>,
 }
 
-/// A place at which a curve of equilibria turns back, or another one crosses it.
+/// A fold or a bifurcation of a curve of equilibria.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turn {
     /// What happens.
     pub kind: TurnKind,
-    /// There, with the number of negative eigenvalues of the equilibrium before it.
+    /// The equilibrium there, with the number of negative eigenvalues of the preceding one.
     pub equilibrium: Equilibrium,
 }
 
@@ -36,30 +36,31 @@ pub enum TurnKind {
     Bifurcation,
 }
 
-/// Longest step along the curve, as a share of the range of speeds, or of that size in deflection.
+/// Longest step along the curve, as a share of the range of speeds, or of [`StretchedBlade::size`] in
+/// deflection.
 const LONGEST: f64 = 0.02;
-/// A step of less than this share of the longest is given up.
+/// Smallest step, as a share of the longest.
 const SHORTEST: f64 = 1e-4;
-/// Steps that a correction took so many iterations for are halved, and doubled for fewer than three.
+/// The step is halved after a correction with this number of iterations, and doubled after fewer than three.
 const MANY: usize = 6;
-/// Most equilibria of a curve.
+/// Largest number of equilibria of a curve.
 const MOST: usize = 4000;
-/// Most equilibria of a curve that is drawn.
+/// Largest number of equilibria of a curve in a figure.
 const DRAWN: usize = 500;
 
-/// How far a curve is followed within its range of speeds.
+/// End of a curve within its range of speeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// To an end of the range.
+    /// At an end of the range.
     Whole,
-    /// The same, of no more equilibria than a picture shows.
+    /// At an end of the range, with no more equilibria than a figure shows.
     Drawn,
-    /// To the first turn.
+    /// At the first fold or bifurcation.
     ToTurn,
 }
 
 impl Extent {
-    /// Whether nothing of a curve is left to follow.
+    /// Whether the curve is complete.
     fn is_reached(self, branch: &Branch) -> bool {
         let most = if self == Extent::Drawn { DRAWN } else { MOST };
         let has_turned = self == Extent::ToTurn && !branch.turns.is_empty();
@@ -67,19 +68,19 @@ impl Extent {
     }
 }
 
-/// A point of the curve with its direction, (p over a size, Ω over another), of unit length.
+/// A point of the curve, and its direction, (p over a size, Ω over another), of unit length.
 struct Place {
     equilibrium: Equilibrium,
     direction: Col<f64>,
 }
 
 impl StretchedBlade {
-    /// Follows a curve of equilibria from one of them, towards higher speeds, or else lower ones, until it
-    /// leaves the range of speeds or reaches its extent.
+    /// Follows a curve from an equilibrium, towards higher or lower speeds, until it leaves the range of
+    /// speeds or is complete.
     ///
     /// # Errors
-    /// [`StretchedError::Value`] for a range that is none or that does not contain the start;
-    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`] where the curve is lost.
+    /// [`StretchedError::Value`] for an empty range or one that does not contain the start;
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`] if the curve cannot be followed.
     pub fn branch(
         &self,
         start: &Equilibrium,
@@ -151,17 +152,17 @@ impl StretchedBlade {
     }
 }
 
-/// The curve in the units of its steps.
+/// A curve in the units of its steps.
 struct Curve<'a> {
     blade: &'a StretchedBlade,
-    /// Of p, in √kg·m: a thickness of the whole blade.
+    /// Unit of p, in √kg·m: one thickness over the whole blade.
     size: f64,
     range_rad_per_s: f64,
 }
 
 impl Curve<'_> {
-    /// The place a step further along the direction, and the iterations that it took; `None` where none
-    /// is found, or where the direction turns by much.
+    /// The point one step further along the direction, and the number of iterations; `None` if there is none,
+    /// or if the direction changes too much.
     fn advanced(&self, place: &Place, step: f64) -> Result<Option<(Place, usize)>, StretchedError> {
         let order = place.direction.nrows() - 1;
         let begun = self.scaled(&place.equilibrium);
@@ -185,7 +186,7 @@ impl Curve<'_> {
                 let Ok(direction) = self.direction(&equilibrium, &place.direction) else {
                     return Ok(None);
                 };
-                // Within 25 degrees.
+                // The direction may change by 25 degrees.
                 let straight = direction.transpose() * &place.direction > 0.9;
                 let next = Place {
                     equilibrium,
@@ -197,7 +198,7 @@ impl Curve<'_> {
         Ok(None)
     }
 
-    /// The direction of the curve at an equilibrium, on the side of another.
+    /// The unit tangent of the curve at an equilibrium, pointing away from another.
     fn direction(
         &self,
         equilibrium: &Equilibrium,
@@ -233,8 +234,8 @@ impl Curve<'_> {
         }))
     }
 
-    /// Where, between two places, ∂²V/∂p² is singular: the step, by false position, at which the
-    /// speed is largest or smallest, or else the eigenvalue that changes its sign is zero.
+    /// Finds, between two points, where ∂²V/∂p² is singular: the step, by false position, at which the speed
+    /// is largest or smallest, or at which the eigenvalue that changes its sign is zero.
     fn turn(&self, from: &Place, to: &Place, step: f64) -> Result<Option<Turn>, StretchedError> {
         let order = from.direction.nrows() - 1;
         let counts = [from, to].map(|place| place.equilibrium.negative_eigenvalues);
@@ -264,14 +265,14 @@ impl Curve<'_> {
             if at.abs() < LAST * scale {
                 break;
             }
-            // The end that stays counts half as much the next time (the Illinois rule).
+            // The function value at the end that stays is halved (the Illinois rule).
             ends = match (at < 0.0) == (at_low < 0.0) {
                 true => [(middle, at), (high, 0.5 * at_high)],
                 false => [(low, 0.5 * at_low), (middle, at)],
             };
         }
         found.negative_eigenvalues = counts[0];
-        // Where the curve turns back and the count stays, it touches another at a pitchfork.
+        // If the curve turns back and the count does not change, it touches another one at a pitchfork.
         let kind = match turns_back && counts[0] != counts[1] {
             true => TurnKind::Fold,
             false => TurnKind::Bifurcation,

@@ -1,4 +1,4 @@
-//! Where the blade stands still at one speed, and small motions about that.
+//! Equilibria at one speed, and small motions about them.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Scale, c64};
@@ -8,20 +8,20 @@ use crate::spectrum::{companion_eigenpairs, critical_speeds};
 
 use super::{StretchedBlade, StretchedError, angles, finite};
 
-/// A place where the blade stands still.
+/// An equilibrium of the blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
     /// Ω.
     pub speed_rad_per_s: f64,
     /// p, r coordinates of the shapes, in √kg·m.
     pub coordinates: Col<f64>,
-    /// Negative eigenvalues of ∂²V/∂p²: none at a minimum of V, which is stable.
+    /// Number of negative eigenvalues of ∂²V/∂p²; zero at a minimum of V, which is stable.
     pub negative_eigenvalues: usize,
 }
 
-/// Most iterations of Newton's method.
+/// Largest number of iterations of Newton's method.
 pub(super) const ITERATIONS: usize = 30;
-/// A correction of this share of the deflection is the last one: the next would be its square.
+/// Relative size of the last correction: the next would be its square.
 pub(super) const LAST: f64 = 1e-8;
 
 impl StretchedBlade {
@@ -30,7 +30,7 @@ impl StretchedBlade {
         self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
     }
 
-    /// Largest slope |∇w| of an equilibrium. The potential of stretching holds up to about 0.1.
+    /// Largest slope |∇w| of an equilibrium. The potential of stretching is valid up to about 0.1.
     pub fn largest_slope(&self, equilibrium: &Equilibrium) -> f64 {
         let q = &self.shapes * &equilibrium.coordinates;
         let at_radius = |radius_m: f64| {
@@ -74,7 +74,7 @@ impl StretchedBlade {
         (0..=plate.max_diameters()).map(of_wave).collect()
     }
 
-    /// The equilibrium that Newton's method finds from a guess; from `None`, from the flat blade.
+    /// The equilibrium to which Newton's method converges from a guess, or, for `None`, from the flat blade.
     ///
     /// # Errors
     /// [`StretchedError::NotFound`], [`StretchedError::Value`].
@@ -110,8 +110,8 @@ impl StretchedBlade {
         Ok(pairs.into_iter().map(|(lambda, _)| lambda).collect())
     }
 
-    /// The speeds at which leaned equilibria leave the flat blade, ascending, each with the shape that they
-    /// lean in, ‖v‖ = 1: the critical speeds of the shapes. Without a side force.
+    /// The speeds at which equilibria branch from the flat blade, ascending, each with the shape of the
+    /// branch, ‖v‖ = 1: the critical speeds of the reduced model. The side force is ignored.
     ///
     /// # Errors
     /// [`StretchedError::Spectrum`].
@@ -121,12 +121,12 @@ impl StretchedBlade {
         Ok(pairs.collect())
     }
 
-    /// The leaned equilibrium a little above a pitchfork: p = εv with ε² = −vᵀK(Ω)v/4U₄(v), corrected by
+    /// The deflected equilibrium slightly above a pitchfork: p = εv with ε² = −vᵀK(Ω)v/4U₄(v), corrected by
     /// Newton's method. The other one is −p.
     ///
     /// # Errors
-    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`], also where vᵀK(Ω)v is not negative: the speed is not above
-    /// the pitchfork, or not near it.
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`], also if vᵀK(Ω)v is not negative,
+    /// because the speed is not just above the pitchfork.
     pub fn leaned(
         &self,
         speed_rad_per_s: f64,
@@ -138,10 +138,10 @@ impl StretchedBlade {
         self.equilibrium(speed_rad_per_s, Some(&near))
     }
 
-    /// εv of [`StretchedBlade::leaned`], not corrected.
+    /// εv of [`StretchedBlade::leaned`] without correction.
     ///
     /// # Errors
-    /// [`StretchedError::NotFound`] where vᵀK(Ω)v is not negative.
+    /// [`StretchedError::NotFound`] if vᵀK(Ω)v is not negative.
     pub fn leaned_near(
         &self,
         speed_rad_per_s: f64,

@@ -1,19 +1,19 @@
-//! A blade that stretches: where it stands still, small motions about that, and how far flutter rises.
+//! A blade that stretches: its equilibria, small motions about them, and the amplitude of flutter.
 //!
-//! The blade without damping has the potential V(q) = ½ qᵀK(Ω)q + U₄(q) − fᵀq, U₄ of
-//! [`Stretching`]. Past its first critical speed K is indefinite: the flat blade is no minimum of V, and
-//! a blade that leans to one side is. Each edge of a band of divergence is a pitchfork, at which two such
-//! equilibria leave the flat one; a side force f unfolds it.
+//! The blade without damping has the potential V(q) = ½ qᵀK(Ω)q + U₄(q) − fᵀq with U₄ of [`Stretching`].
+//! Above the first critical speed K is indefinite: the flat blade is not a minimum of V, but a blade
+//! deflected to one side is. Each edge of a band of divergence is a pitchfork, at which two such equilibria
+//! branch from the flat one; a side force f unfolds it.
 //!
-//! In goes a [`Plate`], held by its guides or a collar, with a number of shapes, its lowest modes at rest; out
-//! come equilibria over speed, in metres through [`StretchedBlade::deflection_m`], the number of negative
-//! eigenvalues of ∂²V/∂q², and the eigenvalues λ of small motions,
-//! λ² + λ 2ΩG + K(Ω) + ∂²U₄/∂q² = 0, in 1/s. Where that number is zero the equilibrium is stable, and
-//! stays so with any damping that stands in space; elsewhere gyroscopic forces may hold the undamped
-//! blade, and such damping lets go of it in the end (Thomson, Tait & Chetaev; see W. T. Thomson & P. G. Tait,
-//! *Treatise on Natural Philosophy*, 1879, §345).
+//! Input is a [`Plate`], held by its guides or a collar, and a number of shapes, its lowest modes at rest.
+//! Results are equilibria over speed, in metres by [`StretchedBlade::deflection_m`], the number of negative
+//! eigenvalues of ∂²V/∂q², and the eigenvalues λ of small motions, λ² + λ 2ΩG + K(Ω) + ∂²U₄/∂q² = 0, in 1/s.
+//! If that number is zero the equilibrium is stable, and remains so with any damping fixed in space.
+//! Otherwise gyroscopic forces may stabilize the undamped blade, but such damping destabilizes it (Thomson,
+//! Tait & Chetaev; see W. T. Thomson & P. G. Tait, *Treatise on Natural Philosophy*, 1879, §345).
 //!
-//! Equilibria are followed by pseudo-arclength (H. B. Keller, in *Applications of Bifurcation Theory*, 1977, 359–384).
+//! Curves of equilibria are followed by pseudo-arclength continuation (H. B. Keller, in *Applications of
+//! Bifurcation Theory*, 1977, 359–384).
 
 mod branch;
 mod equilibrium;
@@ -39,45 +39,45 @@ use crate::spectrum::{
 };
 use crate::system::GyroscopicSystem;
 
-/// Why a blade that stretches has no answer.
+/// Reason for which a computation of a blade that stretches failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StretchedError {
-    /// Heave or tilt that nothing resists.
+    /// Nothing resists heave or tilt.
     #[error(
         "nothing holds the blade laterally, so that it stands still nowhere in particular; add a guide, or clamp the bore"
     )]
     NotHeld,
-    /// A lean that may turn about the axis.
+    /// The blade is axisymmetric, so that deflected equilibria are not isolated.
     #[error(
         "the blade is the same at every angle, so that it leans in no direction in particular; add a guide, or a side force"
     )]
     Axisymmetric,
-    /// More shapes than functions, or none.
+    /// The number of shapes is zero or exceeds that of the functions.
     #[error("{given} shapes were asked for; give 1 to {most}, of which 20 to 40 are usual")]
     Shapes {
-        /// Shapes that were asked for.
+        /// Number of requested shapes.
         given: usize,
-        /// Functions of the basis.
+        /// Number of basis functions.
         most: usize,
     },
-    /// Newton's method came to no end.
+    /// Newton's method did not converge.
     #[error(
         "no equilibrium was found at {rpm:.1} rpm: forces of {residual:.1e} of the elastic ones are left; start nearer to one, or with a smaller force"
     )]
     NotFound {
         /// Rotation speed.
         rpm: f64,
-        /// Largest force that is left over the largest elastic force.
+        /// Largest residual force relative to the largest elastic force.
         residual: f64,
     },
-    /// A speed, a force or a range that is no number, or a range without speeds.
+    /// A speed, a force or a range is not finite, or a range is empty.
     #[error("{what} is {value}; give a finite number{allowed}")]
     Value {
-        /// What was given.
+        /// Name of the value.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed besides.
+        /// What is allowed.
         allowed: &'static str,
     },
     /// An eigenproblem failed.
@@ -88,24 +88,25 @@ pub enum StretchedError {
     Stretching(#[from] StretchingError),
 }
 
-/// A blade that stretches, on a few shapes, under a constant side force.
+/// A blade that stretches, in a basis of a few shapes, under a constant side force.
 #[derive(Debug, Clone)]
 pub struct StretchedBlade {
     plate: Plate,
-    /// Columns, N × r, orthonormal.
+    /// Shapes, the orthonormal columns of an N × r matrix.
     shapes: Mat<f64>,
     system: GyroscopicSystem,
     stretching: ReducedStretching,
-    /// On the shapes, in N/√kg.
+    /// Side force on the shapes, in N/√kg.
     force: Col<f64>,
 }
 
 impl StretchedBlade {
-    /// The lowest `shapes` modes at rest of the plate without damping; no side force.
+    /// The blade in the basis of the lowest `shapes` modes at rest of the plate without damping; no side
+    /// force.
     ///
     /// # Errors
-    /// [`StretchedError::NotHeld`], [`StretchedError::Shapes`],
-    /// [`StretchedError::Spectrum`] where no eigenvectors are found, [`StretchedError::Stretching`].
+    /// [`StretchedError::NotHeld`], [`StretchedError::Shapes`], [`StretchedError::Spectrum`] if eigenvectors
+    /// are not found, [`StretchedError::Stretching`].
     pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
         let plate = plate.conservative();
         let full = held(&plate, shapes)?;
@@ -117,8 +118,8 @@ impl StretchedBlade {
         Self::on(plate, &full, basis)
     }
 
-    /// The lowest `modes` modes at a speed, each with its two phases: their eigenvalues there are those
-    /// of the full model, as narrow bands of flutter need.
+    /// The blade in the basis of the lowest `modes` modes at a speed, each with both phases. Their
+    /// eigenvalues at this speed are those of the full model, as narrow flutter bands require.
     ///
     /// # Errors
     /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
@@ -140,8 +141,9 @@ impl StretchedBlade {
         Self::on(plate, &full, basis)
     }
 
-    /// Shapes for equilibria up to a speed under a force at a point of the blade: those that lean at a critical
-    /// speed up to there, the static deflection under the force, and the lowest `modes` modes at rest.
+    /// The blade in a basis for equilibria up to a speed under a force at a point: shapes that diverge at
+    /// critical speeds up to there, the static deflection under the force, and the lowest `modes` modes at
+    /// rest.
     ///
     /// # Errors
     /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
@@ -170,7 +172,7 @@ impl StretchedBlade {
         Self::on(plate, &full, basis)
     }
 
-    /// Given shapes, orthonormal columns in the functions of the plate.
+    /// The blade in a basis of given shapes, orthonormal columns in the functions of the plate.
     ///
     /// # Errors
     /// As [`StretchedBlade::new`].
@@ -180,7 +182,7 @@ impl StretchedBlade {
         Self::on(plate, &full, shapes)
     }
 
-    /// How much an equilibrium changes with more shapes, among which these are: ‖Δq‖ over ‖q‖.
+    /// Relative change ‖Δq‖/‖q‖ of an equilibrium in a larger basis that contains this one.
     ///
     /// # Errors
     /// As [`StretchedBlade::equilibrium`].
@@ -194,13 +196,13 @@ impl StretchedBlade {
         Ok((&found.coordinates - &guess).norm_l2() / found.coordinates.norm_l2())
     }
 
-    /// On given shapes, orthonormal columns.
+    /// The blade in a basis of given orthonormal shapes.
     fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
         let stretching = Stretching::new(&plate)?;
         Self::with(plate, &stretching, full, shapes)
     }
 
-    /// The same, with a potential that is known.
+    /// As [`StretchedBlade::on`], with a known potential.
     fn with(
         plate: Plate,
         stretching: &Stretching,
@@ -216,7 +218,7 @@ impl StretchedBlade {
         })
     }
 
-    /// The same under a force across the blade at a point, fixed in space.
+    /// Adds a lateral force at a point, fixed in space.
     ///
     /// # Errors
     /// [`StretchedError::Value`].
@@ -232,34 +234,34 @@ impl StretchedBlade {
         Ok(self)
     }
 
-    /// The potential of stretching on the shapes.
+    /// The potential of stretching in the basis.
     pub(crate) fn stretching(&self) -> &ReducedStretching {
         &self.stretching
     }
 
-    /// The side force on the shapes, in N/√kg.
+    /// The side force in the basis, in N/√kg.
     pub(crate) fn force(&self) -> &Col<f64> {
         &self.force
     }
 
-    /// The same without a side force.
+    /// The blade without side force.
     pub fn unforced(mut self) -> Self {
         self.force.fill(0.0);
         self
     }
 
-    /// No deflection.
+    /// Zero deflection.
     pub fn flat(&self) -> Col<f64> {
         Col::zeros(self.force.nrows())
     }
 
-    /// The shapes at a place of the blade, in 1/√kg.
+    /// The shapes at a point of the blade, in 1/√kg.
     fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
         let values = self.plate.functions_at(radius_m, angle_rad);
         self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
     }
 
-    /// Coordinates of a deflection of a thickness of the whole blade, in √kg·m.
+    /// Coordinates of a deflection of one thickness over the whole blade, in √kg·m.
     fn size(&self) -> f64 {
         self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt()
     }
@@ -269,8 +271,8 @@ impl StretchedBlade {
         self.shapes.as_ref()
     }
 
-    /// A leaned blade that nothing in space keeps from turning has a circle of equilibria, which no
-    /// method for single ones finds.
+    /// Checks that a deflected equilibrium is isolated: without anything fixed in space it could be rotated
+    /// about the axis.
     fn directed(&self, coordinates: &Col<f64>) -> Result<(), StretchedError> {
         let turns = self.plate.is_axisymmetric() && self.force.norm_max() == 0.0;
         match turns && coordinates.norm_max() > 0.0 {
@@ -308,10 +310,10 @@ impl StretchedBlade {
     }
 }
 
-/// Directions nearer to the span of the others are left out.
+/// Directions closer to the span of the others are omitted.
 const INDEPENDENT: f64 = 1e-7;
 
-/// The matrices of a plate that something holds, and that has as many functions as are asked for.
+/// The matrices of a plate, if it is held and has as many functions as requested.
 fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
     let full = GyroscopicSystem::of_plate(plate);
     if !full.free_rigid.is_empty() {
@@ -326,17 +328,17 @@ fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError
     }
 }
 
-/// Von Kármán's strains hold for slopes up to about this.
+/// Von Kármán's strains are valid for slopes up to about this value.
 pub const LARGEST_SLOPE: f64 = 0.1;
 
-/// Angles at which deflections and slopes are looked at: more than two for each wave of a usual basis.
+/// Angles at which deflections and slopes are evaluated: more than two for each wave of a usual basis.
 fn angles() -> impl Iterator<Item = f64> {
     (0..ANGLES).map(|k| std::f64::consts::TAU * k as f64 / ANGLES as f64)
 }
 
 const ANGLES: usize = 72;
 
-/// The value, or what is wrong with it.
+/// The value, or an error if it is not finite.
 fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
     match value.is_finite() {
         true => Ok(value),

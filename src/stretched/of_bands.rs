@@ -1,9 +1,9 @@
-//! How far flutter of a band rises, from the two waves that make it.
+//! Amplitude of flutter in a band, from its two waves.
 //!
-//! The normal form of [`Saturation`] needs the growing wave and the decaying one alone. Both are found on the
-//! full model, by Newton's method on L(λ)x = 0, L(λ) = λ² + λ 2ΩG + K(Ω), from an eigenvalue that is known nearly:
-//! u = L(λ)⁻¹L′(λ)x, λ⁺ = λ − xᴴx/xᴴu (A. Ruhe, *Algorithms for the nonlinear eigenvalue problem*, SIAM J. Numer. Anal. 10
-//! (1973), 674–689). Their real and imaginary parts are the shapes.
+//! The normal form of [`Saturation`] needs only the growing and the decaying wave. Both are computed on the
+//! full model by Newton's method on L(λ)x = 0, L(λ) = λ² + λ 2ΩG + K(Ω), starting from an approximate
+//! eigenvalue: u = L(λ)⁻¹L′(λ)x, λ⁺ = λ − xᴴx/xᴴu (A. Ruhe, *Algorithms for the nonlinear eigenvalue
+//! problem*, SIAM J. Numer. Anal. 10 (1973), 674–689). Their real and imaginary parts are the shapes.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, c64};
@@ -15,7 +15,7 @@ use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::{INDEPENDENT, Saturation, StretchedBlade, StretchedError, finite};
 
-/// Flutter of one blade without damping.
+/// Flutter of a blade without damping.
 #[derive(Debug)]
 pub struct FlutterRise {
     plate: Plate,
@@ -23,17 +23,17 @@ pub struct FlutterRise {
     stretching: Stretching,
 }
 
-/// Solutions before the eigenvalue is corrected, from a vector that is anything.
+/// Number of inverse iterations, from an arbitrary vector, before the eigenvalue is corrected.
 const FIXED: usize = 2;
-/// Most corrections; from five digits it takes three.
+/// Largest number of corrections; three suffice from five digits.
 const CORRECTIONS: usize = 12;
-/// A correction of this share of the eigenvalue is the last one.
+/// Relative size of the last correction.
 const LAST: f64 = 1e-11;
-/// An eigenvalue further off than this share of its size is that of another wave.
+/// An eigenvalue at a larger relative distance belongs to another wave.
 const NEAR: f64 = 0.05;
 
 impl FlutterRise {
-    /// Prepares the potential of stretching.
+    /// Computes the potential of stretching.
     ///
     /// # Errors
     /// [`StretchedError::Stretching`].
@@ -46,8 +46,8 @@ impl FlutterRise {
         })
     }
 
-    /// How far the flutter rises whose eigenvalue at a speed is near to another one; `None` where the blade
-    /// without damping has none that grows there.
+    /// Amplitude of the flutter whose eigenvalue at a speed is near to a given one; `None` if the blade
+    /// without damping has no growing eigenvalue there.
     ///
     /// # Errors
     /// [`StretchedError::Value`], [`StretchedError::Spectrum`].
@@ -77,7 +77,7 @@ impl FlutterRise {
         blade.saturation_near(speed_rad_per_s, growing)
     }
 
-    /// The eigenvalue next to another one and its wave; `None` where there is none near.
+    /// The eigenvalue near to a given one, and its wave; `None` if there is none.
     fn wave(&self, speed: f64, near: c64) -> Result<Option<(c64, Col<c64>)>, StretchedError> {
         let order = self.system.order();
         let (stiffness, velocity) = (
@@ -94,7 +94,7 @@ impl FlutterRise {
             let u = dynamic.partial_piv_lu().solve(&slope);
             let norm = u.norm_l2();
             if !norm.is_finite() {
-                // λ is an eigenvalue to the last digit.
+                // λ is an eigenvalue to machine precision.
                 return Ok(Some((lambda, x)));
             }
             let correction = real(x.squared_norm_l2()) / (x.adjoint() * &u);

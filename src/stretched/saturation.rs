@@ -1,15 +1,16 @@
-//! How far flutter rises before stretching turns it back.
+//! Amplitude at which stretching limits flutter.
 //!
-//! In a band of flutter two waves of opposite Krein sign share one frequency ω: u grows with λ = σ + iω,
-//! v decays with −σ + iω. With q = 2 Re[(αu + βv) e^{iωt}], v scaled so that vᴴ[2λ̂ + 2ΩG]u = i, λ̂ = σ + iω,
-//! and Ū(α, β) the mean of U₄ over a period,
+//! In a flutter band two waves of opposite Krein sign have the same frequency ω: u grows with λ = σ + iω, v
+//! decays with −σ + iω. With q = 2 Re[(αu + βv) e^{iωt}], v scaled so that vᴴ[2λ̂ + 2ΩG]u = i, λ̂ = σ + iω,
+//! and the mean Ū(α, β) of U₄ over a period,
 //!
 //! α̇ = σα + i ∂Ū/∂β̄, β̇ = −σβ + i ∂Ū/∂ᾱ,
 //!
-//! of which H = Ū + 2σ Im(αβ̄) and Re(αβ̄) are conserved, both zero for a motion that begins small. Then
-//! β = iτα with τ > 0 at all times, up to a phase that both share, Ū = 2σ|α||β|: the motion rises on a
-//! closed loop and comes back. It is the normal form of a Hamiltonian Hopf bifurcation (J.-C. van der Meer, *The
-//! Hamiltonian Hopf Bifurcation*, 1985), for growth that is slow beside the distance to other frequencies.
+//! for which H = Ū + 2σ Im(αβ̄) and Re(αβ̄) are conserved; both are zero for a motion that begins small. Then
+//! β = iτα with τ > 0 at all times, up to a common phase, and Ū = 2σ|α||β|: the amplitude rises along a
+//! closed loop and falls again. This is the normal form of a Hamiltonian Hopf bifurcation (J.-C. van der
+//! Meer, *The Hamiltonian Hopf Bifurcation*, 1985), valid if the growth is slow compared with the distance to
+//! other frequencies.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -19,7 +20,7 @@ use crate::spectrum::companion_eigenpairs;
 
 use super::{StretchedBlade, StretchedError, finite};
 
-/// The largest motion of undamped flutter that begins small.
+/// Largest amplitude of undamped flutter that begins small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Saturation {
     /// Ω.
@@ -28,20 +29,20 @@ pub struct Saturation {
     pub growth_per_s: f64,
     /// ω.
     pub frequency_rad_per_s: f64,
-    /// Largest deflection of any place of the blade on the way.
+    /// Largest deflection of any point of the blade.
     pub amplitude_m: f64,
-    /// Distance of that place from the axis.
+    /// Distance of this point from the axis.
     pub radius_m: f64,
-    /// Angle of that place, fixed in space.
+    /// Angle of this point, fixed in space.
     pub angle_rad: f64,
 }
 
-/// Places along the loop; the amplitude is a parabola near its largest.
+/// Number of points along the loop; near its maximum the amplitude is a parabola.
 const PLACES: usize = 64;
-/// Phases of a period: a quartic of sines needs five.
+/// Number of phases of a period; five are exact for a quartic of sines.
 const PHASES: usize = 8;
 
-/// The growing wave and the decaying one, v scaled as the normal form needs it.
+/// The growing and the decaying wave, with v scaled for the normal form.
 struct Pair {
     lambda: c64,
     growing: Col<c64>,
@@ -49,13 +50,13 @@ struct Pair {
 }
 
 impl StretchedBlade {
-    /// How far the fastest flutter at a speed rises, without damping and side force; `None` where none
-    /// grows. Over a band the square of it goes from zero at one edge to twice that of the fastest growth
-    /// at the other, where the motion takes ever longer.
+    /// Amplitude of the fastest flutter at a speed, without damping and side force; `None` if nothing grows.
+    /// Over a band its square rises from zero at one edge to twice the value at the speed of fastest growth
+    /// at the other edge, where the rise takes ever longer.
     ///
-    /// Time histories with the same shapes, of six bands of the paper's saw with 0.4 to 3 1/s and 0.7 to
-    /// 1.7 mm, rise as far to 0.2 to 4.3 % at the place named; where the two waves move the blade little,
-    /// others count.
+    /// Time histories with the same shapes, in six bands of the paper's saw with 0.4 to 3 1/s and 0.7 to 1.7
+    /// mm, reach this amplitude to 0.2 to 4.3 % at the same point. Where the two waves have small deflections
+    /// other waves contribute.
     ///
     /// # Errors
     /// [`StretchedError::Value`], [`StretchedError::Spectrum`].
@@ -64,7 +65,7 @@ impl StretchedBlade {
         self.rise(self.flutter_pair(speed_rad_per_s, None)?, speed_rad_per_s)
     }
 
-    /// The same of the flutter whose eigenvalue is next to another one.
+    /// As [`StretchedBlade::saturation`], for the flutter whose eigenvalue is nearest to a given one.
     pub(super) fn saturation_near(
         &self,
         speed_rad_per_s: f64,
@@ -116,8 +117,8 @@ impl StretchedBlade {
         )
     }
 
-    /// The fastest growing oscillation, or the one next to an eigenvalue, and its mirror image; `None` where there
-    /// is none.
+    /// The fastest growing oscillation, or that with the eigenvalue nearest to a given one, and its mirror
+    /// image; `None` if there is none.
     fn flutter_pair(
         &self,
         speed_rad_per_s: f64,
@@ -151,7 +152,7 @@ impl StretchedBlade {
             growing[i] * *lambda * 2.0 + gyroscopic * (2.0 * speed_rad_per_s)
         });
         let product: c64 = (0..order).map(|i| decaying[i].conj() * turned[i]).sum();
-        // Both of one length, so that the loop is looked at evenly.
+        // Both get the same length, so that points are evenly distributed along the loop.
         let factor = (c64::new(0.0, 1.0) / product).conj();
         let length = factor.norm().sqrt();
         Ok(Some(Pair {
@@ -180,5 +181,5 @@ impl StretchedBlade {
     }
 }
 
-/// Share of a frequency below which growth is rounding.
+/// Growth below this share of the frequency is rounding.
 const GROWTH: f64 = 1e-8;

@@ -1,4 +1,4 @@
-//! The minimum of V that a motion without inertia comes to rest in.
+//! The minimum of V that the blade reaches from a deflection, without inertia.
 
 use faer::{Col, Scale, Side};
 
@@ -7,24 +7,24 @@ use crate::spectrum::SpectrumError;
 
 use super::{Equilibrium, StretchedBlade, StretchedError, finite};
 
-/// Most steps; a minimum that the blade has to go to far away takes some fifty.
+/// Largest number of steps; a distant minimum takes some fifty.
 const STEPS: usize = 2000;
-/// Longest step, as a share of a thickness of the whole blade.
+/// Longest step, in thicknesses over the whole blade.
 const LONGEST: f64 = 0.1;
-/// Push off a saddle, as a share of the same.
+/// Displacement from a saddle point, in the same unit.
 const PUSH: f64 = 1e-4;
-/// A correction of this share of the deflection, or of a thickness, is the last one.
+/// Relative size of the last correction, compared with the deflection or a thickness.
 const LAST: f64 = 1e-9;
-/// Of V, as a share of what the deflection would store in the stiffest mode.
+/// Rounding of V, relative to the energy of the deflection in the stiffest mode.
 const ROUNDING: f64 = 1e-15;
-/// Stiffnesses below this share of the largest are taken for it, so that no step is without bounds.
+/// Smaller stiffnesses, relative to the largest, are replaced by this value, so that steps are bounded.
 const SOFTEST: f64 = 1e-12;
 
 impl StretchedBlade {
-    /// The stable equilibrium that the blade comes to from a deflection, where V falls all the way: each
-    /// step goes down, by Newton's method with the curvatures of V made positive, and no further than a
-    /// tenth of a thickness. From a saddle it leaves with the side force, or else as the first coordinate that
-    /// moves says.
+    /// The stable equilibrium that the blade reaches from a deflection by steps along which V decreases:
+    /// Newton's method with the curvatures of V made positive, limited to a tenth of a thickness. It leaves a
+    /// saddle point in the direction of the side force or, without one, of the first coordinate that can
+    /// move.
     ///
     /// # Errors
     /// [`StretchedError::NotFound`], [`StretchedError::Value`], [`StretchedError::Axisymmetric`].
@@ -77,7 +77,8 @@ impl StretchedBlade {
             loop {
                 let next = &p + Scale(share) * &step;
                 let lower = self.potential_j(&next, speed_rad_per_s)?;
-                // Where V hardly changes, as past a pitchfork, its last digits are those of the stiffest mode.
+                // Where V is nearly constant, such as just above a pitchfork, its last digits are rounding of
+                // the stiffest mode.
                 let rounding = ROUNDING * modes.S()[order - 1].abs() * next.squared_norm_l2();
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
                     (p, energy) = (next, lower);

@@ -1,18 +1,18 @@
-//! Places over the blade at which deflections are looked at.
+//! Points of the blade at which deflections are evaluated.
 
 use faer::Col;
 
 use super::{StretchedBlade, angles};
 
-/// (r, θ) of places over the blade, and the shapes there.
+/// (r, θ) of points of the blade, and the shapes there.
 #[derive(Debug, Clone)]
 pub struct Sites(Vec<((f64, f64), Col<f64>)>);
 
-/// Of the radii that a plate is sampled at one in so many.
+/// Ratio of the number of sampled radii of a plate to that used here.
 const EVERY: usize = 4;
 
 impl StretchedBlade {
-    /// Places over the whole blade.
+    /// Points distributed over the blade.
     pub fn sites(&self) -> Sites {
         let radii = self.plate.sampled_radii_m().step_by(EVERY);
         let places = radii.flat_map(|radius_m| angles().map(move |angle| (radius_m, angle)));
@@ -21,12 +21,12 @@ impl StretchedBlade {
 }
 
 impl Sites {
-    /// Places and shapes.
+    /// Points and shapes.
     pub(super) fn iter(&self) -> impl Iterator<Item = &((f64, f64), Col<f64>)> {
         self.0.iter()
     }
 
-    /// Largest deflection at any of them, without its sign.
+    /// Largest magnitude of the deflection over these points.
     pub fn largest_m(&self, coordinates: &Col<f64>) -> f64 {
         let at = self
             .iter()

@@ -1,4 +1,4 @@
-//! What the blade does while its speed rises or falls so slowly that it stands still at each.
+//! Equilibria of the blade while its speed rises or falls slowly.
 
 use faer::Col;
 
@@ -6,25 +6,24 @@ use crate::spectrum::Cancellation;
 
 use super::{Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
 
-/// Stable equilibria one after the other, and where the blade leaves one for another.
+/// Stable equilibria in sequence, and the jumps between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Stretches without a jump, the speed rising, or else falling, in each.
+    /// Arcs without a jump; in each the speed rises, or in each it falls.
     pub arcs: Vec<Vec<Equilibrium>>,
-    /// What ends each arc but the last, and where the blade comes to rest after it: the first equilibrium of
-    /// the next arc.
+    /// Ends of all arcs but the last. The blade then reaches the first equilibrium of the next arc.
     pub ends: Vec<Turn>,
 }
 
-/// Past the end of an arc the blade is looked at this share of the range of speeds further on.
+/// Distance past the end of an arc, as a share of the range of speeds, at which the next arc starts.
 const PAST: f64 = 1e-5;
-/// Most arcs: a blade has a few in each band.
+/// Largest number of arcs; a blade has a few in each band.
 const MOST_ARCS: usize = 200;
 
 impl StretchedBlade {
-    /// Follows the stable equilibrium from one end of a range of speeds to the other. Where it ceases to be
-    /// stable the blade goes to the next one that [`StretchedBlade::settled`] finds; a blade that swings may go
-    /// to another.
+    /// Follows the stable equilibrium from one end of a range of speeds to the other. Where it becomes
+    /// unstable the blade goes to the equilibrium found by [`StretchedBlade::settled`]; a vibrating blade may
+    /// reach another one.
     ///
     /// # Errors
     /// As [`StretchedBlade::branch`] and [`StretchedBlade::settled`].
@@ -80,7 +79,7 @@ impl StretchedBlade {
     }
 }
 
-/// Keeps what goes on in one direction of speed.
+/// Keeps equilibria while the speed changes in one direction.
 fn monotone(sign: f64) -> impl FnMut(&Equilibrium) -> bool {
     let mut last = f64::NEG_INFINITY;
     move |e| {

@@ -1,4 +1,4 @@
-//! Equilibria against critical speeds, closed forms of one shape, and the count of Morse.
+//! Equilibria compared with critical speeds, closed forms of one shape, and Morse's count.
 
 use faer::{Col, Mat, Scale, c64};
 
@@ -26,12 +26,12 @@ fn pitchforks_are_at_the_critical_speeds() {
     let pitchforks = blade.pitchforks().unwrap();
     for (critical, (speed, _)) in critical.iter().zip(&pitchforks).take(4) {
         let error = speed / critical.speed_rad_per_s - 1.0;
-        // Of Rayleigh and Ritz: never below.
+        // The Rayleigh–Ritz method never gives lower values.
         assert!((-1e-9..2e-3).contains(&error), "{error:e}");
     }
 }
 
-/// Along the flat blade every pitchfork is a bifurcation, and no other place is.
+/// Along the flat blade every pitchfork is a bifurcation, and there are no others.
 #[test]
 fn the_flat_blade_meets_every_pitchfork() {
     let blade = StretchedBlade::new(&paper(), 16).unwrap();
@@ -59,7 +59,7 @@ fn the_flat_blade_meets_every_pitchfork() {
     assert_eq!(last.coordinates.norm_l2(), 0.0);
 }
 
-/// The leaned curve of the first pitchfork leads down to the flat blade at the critical speed, and up
+/// The curve that branches at the first pitchfork leads down to the flat blade at the critical speed, and up
 /// again on the other side.
 #[test]
 fn the_leaned_blade_comes_back_to_the_flat_one_at_the_critical_speed() {
@@ -78,8 +78,8 @@ fn the_leaned_blade_comes_back_to_the_flat_one_at_the_critical_speed() {
     assert!(mirrored < 1e-6, "{mirrored:e}");
 }
 
-/// Near the pitchfork ε² = −vᵀKv/4U₄(v), and the shape that lean takes is held by twice what the flat
-/// blade lacks: ω² about the one is twice −ω² = λ² about the other.
+/// Near the pitchfork ε² = −vᵀKv/4U₄(v), and the stiffness of the shape about the deflected equilibrium is
+/// twice the magnitude of that about the flat one: ω² about the first is twice −ω² = λ² about the second.
 #[test]
 fn near_a_pitchfork_lean_and_frequency_follow_the_normal_form() {
     let blade = StretchedBlade::new(&paper(), 16).unwrap();
@@ -110,9 +110,9 @@ fn near_a_pitchfork_lean_and_frequency_follow_the_normal_form() {
     }
 }
 
-/// V grows without bound in every direction, so that Σ(−1)^(negative eigenvalues) over all equilibria is
-/// one (Morse): one flat blade before the bands, the flat one and a leaned pair in the first, and another
-/// pair after it.
+/// V grows without bound in every direction, so that Σ(−1)^(negative eigenvalues) over all equilibria is one
+/// (Morse): one flat equilibrium below the bands, the flat one and a deflected pair in the first band, and
+/// another pair above it.
 #[test]
 fn equilibria_are_as_many_as_morse_counts() {
     let blade = StretchedBlade::new(&paper(), 16).unwrap();
@@ -132,7 +132,7 @@ fn equilibria_are_as_many_as_morse_counts() {
         assert_eq!(flat.negative_eigenvalues, shapes);
         let mut sum = parity(&flat);
         for (critical, shape) in &pitchforks[..shapes] {
-            // Followed from near the pitchfork.
+            // The curve starts near the pitchfork.
             let near = blade.leaned(critical * 1.0001, shape).unwrap();
             let curve = blade
                 .branch(&near, true, (near.speed_rad_per_s, speed), Extent::Whole)
@@ -145,8 +145,8 @@ fn equilibria_are_as_many_as_morse_counts() {
     }
 }
 
-/// One shape under a side force, κ(Ω)p + γp³ = f: the curve on the side that the force does not press to
-/// turns back where κ = −3(γf²/4)^⅓.
+/// One shape under a side force, κ(Ω)p + γp³ = f: the curve on the side opposite to the force turns back
+/// where κ = −3(γf²/4)^⅓.
 #[test]
 fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     let plate = paper().conservative();
@@ -174,7 +174,7 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     let expected = -3.0 * (gamma * force * force / 4.0).cbrt();
     let found = stiffness(turn.equilibrium.speed_rad_per_s);
     assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
-    // From rest the blade leans with the force, further with every speed, without a turn.
+    // From rest the blade deflects in the direction of the force, further with every speed, without a fold.
     let rest = blade.equilibrium(0.0, None).unwrap();
     let pressed = blade
         .branch(&rest, true, (0.0, most), Extent::Whole)
@@ -193,8 +193,8 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     assert!(rest.abs() < 1e-8 * force.abs(), "{rest:e}");
 }
 
-/// One shape under a side force: a blade that leans against the force jumps, as the speed falls, where
-/// κ = −3(γf²/4)^⅓, and to the side of the force, where it would be had the speed risen.
+/// One shape under a side force: a blade that is deflected against the force jumps, for falling speed, where
+/// κ = −3(γf²/4)^⅓, to the equilibrium that it would have reached with rising speed.
 #[test]
 fn a_sweep_jumps_where_the_cubic_folds() {
     let plate = paper().conservative();
@@ -227,8 +227,9 @@ fn a_sweep_jumps_where_the_cubic_folds() {
     assert!(p * force > 0.0);
 }
 
-/// Damping in space only takes energy (Thomson, Tait & Chetaev): from a flat blade under a force, within a band and
-/// between bands, where without damping gyroscopic forces hold it, H falls at every step.
+/// Damping fixed in space only dissipates energy (Thomson, Tait & Chetaev): from a flat blade under a force,
+/// within a band and between bands, where without damping gyroscopic forces stabilize it, H decreases at
+/// every step.
 #[test]
 fn damping_in_space_only_takes_energy() {
     let blade = StretchedBlade::new(&paper(), 12).unwrap();
@@ -255,9 +256,9 @@ fn damping_in_space_only_takes_energy() {
             assert!(next <= energy + 1e-9 * scale, "{next:e} {energy:e}");
             energy = next;
         }
-        // It began at rest, undeflected, with none.
+        // The motion began at rest, undeflected, with zero energy.
         assert!(energy < 0.0, "{energy:e}");
-        // Where a motion without inertia goes is lower still, or the same.
+        // The equilibrium without inertia has the same or a lower energy.
         let settled = blade.settled(speed, &state.displacement).unwrap();
         assert_eq!(settled.negative_eigenvalues, 0);
         let lowest = blade.potential_j(&settled.coordinates, speed).unwrap();
@@ -265,7 +266,7 @@ fn damping_in_space_only_takes_energy() {
     }
 }
 
-/// Central differences of the deflection, at the places that are looked at.
+/// The slope equals central differences of the deflection at the evaluated points.
 #[test]
 fn the_largest_slope_is_that_of_the_deflection() {
     let blade = StretchedBlade::new(&paper(), 12).unwrap();
@@ -285,7 +286,8 @@ fn the_largest_slope_is_that_of_the_deflection() {
     assert!((found / largest - 1.0).abs() < 1e-6, "{found} {largest}");
 }
 
-/// A collar without guides: flat at any speed, but its lean points nowhere, until a force does.
+/// A collar without guides: the blade is flat at any speed, and its deflected equilibria have no direction
+/// unless a force defines it.
 #[test]
 fn a_lean_that_may_turn_is_refused() {
     let collar = Scene::paper().edited(|saw| {
@@ -314,7 +316,7 @@ fn a_lean_that_may_turn_is_refused() {
         .unwrap();
     assert!(curve.turns.is_empty());
     let end = curve.equilibria.last().unwrap();
-    // It leans towards the force, and is a minimum.
+    // The blade is deflected in the direction of the force, and the equilibrium is a minimum.
     assert!(end.negative_eigenvalues == 0 && pressed.deflection_m(end, 0.355, 0.3) > 0.0);
 }
 
@@ -344,12 +346,12 @@ fn what_cannot_be_answered_is_refused() {
     assert!(blade.pressed(f64::INFINITY, (0.3, 0.0)).is_err());
 }
 
-/// Flutter of the undamped blade from a small motion, by the integrator that keeps the energy, against
-/// the loop of the normal form, in the middle of a band and nearer to its beginning.
+/// Flutter of the undamped blade from a small motion, by the integrator that conserves energy, compared with
+/// the loop of the normal form, in the middle of a band and nearer to its onset.
 #[test]
 fn flutter_rises_as_far_as_the_normal_form_says() {
     let plate = paper().conservative();
-    // The band near 2260 rpm, 10 rpm wide.
+    // The band near 2260 rpm is 10 rpm wide.
     for rpm in [2269.0, 2264.0] {
         let speed = rad_per_s(rpm);
         let blade = StretchedBlade::at_speed(&plate, speed, 6).unwrap();
@@ -365,7 +367,7 @@ fn flutter_rises_as_far_as_the_normal_form_says() {
     assert_eq!(blade.saturation(rad_per_s(1000.0)).unwrap(), None);
 }
 
-/// The largest deflection, at the place where it is predicted, of a motion that grows from a tenth of it.
+/// The largest deflection, at the predicted point, of a motion that grows from a tenth of it.
 fn simulated(blade: &StretchedBlade, predicted: &Saturation) -> f64 {
     let speed = predicted.speed_rad_per_s;
     let pairs = companion_eigenpairs(&blade.system, speed).unwrap();
@@ -390,8 +392,8 @@ fn simulated(blade: &StretchedBlade, predicted: &Saturation) -> f64 {
     largest
 }
 
-/// The two waves of a band on the full model say the same as the lowest modes do, from an eigenvalue known to three
-/// digits only, and of a blade with damping as of the one without.
+/// The two waves of a band on the full model give the same result as the lowest modes, from an eigenvalue
+/// known to three digits, and for a blade with damping as for one without.
 #[test]
 fn two_waves_are_enough() {
     let speed = rad_per_s(2267.5);
@@ -406,13 +408,13 @@ fn two_waves_are_enough() {
     assert!((found.growth_per_s / modes.growth_per_s - 1.0).abs() < 1e-5);
     let error = found.amplitude_m / modes.amplitude_m - 1.0;
     assert!(error.abs() < 1e-4, "{found:?} {modes:?}");
-    // Where nothing grows there is no such amplitude.
+    // Where nothing grows there is no amplitude.
     let rise = FlutterRise::new(&paper()).unwrap();
     assert_eq!(rise.near(rad_per_s(1000.0), near).unwrap(), None);
 }
 
-/// Over a band the square of the amplitude is 1 ± √(1 − (σ/σ_max)²) times that at the fastest growth: with
-/// a detuning δ and a coupling c of the two waves σ² = |c|² − δ²/4, and the square goes with 2|c| − δ.
+/// Over a band the square of the amplitude is 1 ± √(1 − (σ/σ_max)²) times that at the fastest growth: with a
+/// detuning δ and a coupling c of the two waves σ² = |c|² − δ²/4, and the square is proportional to 2|c| − δ.
 #[test]
 fn over_a_band_the_amplitude_follows_the_detuning() {
     let plate = paper().conservative();

@@ -1,4 +1,4 @@
-//! What a band of instability does to a run-up: ∫ Re λ dt of its own eigenvalue.
+//! Effect of a band of instability on a run-up: ∫ Re λ dt of its eigenvalue.
 
 use std::f64::consts::PI;
 
@@ -10,17 +10,17 @@ use crate::stability::{CurvePoint, Instability, InstabilityKind};
 
 use super::TransientError;
 
-/// What a band of instability does to a run-up.
+/// Effect of a band of instability on a run-up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BandGrowth {
     /// ∫ Re λ dt of the band's eigenvalue while the speed is within the band.
     pub exponent: f64,
 }
 
-/// Points of the quadrature over a band.
+/// Number of quadrature points over a band.
 const BAND_POINTS: usize = 24;
 
-/// ∫ Re λ dt over each band, at the rate of the run-up; where bands overlap, each of its own eigenvalue.
+/// ∫ Re λ dt over each band, at the rate of the run-up; overlapping bands are integrated separately.
 ///
 /// # Errors
 /// [`TransientError::Spectrum`].
@@ -55,9 +55,9 @@ fn of_curve(curve: &[CurvePoint]) -> f64 {
     parts.sum()
 }
 
-/// ∫ Re λ dΩ over a band of an undamped blade. Growth starts and ends like a square root, which
-/// Gauss–Chebyshev points of the second kind integrate exactly; the eigenvalue is followed from the peak, where it
-/// is known, through the points on either side.
+/// ∫ Re λ dΩ over a band of an undamped blade. Growth starts and ends as a square root, which Gauss–Chebyshev
+/// points of the second kind integrate exactly. The eigenvalue is known at the peak and is followed from
+/// there through the points on both sides.
 fn followed(model: &SpectralModel, band: &Instability) -> Result<f64, SpectrumError> {
     let (from, half) = (
         band.from_rad_per_s,
@@ -77,7 +77,7 @@ fn followed(model: &SpectralModel, band: &Instability) -> Result<f64, SpectrumEr
     for way in ways {
         let mut last = at_peak;
         for (speed, weight) in way {
-            // Next to an edge the growth may be rounding.
+            // Near an edge the growth may be rounding.
             let Some(next) = last.at(*speed, &model.modes(*speed)?, band.kind) else {
                 continue;
             };
@@ -94,7 +94,7 @@ struct Growing {
     speed: f64,
     lambda: c64,
     slope: c64,
-    /// `None` where it is not known yet, at the peak.
+    /// `None` at the peak, where it is not known yet.
     component: Option<usize>,
 }
 
@@ -108,7 +108,7 @@ impl Growing {
         }
     }
 
-    /// The same at another speed: of the growing modes the one next to where this one goes.
+    /// The eigenvalue at another speed: the growing mode that is nearest to the extrapolation.
     fn at(&self, speed: f64, modes: &[Mode], kind: InstabilityKind) -> Option<Self> {
         let kind = match kind {
             InstabilityKind::Divergence => ModeKind::Divergent,
@@ -129,7 +129,7 @@ impl Growing {
         })
     }
 
-    /// σ² and ω are smooth over the speed, which σ is not where growth starts.
+    /// Extrapolates σ² and ω, which are smooth over the speed; σ is not where growth starts.
     fn expected(&self, speed: f64) -> c64 {
         let step = speed - self.speed;
         let (sigma, omega) = (self.lambda.re, self.lambda.im);

@@ -15,17 +15,17 @@ use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
 use super::{Integrator, Propagator, State, StretchedCut, TransientError, stretched_cut};
 
-/// How fast a saw's motion grows at most.
+/// Growth rate and frequency of the fastest growing motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Growth {
-    /// Re λ; zero for an undamped saw that is stable, negative for a damped one.
+    /// Re λ; zero for a stable undamped saw, negative for a stable damped one.
     pub growth_per_s: f64,
     /// Im λ of the same motion.
     pub frequency_rad_per_s: f64,
 }
 
 impl Growth {
-    /// From the eigenvalues of the full model.
+    /// Growth from the eigenvalues of the full model.
     ///
     /// # Errors
     /// [`TransientError::Spectrum`].
@@ -35,7 +35,7 @@ impl Growth {
 }
 
 impl From<Option<c64>> for Growth {
-    /// `None` is an undamped saw of which nothing grows.
+    /// `None` means an undamped saw without growing mode.
     fn from(lambda: Option<c64>) -> Self {
         lambda.unwrap_or_default().into()
     }
@@ -59,20 +59,19 @@ pub(crate) struct CutHistory {
     pub idle: Growth,
     /// Eigenvalues in the cut.
     pub in_cut: Growth,
-    /// What counts on the full model say of the growing modes without the forces, and in the cut.
+    /// Comparison of the growing modes with counts on the full model, without the forces and in the cut.
     pub growing: [GrowingModes; 2],
-    /// Eigenvalues in a cut with the tangential force that the power allows.
+    /// Eigenvalues in a cut with the tangential force that follows from the power.
     pub in_cut_by_power: Option<Growth>,
-    /// Growth fitted on the deflection in the cut, `None` without a lateral force.
+    /// Growth fitted to the deflection in the cut; `None` without a lateral force.
     pub fitted: Option<Growth>,
     /// Frequency of the largest oscillation in the cut.
     pub dominant_rad_per_s: Option<f64>,
-    /// When the forces set in and when they end.
+    /// Start and end of the forces.
     pub forces_s: (f64, f64),
-    /// When the deflection leaves the linear model, where the record ends; `None` when it
-    /// does not.
+    /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_s: Option<f64>,
-    /// What stretching adds, where the scene asks for it.
+    /// Results with stretching, if the scene requests it.
     pub stretched: Option<StretchedCut>,
     /// Times of the record.
     pub time_s: Vec<f64>,
@@ -80,10 +79,10 @@ pub(crate) struct CutHistory {
     pub deflection_m: Vec<f64>,
 }
 
-/// Samples of a record: enough for a figure, and bounded.
+/// Sampling interval of a record; sufficient for a figure.
 pub(super) const SAMPLE_S: f64 = 1e-3;
 pub(super) const MAX_SAMPLES: f64 = 20_000.0;
-/// A motion grows by no more than this exponent from one sample to the next.
+/// Largest exponent by which a motion grows between two samples.
 const GROWTH_A_SAMPLE: f64 = 0.1;
 
 /// Computes one speed of a cut.
@@ -134,7 +133,7 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
     })
 }
 
-/// What the probe sees.
+/// The record of the probe.
 pub(crate) struct Record {
     pub(crate) time_s: Vec<f64>,
     pub(crate) deflection_m: Vec<f64>,
@@ -142,7 +141,8 @@ pub(crate) struct Record {
 }
 
 impl CutHistory {
-    /// When the model ends, linear or with stretching, and the record with it; `None` when it does not.
+    /// Time at which the deflection exceeds the range of the model, linear or with stretching; the record
+    /// ends there. `None` if it does not.
     pub fn valid_until_s(&self) -> Option<f64> {
         let stretched = self.stretched.as_ref();
         self.linear_until_s
@@ -150,7 +150,7 @@ impl CutHistory {
     }
 }
 
-/// Steps through the idle saw, the cut, and the idle saw again, as far as the model is linear.
+/// Integrates the idle saw, the cut, and the idle saw again, while the linear model is valid.
 fn record(
     saw: &SawInCut<'_>,
     gauge: &Gauge,
@@ -174,7 +174,7 @@ fn record(
         if duration_s == 0.0 {
             continue;
         }
-        // What is at rest without a force stays there, however fast it would grow.
+        // A saw at rest without a force remains at rest, even if it is unstable.
         let moves = force_n != 0.0 || state != State::rest(saw.blade.order());
         let longest_s = match moves {
             true => sample_s.min(longest_step_s(growth)),
@@ -205,7 +205,7 @@ pub(super) fn longest_step_s(growth: Growth) -> f64 {
     GROWTH_A_SAMPLE / growth.growth_per_s.max(f64::MIN_POSITIVE)
 }
 
-/// Steps under the lateral force of the teeth.
+/// The propagator under the lateral force of the teeth.
 fn propagator(
     saw: &SawInCut<'_>,
     system: &GyroscopicSystem,
@@ -216,13 +216,13 @@ fn propagator(
     Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
 }
 
-/// Samples a period of the fastest mode that the fit is to tell from others.
+/// Number of samples per period of the fastest mode that the fit has to resolve.
 const SAMPLES_A_PERIOD: f64 = 5.0;
-/// Up to this many metres the record is followed for the fit: the growth of a linear model
-/// is that of any force, and thus of one so small that the blade stays within the model.
+/// Deflection in metres at which the record for the fit ends. It may be this large because growth in a linear
+/// model does not depend on the size of the force.
 const FITTED_UP_TO_M: f64 = 1e30;
 
-/// What the deflection in the cut is made of, sampled so finely that no mode is folded.
+/// Sinusoids of the deflection in the cut, sampled finely enough to prevent aliasing.
 fn sinusoids_in_cut(
     saw: &SawInCut<'_>,
     gauge: &Gauge,
@@ -266,8 +266,8 @@ fn sinusoids_in_cut(
     Ok(damped_sinusoids(&louder, step_s)?)
 }
 
-/// The highest frequency among the modes in the cut that span the motion. Of the shapes that
-/// only carry the static answers to the loads nothing is heard.
+/// The highest frequency among the modes that represent the motion in the cut. The shapes that represent
+/// static deflections are not excited.
 fn fastest_mode_rad_per_s(saw: &SawInCut<'_>) -> Result<f64, TransientError> {
     let system = saw.blade.system(&saw.cutting_system);
     let pairs = companion_eigenpairs(&system, saw.run.speed_rad_per_s)?;
@@ -277,7 +277,7 @@ fn fastest_mode_rad_per_s(saw: &SawInCut<'_>) -> Result<f64, TransientError> {
     Ok(highest.copied().unwrap_or_default())
 }
 
-/// The value, or the error that says when it ceased to be one.
+/// The value, or the error with the time at which it overflowed.
 pub(super) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
     match value.is_finite() {
         true => Ok(value),

@@ -1,13 +1,12 @@
-//! Time histories: the saw in a cut and in a run-up, and the second opinion that they
-//! give on its stability.
+//! Time histories of the saw in a cut and in a run-up, which are an independent check of its stability.
 //!
-//! At a constant speed a step is the exponential of the state matrix, exact for loads that
-//! change linearly; while the speed changes, or under forces that depend on the displacement, it is
-//! Newmark's average acceleration (N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959), 67–94). Both work on the blade's lowest modes and its static
-//! deflections under the loads.
+//! At a constant speed a step is the exponential of the state matrix, which is exact for loads that change
+//! linearly. While the speed changes, or under forces that depend on the displacement, Newmark's average
+//! acceleration is used (N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959), 67–94). Both work on the lowest
+//! modes of the blade and its static deflections under the loads.
 //!
-//! In goes a scene with its `cut` or `runup`; out comes a [`Cutting`] or a [`RunningUp`]: times in
-//! s, speeds in rad/s, deflections in m, growth rates in 1/s.
+//! A scene with a block `cut` or `runup` gives a [`Cutting`] or a [`RunningUp`]: times in s, speeds in rad/s,
+//! deflections in m, growth rates in 1/s.
 
 mod band_growth;
 mod cut;
@@ -58,10 +57,10 @@ use crate::spline::SplineError;
 use crate::stability::AnalysisError;
 use crate::stretched::{LARGEST_SLOPE, StretchedError};
 
-/// Why a time history could not be computed.
+/// Reason for which a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum TransientError {
-    /// No sweep reaches as far as the time history.
+    /// No sweep extends as far as the time history.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// An eigenproblem failed.
@@ -70,16 +69,16 @@ pub enum TransientError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// The blade could not be followed on its arbor.
+    /// The motion of the blade on its arbor could not be computed.
     #[error(transparent)]
     Spline(#[from] SplineError),
-    /// A blade that stretches has no answer.
+    /// The computation of a blade that stretches failed.
     #[error(transparent)]
     Stretched(#[from] StretchedError),
-    /// A record without sinusoids.
+    /// Sinusoids could not be fitted to a record.
     #[error("{0}; the scene's numbers are too far apart")]
     Fit(#[from] FitError),
-    /// Growth beyond what a double holds.
+    /// The deflection overflowed.
     #[error(
         "the deflection at {rpm:.0} rpm outgrows every number within {time_s:.3} s; shorten the time, or lower the speed"
     )]
@@ -89,7 +88,7 @@ pub enum TransientError {
         /// Time from the beginning.
         time_s: f64,
     },
-    /// A force too large for the linear model.
+    /// The force is too large for the linear model.
     #[error(
         "runup.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
     )]
@@ -97,7 +96,7 @@ pub enum TransientError {
         /// The force.
         force_n: f64,
     },
-    /// A force too large for von Kármán's strains.
+    /// The force is too large for von Kármán's strains.
     #[error(
         "runup.force_n is {force_n}, which alone bends the blade to slopes of more than {LARGEST_SLOPE}, where the model with stretching ends; give a smaller force"
     )]
@@ -105,7 +104,7 @@ pub enum TransientError {
         /// The force.
         force_n: f64,
     },
-    /// Newton's method found no end of a step.
+    /// Newton's method did not converge in a step.
     #[error(
         "no motion within {step_s:e} s at {rpm:.0} rpm balances the forces on the blade; make the forces or the deflections smaller"
     )]
@@ -115,7 +114,7 @@ pub enum TransientError {
         /// Length of the step.
         step_s: f64,
     },
-    /// Matrices that no exponential can be taken of.
+    /// The matrix exponential overflowed.
     #[error(
         "within {step_s:e} s at {rpm:.0} rpm the motion outgrows every number; the forces or other numbers of the scene are too large"
     )]

@@ -1,8 +1,8 @@
-//! What a time history is made of: the state, the forces that depend on it, and its steps.
+//! Components of a time history: the state, forces that depend on it, and integrators.
 //!
-//! q̈ + (2ΩG + C) q̇ + K(Ω) q = Σ sₖ(t) bₖ + f(q), in the unknowns q of the reduced blade, whose mass
-//! matrix is one. The loads bₖ and their sizes sₖ are given; a force f depends on the displacement.
-//! A new force is one type that implements [`Force`].
+//! q̈ + (2ΩG + C) q̇ + K(Ω) q = Σ sₖ(t) bₖ + f(q), in the unknowns q of the reduced blade, whose mass matrix
+//! is the identity. The loads bₖ and their magnitudes sₖ are given; a force f depends on the displacement.
+//! Every kind of force is a type that implements [`Force`].
 
 use faer::{Col, Mat};
 
@@ -23,7 +23,7 @@ impl State {
         State::still(Col::zeros(order))
     }
 
-    /// At rest, deflected.
+    /// At rest, with a deflection.
     pub fn still(displacement: Col<f64>) -> Self {
         State {
             velocity: Col::zeros(displacement.nrows()),
@@ -32,7 +32,7 @@ impl State {
     }
 }
 
-/// A force that depends on the displacement, beside the linear terms.
+/// A force that depends on the displacement, in addition to the linear terms.
 pub trait Force {
     /// Adds f(q) to `force`, in N/√kg.
     fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>);
@@ -41,11 +41,11 @@ pub trait Force {
     fn add_stiffness(&self, displacement: &Col<f64>, stiffness: &mut Mat<f64>);
 }
 
-/// Steps of one length at one speed.
+/// An integrator with steps of one length at one speed.
 pub trait Integrator {
-    /// One step, from the sizes of the loads at its beginning to those at its end.
+    /// One step, with the magnitudes of the loads at its beginning and at its end.
     ///
     /// # Errors
-    /// [`TransientError::NotBalanced`] where no state at the end of the step was found.
+    /// [`TransientError::NotBalanced`] if no state at the end of the step was found.
     fn step(&self, state: &State, sizes: [&[f64]; 2]) -> Result<State, TransientError>;
 }

@@ -1,4 +1,4 @@
-//! Tooth loads that move with the teeth: Floquet multipliers against another integrator.
+//! Tooth loads that move with the teeth: Floquet multipliers compared with another integrator.
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene};
@@ -11,7 +11,7 @@ const SMALL: Resolution = Resolution {
     radial_functions: 4,
 };
 
-/// The paper's saw with few teeth, of which one at a time is in the wood.
+/// The paper's saw with few teeth, of which one at a time cuts.
 fn saw_with_teeth(teeth: u32, tangential_n: f64) -> Scene {
     let mut file = Scene::paper().file().clone();
     file.blade.teeth = Some(teeth);
@@ -24,8 +24,7 @@ fn saw_with_teeth(teeth: u32, tangential_n: f64) -> Scene {
     Scene::try_from(file).unwrap()
 }
 
-/// max ln|μ| / T by the classical Runge-Kutta method, with K_e of the loads placed anew at
-/// each of `stages` positions.
+/// max ln|μ| / T by the classical Runge–Kutta method, with K_e of the loads at each of `stages` positions.
 fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: usize) -> f64 {
     let speed = run.speed_rad_per_s;
     let period_s = cut.pitch_rad / speed;
@@ -60,7 +59,7 @@ fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: 
             v += Scale(step_s / 6.0) * (v1 + Scale(2.0) * (v2 + v3) + v4);
         }
     }
-    // In one unit, or rounding of the large half hides the small one.
+    // Both halves of the state need a common unit, or rounding of the larger one conceals the smaller one.
     let scale = 300.0;
     let monodromy = Mat::from_fn(2 * order, 2 * order, |i, k| {
         let value = if i < order {
@@ -75,7 +74,7 @@ fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: 
     largest.ln() / period_s
 }
 
-/// Saws that standing loads and their mean leave stable.
+/// Saws that are stable under stationary loads and under their mean.
 #[test]
 fn item_3_moving_loads_alone_grow_as_another_integrator_finds() {
     let scene = saw_with_teeth(4, 4000.0);

@@ -1,18 +1,18 @@
-//! Motion while the speed changes, and under forces that depend on the displacement: Newmark's
-//! average acceleration (β = 1/4, γ = 1/2).
+//! Motion while the speed changes, or under forces that depend on the displacement: Newmark's average
+//! acceleration (β = 1/4, γ = 1/2).
 //!
 //! With d = q₁ − q₀ and v̄ = d/Δ the step is v₁ = 2v̄ − v₀ and
 //!
 //! 2(v̄ − v₀)/Δ + D v̄ + K(q₀ + q₁)/2 = (b(0) + b(Δ))/2 + ∫₀¹ f(q₀ + s d) ds.
 //!
-//! Unconditionally stable, of second order, and without damping of its own. The mean of a force
-//! along the straight line from q₀ to q₁ does exactly the work that its potential loses, so that the
-//! energy of an undamped, unloaded blade is kept; two Gauss points give that mean exactly for
-//! forces up to the third power of q.
+//! The method is unconditionally stable, of second order, and has no numerical damping. The mean of a force
+//! along the straight line from q₀ to q₁ does exactly the work that its potential loses, so that the energy
+//! of an undamped, unloaded blade is conserved. Two Gauss points give this mean exactly for forces up to the
+//! third power of q.
 //!
-//! References: N. M. Newmark, *A method of computation for structural dynamics*, J. Eng. Mech. Div.
-//! ASCE 85 (1959), 67–94; G. R. W. Quispel & D. I. McLaren, *A new class of energy-preserving
-//! numerical integration methods*, J. Phys. A 41 (2008), 045206, for the mean along the line.
+//! References: N. M. Newmark, *A method of computation for structural dynamics*, J. Eng. Mech. Div. ASCE 85
+//! (1959), 67–94; G. R. W. Quispel & D. I. McLaren, *A new class of energy-preserving numerical integration
+//! methods*, J. Phys. A 41 (2008), 045206, for the mean along the line.
 
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Col, Mat, Scale};
@@ -22,9 +22,9 @@ use crate::system::GyroscopicSystem;
 
 use super::{Force, Integrator, State, TransientError};
 
-/// Steps of one length at one speed and rate of speed.
+/// Steps of one length at one speed and acceleration.
 pub struct Newmark<'a> {
-    /// K(Ω) + Ω̇G: a blade that speeds up drags the waves along.
+    /// K(Ω) + Ω̇G: the acceleration adds a circulatory term.
     stiffness: Mat<f64>,
     /// 4/Δ² + 2D/Δ + K.
     effective: Mat<f64>,
@@ -35,19 +35,19 @@ pub struct Newmark<'a> {
     step_s: f64,
 }
 
-/// Gauss points of the straight line from 0 to 1, each of the weight ½.
+/// Gauss points on [0, 1], each of weight ½.
 const ON_LINE: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
-/// Most iterations of Newton's method; a step that resolves the motion takes two to four.
+/// Largest number of iterations of Newton's method; a step that resolves the motion takes two to four.
 const ITERATIONS: usize = 30;
-/// A correction of this share of the motion is the last one: the next would be its square.
+/// Relative size of the last correction with quadratic convergence: the next would be its square.
 const LAST: f64 = 1e-9;
-/// The same where corrections fall by a factor only.
+/// Relative size of the last correction with linear convergence.
 const CLOSEST: f64 = 1e-13;
-/// Corrections that fall by less than this factor are left to Newton's method.
+/// If corrections decrease by less than this factor, Newton's method takes over.
 const QUICK: f64 = 0.3;
 
 impl<'a> Newmark<'a> {
-    /// Steps of `step_s` at Ω and Ω̇ under loads Σ sₖ(t) bₖ, with bₖ the columns of `loads`.
+    /// Steps of `step_s` at Ω and Ω̇ under loads Σ sₖ(t) bₖ; the columns of `loads` are bₖ.
     pub fn new(
         system: &GyroscopicSystem,
         (speed_rad_per_s, rate_rad_per_s2): (f64, f64),
@@ -71,13 +71,14 @@ impl<'a> Newmark<'a> {
         }
     }
 
-    /// The same with forces that depend on the displacement.
+    /// Adds forces that depend on the displacement.
     pub fn with_forces(self, forces: &'a [&'a dyn Force]) -> Self {
         Newmark { forces, ..self }
     }
 
-    /// E d = r + Σ f(q₀ + s d), the sum over the two points of the line: with the factors of E as long as that
-    /// comes nearer quickly, as it does in steps that resolve the motion, else by Newton's method.
+    /// Solves E d = r + Σ f(q₀ + s d), where the sum is over the two Gauss points: with the factors of E as
+    /// long as this converges fast, which it does in steps that resolve the motion, otherwise by Newton's
+    /// method.
     fn balanced(&self, state: &State, right: &Col<f64>) -> Result<Col<f64>, TransientError> {
         let q = &state.displacement;
         let mut change = Scale(self.step_s) * &state.velocity;
@@ -167,7 +168,7 @@ mod tests {
     use crate::analytical::oscillator::hardening_period_s;
     use faer::mat;
 
-    /// −g q³: a new force is one type.
+    /// The force −g q³.
     struct Hardening(f64);
 
     impl Force for Hardening {
@@ -194,7 +195,7 @@ mod tests {
         0.5 * v * v + 0.5 * STIFFNESS * q * q + 0.25 * CUBIC * q.powi(4)
     }
 
-    /// The state a period later, in `steps`, and the largest change of energy on the way.
+    /// The state after a period of `steps` steps, and the largest change of energy.
     fn after_a_period(steps: u32) -> (State, f64) {
         let force = Hardening(CUBIC);
         let forces: [&dyn Force; 1] = [&force];
@@ -211,14 +212,14 @@ mod tests {
         (state, lost)
     }
 
-    /// A spring that hardens fivefold: energy to rounding, and the period of elliptic functions in
-    /// second order.
+    /// A spring whose stiffness rises fivefold: the energy is conserved to rounding, and the period converges
+    /// with second order to that of elliptic functions.
     #[test]
     fn a_force_with_a_potential_keeps_the_energy_and_the_period() {
         let error = |steps| {
             let (state, lost) = after_a_period(steps);
             assert!(lost < 1e-12, "{steps}: {lost:e}");
-            // Beside a turning point the phase shows in the velocity.
+            // At a turning point the velocity shows the error of phase.
             state.velocity[0] / (AMPLITUDE * (STIFFNESS + CUBIC * AMPLITUDE.powi(2)).sqrt())
         };
         let (coarse, fine) = (error(200), error(400));
@@ -227,7 +228,7 @@ mod tests {
         assert!(fine.abs() < 1e-2, "{fine:e}");
     }
 
-    /// A force that no step balances is an error, not a number.
+    /// A force that no step can balance gives an error.
     #[test]
     fn a_force_that_is_not_a_number_is_refused() {
         let force = Hardening(f64::NAN);

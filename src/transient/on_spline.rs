@@ -1,4 +1,4 @@
-//! The cut with the reaction that the teeth of the spline give, in place of the assumed one.
+//! The cut with the simulated reaction of the spline teeth instead of the assumed one.
 
 use crate::plate::{Plate, RimForce};
 use crate::scene::{Cut, CutRun, Scene};
@@ -11,7 +11,7 @@ use super::cut::Growth;
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::MODES;
 
-/// What the simulated reaction changes.
+/// Effect of the simulated reaction.
 #[derive(Debug, Clone)]
 pub struct OnSpline {
     /// Motion of the blade on its arbor, and its mean reaction.
@@ -22,7 +22,7 @@ pub struct OnSpline {
     pub in_cut: Growth,
 }
 
-/// Simulates the spline in a cut; `None` where the scene does not ask for it.
+/// Simulates the spline in a cut; `None` unless the scene requests it.
 ///
 /// # Errors
 /// [`TransientError`].

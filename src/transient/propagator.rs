@@ -1,12 +1,12 @@
 //! Motion at a constant speed, by the exponential of the state matrix.
 //!
-//! With x = (q, q̇/s), ẋ = A x + B f(t), and f linear over a step Δ,
+//! With x = (q, q̇/s), ẋ = A x + B f(t) and f linear over a step Δ,
 //!
 //! x(Δ) = E x(0) + Γ₀ f(0) + Γ₁ (f(Δ) − f(0)),
 //!
-//! where E, Γ₀ and Γ₁ are the first rows of exp [[ΔA, ΔB, 0], [0, 0, 1], [0, 0, 0]]
-//! (C. F. Van Loan, *Computing integrals involving the matrix exponential*, IEEE Trans.
-//! Automatic Control 23 (1978) 395–404). No step is too long for accuracy or stability.
+//! where E, Γ₀ and Γ₁ are the first rows of exp [[ΔA, ΔB, 0], [0, 0, 1], [0, 0, 0]] (C. F. Van Loan,
+//! *Computing integrals involving the matrix exponential*, IEEE Trans. Automatic Control 23 (1978) 395–404).
+//! Accuracy and stability do not limit the step.
 
 use faer::{Col, Mat, Scale};
 use nalgebra::DMatrix;
@@ -27,11 +27,11 @@ pub struct Propagator {
 }
 
 impl Propagator {
-    /// Steps of `step_s` at a speed, under loads Σ fₖ(t) bₖ with bₖ the columns of `loads`
-    /// (order × count, in the unknowns of the system).
+    /// Steps of `step_s` at a speed, under loads Σ fₖ(t) bₖ; the columns of `loads` (order × count, in the
+    /// unknowns of the system) are bₖ.
     ///
     /// # Errors
-    /// [`TransientError::NotFinite`]; [`TransientError::Spectrum`] where it was stopped.
+    /// [`TransientError::NotFinite`]; [`TransientError::Spectrum`] if the computation was cancelled.
     pub fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// Whatever the step.
+    /// The result is exact for any step.
     #[test]
     fn a_ramp_on_one_mode_is_exact() {
         let omega: f64 = 7.0;

@@ -1,7 +1,7 @@
-//! The few shapes that a time history is made of.
+//! The reduced basis of a time history.
 //!
-//! The lowest modes of some speeds, and the answers to the loads: a load that bends the
-//! blade where no low mode bends is then carried by the right stiffness all the same.
+//! It contains the lowest modes at some speeds, and the static responses to the loads, so that a load on a
+//! region where no low mode bends still meets the right stiffness.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Scale, Side};
@@ -10,27 +10,27 @@ use crate::plate::Plate;
 use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 
-/// A system at a speed, whose lowest modes join the basis.
+/// A system at a speed, whose lowest modes are added to the basis.
 #[derive(Debug, Clone, Copy)]
 pub struct Snapshot<'a> {
-    /// On the full model.
+    /// The full model.
     pub system: &'a GyroscopicSystem,
     /// Ω.
     pub speed_rad_per_s: f64,
 }
 
-/// An orthonormal basis V of a part of the plate's motions.
+/// An orthonormal basis V of a subspace of the plate's motions.
 #[derive(Debug, Clone)]
 pub struct ReducedBlade {
     basis: Mat<f64>,
 }
 
-/// Directions nearer to the span of the others are left out.
+/// Directions closer to the span of the others are omitted.
 const INDEPENDENT: f64 = 1e-7;
 
 impl ReducedBlade {
-    /// Spans the `modes` lowest modes of each snapshot and its answers to the loads, which are
-    /// (K + σD + σ²)⁻¹ b: static ones, but for the rigid motions that nothing holds.
+    /// Contains the `modes` lowest modes of each snapshot and the responses (K + σD + σ²)⁻¹ b to the loads,
+    /// which are static except for free rigid motions.
     pub fn new(
         plate: &Plate,
         snapshots: &[Snapshot<'_>],
@@ -46,7 +46,7 @@ impl ReducedBlade {
         } in snapshots
         {
             vectors.extend(system.free_rigid.iter().cloned());
-            // Without the modes to span the motions of the blade all its functions are kept.
+            // If these modes cannot be computed, all functions are kept.
             let Ok(lowest) = lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) else {
                 return Self::whole(plate);
             };
@@ -73,8 +73,8 @@ impl ReducedBlade {
         }
     }
 
-    /// The same motions and all shapes of a system that does not turn whose frequency is
-    /// below a limit: what answers a force of up to that frequency.
+    /// Adds all shapes of a non-rotating system below a frequency, which respond to forces up to that
+    /// frequency.
     ///
     /// # Errors
     /// [`SpectrumError::NoConvergence`].
@@ -99,8 +99,8 @@ impl ReducedBlade {
         })
     }
 
-    /// The same motions and all shapes in which a system that does not turn buckles: a load
-    /// that presses the blade out of its plane moves it in shapes far from the lowest modes.
+    /// Adds all buckling shapes of a non-rotating system: a load that buckles the blade excites shapes that
+    /// differ considerably from the lowest modes.
     ///
     /// # Errors
     /// [`SpectrumError::NoConvergence`].
@@ -119,7 +119,7 @@ impl ReducedBlade {
         }
     }
 
-    /// The same motions, turned by an angle.
+    /// The basis rotated by an angle.
     pub fn turned(&self, plate: &Plate, angle_rad: f64) -> Self {
         let mut basis = self.basis.clone();
         let size = plate.basis.count();
@@ -142,7 +142,7 @@ impl ReducedBlade {
         self.basis.as_ref()
     }
 
-    /// Number of motions.
+    /// Number of basis vectors.
     pub fn order(&self) -> usize {
         self.basis.ncols()
     }
@@ -163,8 +163,8 @@ impl ReducedBlade {
     }
 }
 
-/// Every basis function at a point, as a vector: what a unit force there excites, and what
-/// a probe there reads.
+/// Every basis function at a point, as a vector: the load of a unit force there, and the weights of a probe
+/// there.
 pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
     let values = plate.functions_at(radius_m, angle_rad);
     Col::from_fn(values.len(), |i| values[i])

@@ -1,4 +1,4 @@
-//! The response at the probe to a force of any frequency, at any speed.
+//! Harmonic response at the probe, over frequency and speed.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
@@ -14,19 +14,19 @@ use super::runup::reduced_blade;
 /// |w/F| over speed and frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ResponseMap {
-    /// Speeds.
+    /// Rotation speeds.
     pub speed_rad_per_s: Vec<f64>,
     /// Frequencies of the force.
     pub frequency_rad_per_s: Vec<f64>,
-    /// Deflection per newton: one row a speed.
+    /// Deflection per newton, one row for each speed.
     pub receptance_m_per_n: Vec<Vec<f64>>,
 }
 
-/// Maps |cᵀ L(s)⁻¹ b| on s = iω + Δω/2.
+/// Computes |cᵀ L(s)⁻¹ b| on s = iω + Δω/2.
 ///
-/// An undamped saw answers its own frequencies without bound; half a pixel off the
-/// imaginary axis, which is to look at it through a window of 2/Δω seconds, every mode
-/// shows with a finite height and none falls between two pixels.
+/// The response of an undamped saw at its natural frequencies is unbounded. Half a pixel off the imaginary
+/// axis, which corresponds to a window of 2/Δω seconds, every mode has a finite peak that is at least a pixel
+/// wide.
 pub fn response_map(
     plate: &Plate,
     runup: &RunUp,

@@ -1,4 +1,4 @@
-//! The saw while it runs up under a constant lateral force.
+//! The saw during a run-up under a constant lateral force.
 
 use faer::Col;
 
@@ -20,25 +20,24 @@ pub(crate) struct RunUpHistory {
     pub speed_rad_per_s: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
-    /// Speed at which the deflection leaves the linear model, where the record ends; `None`
-    /// when it does not.
+    /// Speed at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_rad_per_s: Option<f64>,
-    /// Step of the integration.
+    /// Time step.
     pub step_s: f64,
 }
 
-/// Speeds whose modes span the motion.
+/// Number of speeds whose modes form the basis.
 const SNAPSHOTS: usize = 7;
-/// Modes of each: what a probe sees of a slow force.
+/// Number of modes of each; the probe responds to few modes under a slow force.
 const MODES: usize = 6;
-/// Steps a period of the highest frequency that the record is to show.
+/// Number of steps per period of the highest frequency in the record.
 const STEPS_A_PERIOD: f64 = 24.0;
-/// Steps at one speed.
+/// Number of steps at the same speed.
 const HELD_STEPS: usize = 8;
-/// Samples of the record.
+/// Largest number of samples of the record.
 pub(super) const MAX_SAMPLES: usize = 30_000;
 
-/// The basis of a run-up: modes of a few speeds and the answers to the force.
+/// The basis of a run-up: modes at a few speeds, and static responses to the force.
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
     let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
@@ -55,8 +54,8 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
 /// Integrates the run-up, with steps that resolve `highest_rad_per_s`.
 ///
 /// # Errors
-/// [`TransientError::BentByForce`] when the force alone bends the blade out of the linear
-/// model, [`TransientError::Overflow`] when a growing motion exceeds every number.
+/// [`TransientError::BentByForce`] if the force alone deflects the blade beyond the linear model,
+/// [`TransientError::Overflow`] if a growing motion overflows.
 pub fn run_up(
     plate: &Plate,
     runup: &RunUp,
@@ -69,8 +68,7 @@ pub fn run_up(
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
     let load = faer::Scale(runup.force_n) * blade.vector(&force);
     let gauge = Gauge::new(plate, &blade, probe);
-    // The force is there from the beginning: the blade starts where it holds it, unless
-    // nothing does.
+    // The force acts from the beginning: the blade starts in its static deflection, unless nothing holds it.
     let from = runup.speeds.from_rad_per_s;
     let begun = State::still(static_deflection(&system, from, &load));
     let steps = Steps::new(runup, highest_rad_per_s);
@@ -97,13 +95,13 @@ pub fn run_up(
     Ok(history)
 }
 
-/// A blade under a constant load, and forces that depend on its deflection.
+/// A blade under a constant load, with forces that depend on its deflection.
 pub(super) struct Moving<'a> {
     /// Its matrices.
     pub system: &'a GyroscopicSystem,
-    /// In N/√kg.
+    /// Load in N/√kg.
     pub load: Col<f64>,
-    /// Forces beside the linear ones.
+    /// Nonlinear forces.
     pub forces: &'a [&'a dyn Force],
 }
 
@@ -119,7 +117,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// So short that they resolve a frequency.
+    /// Steps that resolve a frequency.
     pub(super) fn new(runup: &RunUp, highest_rad_per_s: f64) -> Self {
         let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
         let count = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
@@ -135,8 +133,8 @@ impl Steps {
         self.from_rad_per_s + self.rate_rad_per_s2 * step as f64 * self.step_s
     }
 
-    /// Goes through them from a state, showing every `stride`-th state with its speed and time, until that says
-    /// that it was the last.
+    /// Integrates from a state and calls `visit` with every `stride`-th state, its speed and its time, until
+    /// it returns false.
     pub(super) fn taken(
         &self,
         moving: &Moving<'_>,
@@ -146,8 +144,8 @@ impl Steps {
     ) -> Result<(), TransientError> {
         let (rate, step_s) = (self.rate_rad_per_s2, self.step_s);
         let loads = [moving.load.clone()];
-        // The speed is held for a few steps at that of their middle: so near to each other
-        // that the error stays of second order, and one factorization serves them all.
+        // For a few steps the speed is that of their middle. They are so short that the error remains of
+        // second order, and one factorization serves all of them.
         let held = |step: usize| {
             let middle = self.speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
             let newmark = Newmark::new(moving.system, (middle, rate), &loads, step_s);
@@ -173,7 +171,7 @@ impl Steps {
 }
 
 impl RunUpHistory {
-    /// Adds a sample; false where it is beyond the linear model.
+    /// Adds a sample; returns false if it exceeds the linear model.
     fn take(
         &mut self,
         gauge: &Gauge,
@@ -192,7 +190,7 @@ impl RunUpHistory {
     }
 }
 
-/// K⁻¹f where K is positive definite, else zero: nothing holds the blade then.
+/// K⁻¹f if K is positive definite, otherwise zero, because nothing holds the blade.
 fn static_deflection(system: &GyroscopicSystem, speed_rad_per_s: f64, load: &Col<f64>) -> Col<f64> {
     use faer::linalg::solvers::Solve;
     let stiffness = system.stiffness_at(speed_rad_per_s);

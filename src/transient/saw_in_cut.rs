@@ -1,4 +1,4 @@
-//! A saw at one speed of a cut: what its history, its passing teeth and its map share.
+//! A saw at one speed of a cut, with data common to time history, tooth passing and map.
 
 use faer::{Col, Mat};
 
@@ -9,16 +9,16 @@ use crate::system::GyroscopicSystem;
 
 use super::reduced::{ReducedBlade, Snapshot, at_point};
 
-/// The saw without and with the forces of one speed, and the few motions it makes.
+/// The saw with and without the forces at one speed, and its reduced basis.
 #[derive(Debug)]
 pub struct SawInCut<'a> {
-    /// Without the forces.
+    /// The plate without the forces.
     pub plate: &'a Plate,
-    /// Where the teeth are.
+    /// The positions of the teeth.
     pub cut: &'a Cut,
     /// Speed and forces.
     pub run: &'a CutRun,
-    /// Under the forces in its plane.
+    /// The plate under its in-plane forces.
     pub cutting: Plate,
     /// K_e of these forces.
     pub edge_stiffness: Mat<f64>,
@@ -26,14 +26,14 @@ pub struct SawInCut<'a> {
     pub idle_system: GyroscopicSystem,
     /// The matrices of `cutting`.
     pub cutting_system: GyroscopicSystem,
-    /// The motions of both.
+    /// Reduced basis of both.
     pub blade: ReducedBlade,
 }
 
-/// Modes of the idle and of the cutting saw that span its motions.
+/// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
 
-/// Σ φ(b, θ_k) of the teeth: the load of one newton across the blade on each.
+/// Σ φ(b, θ_k) over the teeth: the load of one newton across the blade on each.
 pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
     for angle in cut.tooth_angles_rad() {
@@ -43,7 +43,7 @@ pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
 }
 
 impl<'a> SawInCut<'a> {
-    /// Puts the forces on the saw and finds its lowest modes with and without them.
+    /// Applies the forces to the saw and computes its lowest modes with and without them.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -73,8 +73,8 @@ impl<'a> SawInCut<'a> {
         })
     }
 
-    /// The saw without the forces, on few motions. What nothing holds in it is what nothing
-    /// holds in the cut, so that K_e of any load may be added.
+    /// The saw without the forces in the reduced basis. Its free rigid motions are those of the saw in the
+    /// cut, so that K_e of any load may be added.
     pub(super) fn idle_on(&self, blade: &ReducedBlade) -> GyroscopicSystem {
         let mut system = blade.system(&self.cutting_system);
         system.stiffness -= blade.matrix(&self.edge_stiffness);

@@ -1,4 +1,4 @@
-//! The whole story of a cut, and of a run-up: what the commands compute.
+//! Complete computations of a cut and of a run-up, for the commands.
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
@@ -21,7 +21,7 @@ pub struct Cutting {
     pub plate: Plate,
     /// The cut.
     pub cut: Cut,
-    /// One entry a speed.
+    /// One entry for each speed.
     pub(crate) runs: Vec<CuttingRun>,
 }
 
@@ -30,30 +30,29 @@ pub struct Cutting {
 pub(crate) struct CuttingRun {
     /// Eigenvalues and time history.
     pub history: CutHistory,
-    /// What the passing of the teeth changes.
+    /// Effect of the passing teeth.
     pub passing: ToothPassing,
     /// Growth over guide angle and load.
     pub map: VerdictMap,
-    /// The reaction of the spline teeth, when the scene asks for it.
+    /// Reaction of the spline teeth, if the scene requests it.
     pub spline: Option<OnSpline>,
 }
 
-/// Positions of the teeth within a pitch, at least, and the angle from one to the next, at
-/// most. With 42 teeth the growth rate changes by 0.03 % from 8 to 16 positions, with 4 teeth
-/// by up to 0.5 % from 32 on.
+/// Smallest number of tooth positions within a pitch, and largest angle between them. With 42 teeth the
+/// growth rate changes by 0.03 % from 8 to 16 positions, with 4 teeth by up to 0.5 % from 32 on.
 const STAGES: usize = 8;
 const STAGE_DEG: f64 = 1.1;
 
 fn stages(cut: &Cut) -> usize {
     STAGES.max((cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize)
 }
-/// The map reaches so far on both sides of the guides.
+/// Extent of the map on both sides of the guides.
 const MAP_TURN_DEG: f64 = 30.0;
 /// Highest load level of the map.
 const MAP_LOAD: f64 = 1.5;
 
-/// Steps of the map in degrees and in load level: 400 eigenproblems a speed are most of the work of a cut, which a
-/// draft does with 91.
+/// Steps of the map in degrees and in load level. With 400 eigenproblems per speed the map is most of the
+/// work of a cut; a draft has 91.
 fn map_steps(accuracy: Accuracy) -> (f64, f64) {
     match accuracy {
         Accuracy::Draft => (5.0, 0.25),
@@ -61,11 +60,11 @@ fn map_steps(accuracy: Accuracy) -> (f64, f64) {
     }
 }
 
-/// The saw under the forces, time history, teeth and map.
+/// Number of parts: the saw under the forces, time history, teeth and map.
 const PARTS: usize = 4;
 
 impl Cutting {
-    /// Computes speeds of the scene's cut, see [`Cut::runs_at`].
+    /// Computes the scene's cut at some speeds, see [`Cut::runs_at`].
     ///
     /// # Errors
     /// [`TransientError`].
@@ -78,7 +77,7 @@ impl Cutting {
         let plate = chosen_plate(scene, runs)?;
         let (turn_deg, level) = map_steps(scene.accuracy());
         let turns: Vec<f64> = match scene.guides().is_empty() {
-            // Turned by any angle, a saw without guides is the same.
+            // A saw without guides is axisymmetric, so a rotation has no effect.
             true => vec![0.0],
             false => even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
                 .map(f64::to_radians)
@@ -118,7 +117,7 @@ impl Cutting {
     }
 }
 
-/// The plate on a basis that meets the scene's tolerance up to the fastest cut.
+/// The plate on a basis that satisfies the scene's tolerance up to the fastest cut.
 fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError> {
     let fastest = runs
         .iter()
@@ -137,27 +136,27 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
 pub struct RunningUp {
     /// The saw.
     pub scene: Scene,
-    /// What it is put through.
+    /// Speeds and force of the run-up.
     pub runup: RunUp,
     /// Modes and bands over the speeds of the run-up.
     pub analysis: Analysis,
     /// Deflection at the probe.
     pub(crate) history: RunUpHistory,
-    /// What stretching adds, where the scene asks for it.
+    /// Results with stretching, if the scene requests it.
     pub(crate) stretched: Option<StretchedRunUp>,
-    /// What each band of the analysis does to it.
+    /// Effect of each band of the analysis.
     pub growths: Vec<BandGrowth>,
     /// Response over speed and frequency.
     pub(crate) response: ResponseMap,
 }
 
-/// Speeds and frequencies of the response map.
+/// Number of speeds and of frequencies of the response map.
 const MAP_SIZE: (usize, usize) = (200, 150);
-/// Modes at rest whose oscillation the steps resolve and the map shows.
+/// Number of modes at rest that the steps resolve and the map shows.
 const SHOWN_MODES: usize = 6;
 
 impl RunningUp {
-    /// Computes the scene's run-up.
+    /// Computes the run-up of the scene.
     ///
     /// # Errors
     /// [`TransientError`].

@@ -1,10 +1,10 @@
-//! What a record is made of: damped and growing sinusoids, by the matrix pencil method.
+//! Decomposition of a record into damped and growing sinusoids, by the matrix pencil method.
 //!
-//! It sees nothing but the record, so that its growth rate is a second opinion on the
-//! eigenvalue's. A straight line through the logarithm of an envelope would be biased by
-//! every mode that rings beside the growing one (Y. Hua, T. K. Sarkar, *Matrix pencil
-//! method for estimating parameters of exponentially damped/undamped sinusoids in noise*,
-//! IEEE Trans. Acoustics, Speech and Signal Processing 38 (1990) 814–824).
+//! The method uses the record alone, so that its growth rate is an independent check of the eigenvalue. A
+//! straight line through the logarithm of an envelope would be biased by every mode that rings beside the
+//! growing one (Y. Hua, T. K. Sarkar, *Matrix pencil method for estimating parameters of exponentially
+//! damped/undamped sinusoids in noise*, IEEE Trans. Acoustics, Speech and Signal Processing 38 (1990)
+//! 814–824).
 
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Col, Mat, c64};
@@ -14,39 +14,40 @@ use crate::spectrum::real_eigenvalues;
 /// Re(2 a e^{λt}), or a e^{λt} for a real λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sinusoid {
-    /// λ, in 1/s, Im λ ≥ 0; frequencies beyond half the sampling rate are folded.
+    /// λ, in 1/s, Im λ ≥ 0; frequencies above half the sampling rate are aliased.
     pub lambda: c64,
-    /// Largest size within the record, in the unit of the record.
+    /// Largest magnitude within the record, in the unit of the record.
     pub largest: f64,
-    /// Whether it grows or turns within the record; if not, it is the static answer to a load.
+    /// Whether it grows, decays or oscillates within the record; otherwise it is the static response to a
+    /// load.
     pub moves: bool,
 }
 
-/// Why a record was not taken apart.
+/// Reason for which a record could not be decomposed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{samples} samples of a deflection could not be taken apart into sinusoids")]
 pub struct FitError {
-    /// Samples that were looked at.
+    /// Number of samples used.
     pub samples: usize,
 }
 
 /// Singular values below this share of the largest are rounding.
 const RANK_TOLERANCE: f64 = 1e-10;
-/// Samples that the method looks at: its cost grows with their cube.
+/// Largest number of samples used: the cost grows with its cube.
 pub(super) const SAMPLES: usize = 801;
-/// Sinusoids smaller than this share of the record are what is left of rounding.
+/// Smaller sinusoids, relative to the record, are rounding.
 const AUDIBLE: f64 = 1e-3;
-/// What neither grows nor turns by more than this within the record is the static answer.
+/// A sinusoid that changes by less than this within the record is the static response.
 const STATIC: f64 = 1e-2;
 
-/// The sinusoids of an evenly sampled record, the largest first. Empty when the record
-/// is silent or too short.
+/// The sinusoids of an evenly sampled record, in descending order of magnitude; empty if the record is zero
+/// or too short.
 ///
-/// A long record is not thinned out, which would fold its frequencies, but cut to the one of
-/// its ends that is louder: growth shows at the end and decay at the beginning.
+/// A long record is not thinned, which would alias its frequencies. Its louder end is used: growth appears at
+/// the end, decay at the beginning.
 ///
 /// # Errors
-/// [`FitError`] when the record is not finite or the decomposition fails.
+/// [`FitError`] if the record is not finite or the decomposition fails.
 pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, FitError> {
     let samples = louder_end(record);
     let failed = FitError {
@@ -73,7 +74,7 @@ pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, Fi
                 moves: lambda.norm() * step_s * samples.len() as f64 > STATIC,
             }
         })
-        // The logarithm of a root at zero, which decays within one step, is no number.
+        // The logarithm of a root at zero, which decays within one step, is not finite.
         .filter(|s| s.lambda.is_finite() && s.largest > AUDIBLE * loudest)
         .collect();
     found.sort_by(|x, y| y.largest.total_cmp(&x.largest));
@@ -93,8 +94,8 @@ fn loudness(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0_f64, |max, x| max.max(x.abs()))
 }
 
-/// The fastest growth among the sinusoids of a record, and its frequency in rad/s; that of
-/// the static answer to a load, which is none, when nothing else is left.
+/// The fastest growth among the sinusoids of a record, and its frequency in rad/s; zero growth if only the
+/// static response remains.
 pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
     let fastest = |x: &&Sinusoid, y: &&Sinusoid| x.lambda.re.total_cmp(&y.lambda.re);
     let moving = sinusoids.iter().filter(|s| s.moves).max_by(fastest);
@@ -102,15 +103,15 @@ pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
     fastest.map(|s| s.lambda)
 }
 
-/// z with samples Σ a zᵏ: eigenvalues of the pencil of two shifted Hankel matrices, on
-/// their leading singular vectors.
+/// z with samples Σ a zᵏ: eigenvalues of the pencil of two shifted Hankel matrices, projected on their
+/// leading singular vectors.
 fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     let width = samples.len() / 2;
     let height = samples.len() - width;
     let hankel = Mat::from_fn(height, width + 1, |i, k| {
         samples.get(i + k).copied().unwrap_or(0.0)
     });
-    // The last row would reach past the record.
+    // The last row would exceed the record.
     let hankel = hankel.subrows(0, height - 1).to_owned();
     let svd = hankel.thin_svd().ok()?;
     let largest = svd.S()[0];
@@ -124,8 +125,8 @@ fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     real_eigenvalues(step.as_ref()).ok()
 }
 
-/// Least squares for a in samples Σ a zᵏ: that at the beginning of the record of what decays,
-/// and at its end of what grows, so that no power overflows and each is the largest.
+/// Least squares for a in samples Σ a zᵏ: amplitudes at the beginning of the record for decay, at its end for
+/// growth, so that no power overflows and each amplitude is the largest.
 fn amplitudes(samples: &[f64], roots: &[c64]) -> Vec<c64> {
     if roots.is_empty() || roots.len() > samples.len() {
         return Vec::new();
@@ -156,7 +157,7 @@ mod tests {
         fitted_growth(&damped_sinusoids(record, step_s).unwrap()).unwrap()
     }
 
-    /// A growing tone under a larger steady one, a static offset and a decaying one.
+    /// The record contains a growing tone, a larger steady one, a static offset and a decaying tone.
     #[test]
     fn a_growing_tone_is_found_among_others() {
         let record = record(900, 1e-3, |t| {
@@ -169,8 +170,7 @@ mod tests {
         assert!((found - c64::new(1.7, 30.0)).norm() < 1e-6, "{found}");
     }
 
-    /// 50 Hz in records of 10 and 60 s: every 25th or 50th sample alone would show
-    /// another frequency.
+    /// A tone of 50 Hz in records of 10 and 60 s: every 25th or 50th sample would show an aliased frequency.
     #[test]
     fn item_8_a_tone_of_50_hz_keeps_its_frequency_in_a_long_record() {
         for (count, step_s) in [(10_000, 1e-3), (20_000, 3e-3), (60_000, 1e-3)] {
@@ -204,7 +204,7 @@ mod tests {
         assert_eq!(damped_sinusoids(&[1.0; 3], 1e-3), Ok(Vec::new()));
     }
 
-    /// An overflow is not silence.
+    /// An overflow is not taken for a zero record.
     #[test]
     fn what_is_not_a_number_is_refused() {
         for x in [f64::NAN, f64::INFINITY] {

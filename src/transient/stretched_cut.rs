@@ -15,31 +15,31 @@ use super::saw_in_cut::{SawInCut, lateral_load};
 use super::stretched_probe::StretchedProbe;
 use super::{Force, Growth, Integrator, Newmark, State, TransientError};
 
-/// What stretching adds to one speed of a cut.
+/// Results with stretching at one speed of a cut.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StretchedCut {
-    /// Shapes that the deflection is made of.
+    /// Number of shapes.
     pub shapes: usize,
     /// Longest step of the integration.
     pub step_s: f64,
-    /// Largest slope of the blade that was seen.
+    /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// When slopes exceed 0.1, where the record ends.
+    /// Time at which slopes exceed 0.1, and the record ends.
     pub valid_until_s: Option<f64>,
 }
 
-/// Modes of the idle and of the cutting saw that span its motions.
+/// Number of modes of the idle and of the cutting saw in the basis.
 const MODES: usize = 8;
-/// Steps a period of the highest of these modes.
+/// Number of steps per period of the highest of these modes.
 const STEPS_A_PERIOD: f64 = 24.0;
-/// Time from one look at the slopes to the next.
+/// Time between evaluations of the slopes.
 const LOOK_S: f64 = 0.01;
 
-/// Steps through the idle saw, the cut, and the idle saw again with the potential of stretching, by steps that
-/// keep the energy of an undamped blade, as far as the model holds.
+/// Integrates the idle saw, the cut, and the idle saw again with the potential of stretching, while the model
+/// is valid. The steps conserve the energy of an undamped blade.
 ///
 /// # Errors
-/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::NotBalanced`].
+/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::NotBalanced`].
 pub fn stretched_cut(
     saw: &SawInCut<'_>,
     probe: &Probe,
@@ -95,7 +95,7 @@ fn basis(saw: &SawInCut<'_>, modes: usize) -> ReducedBlade {
     ReducedBlade::new(saw.plate, &snapshots, modes, &[load])
 }
 
-/// A step that resolves the modes of the basis, of which there are fewer than shapes, and their growth.
+/// A step that resolves the modes in the basis, which are fewer than its shapes, and their growth.
 fn longest_s(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -109,16 +109,16 @@ fn longest_s(
     Ok((TAU / (STEPS_A_PERIOD * highest)).min(longest_step_s(growth)))
 }
 
-/// A time in which the system and the load stay the same.
+/// A time interval with constant system and load.
 struct Phase<'a> {
     system: &'a GyroscopicSystem,
     load: &'a Col<f64>,
     longest_s: f64,
-    /// When it begins, and how long it lasts.
+    /// Start and duration.
     span_s: (f64, f64),
 }
 
-/// What the probe sees.
+/// The record of the probe.
 struct Samples<'a> {
     blade: &'a StretchedBlade,
     probe: StretchedProbe<'a>,
@@ -149,7 +149,7 @@ impl<'a> Samples<'a> {
         }
     }
 
-    /// Goes through a phase; false where slopes become too large.
+    /// Integrates a phase; returns false if slopes become too large.
     fn through(
         &mut self,
         phase: &Phase<'_>,
@@ -170,7 +170,7 @@ impl<'a> Samples<'a> {
         let newmark = newmark.with_forces(&forces);
         let stop = Cancellation::current();
         for step in 1..=count {
-            // What is at rest without a force stays there, however fast it would grow.
+            // A saw at rest without a force remains at rest, even if it is unstable.
             if phase.load.norm_max() > 0.0 || state.displacement.norm_max() > 0.0 {
                 *state = newmark.step(state, [&[1.0], &[1.0]])?;
             }
@@ -184,7 +184,7 @@ impl<'a> Samples<'a> {
         Ok(true)
     }
 
-    /// Adds a sample; false where slopes are too large.
+    /// Adds a sample; returns false if slopes are too large.
     fn take(&mut self, state: &State, time_s: f64) -> bool {
         let speed = self.speed_rad_per_s;
         if time_s >= self.looked_s + LOOK_S {
@@ -218,7 +218,7 @@ mod tests {
         Plate::new(&Scene::paper(), resolution)
     }
 
-    /// The paper's cut at its first speed, and whether the blade stretches.
+    /// The paper's cut at its first speed, with or without stretching.
     fn cut(stretching: bool) -> Cut {
         let scene = Scene::paper().edited(|saw| {
             if let Some(cut) = &mut saw.cut {
@@ -233,7 +233,7 @@ mod tests {
         record.iter().fold(0.0, |max, w| max.max(w.abs()))
     }
 
-    /// Small deflections are those of the linear model, which is computed by another integrator on more shapes; at
+    /// Small deflections equal those of the linear model, computed by another integrator with more shapes; at
     /// 2800 rpm they grow.
     #[test]
     fn a_small_force_moves_the_blade_as_the_linear_model_says() {
@@ -258,8 +258,8 @@ mod tests {
         }
     }
 
-    /// ½ q̇ᵀq̇ + ½ qᵀKq + U₄ − fᵀq of a blade without damping, under the forces of the cut: those in its plane are a
-    /// part of K.
+    /// ½ q̇ᵀq̇ + ½ qᵀKq + U₄ − fᵀq of a blade without damping, under the forces of the cut; K includes the
+    /// in-plane forces.
     #[test]
     fn the_energy_of_an_undamped_blade_in_the_cut_is_kept() {
         let plate = plate().conservative();
@@ -294,8 +294,8 @@ mod tests {
         assert!(energy.abs() < 1e-8 * moving, "{energy:e} {moving:e}");
     }
 
-    /// A small force without forces in the plane, in a band of flutter: the blade rises to where the normal form of
-    /// two waves says, and no further.
+    /// A small lateral force without in-plane forces, in a flutter band: the amplitude rises to the value of
+    /// the normal form of two waves and no further.
     #[test]
     fn flutter_in_the_cut_rises_to_its_saturated_amplitude() {
         let plate = plate().conservative();

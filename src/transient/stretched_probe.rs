@@ -1,20 +1,20 @@
-//! What is seen of a blade that stretches and moves.
+//! The probe of a moving blade that stretches.
 
 use crate::scene::Probe;
 use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 
 use super::State;
 
-/// The deflection at a probe, and the slopes up to which the model holds.
+/// The deflection at a probe, and the check that slopes are within the model.
 pub(super) struct StretchedProbe<'a> {
     blade: &'a StretchedBlade,
     probe: &'a Probe,
-    /// Largest slope of the blade that was seen.
+    /// Largest slope of the blade so far.
     pub largest_slope: f64,
 }
 
 impl<'a> StretchedProbe<'a> {
-    /// For a blade, of which nothing was seen yet.
+    /// The probe of a blade, without samples.
     pub fn new(blade: &'a StretchedBlade, probe: &'a Probe) -> Self {
         StretchedProbe {
             blade,
@@ -23,7 +23,7 @@ impl<'a> StretchedProbe<'a> {
         }
     }
 
-    /// Whether slopes are small enough for the model.
+    /// Whether slopes are within the model.
     pub fn holds(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
         let slope = self.blade.largest_slope(&shape(state, speed_rad_per_s));
         self.largest_slope = self.largest_slope.max(slope);

@@ -14,47 +14,48 @@ use super::runup::{MAX_SAMPLES, Moving, Steps};
 use super::stretched_probe::StretchedProbe;
 use super::{Force, RunUpHistory, State, TransientError};
 
-/// What stretching adds to a run-up.
+/// Results of a run-up with stretching.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StretchedRunUp {
-    /// Deflection at the probe, up to where the model holds.
+    /// Deflection at the probe while the model is valid.
     pub history: RunUpHistory,
-    /// Shapes that the deflection is made of.
+    /// Number of shapes.
     pub shapes: usize,
-    /// Largest slope of the blade that was seen.
+    /// Largest slope of the blade.
     pub largest_slope: f64,
     /// Ω from which on slopes exceed 0.1.
     pub valid_until_rad_per_s: Option<f64>,
-    /// What the deflection is made of over the speed.
+    /// Spectrum of the deflection over the speed.
     pub spectrum: Spectrum,
 }
 
 /// Amplitudes of the deflection at the probe over speed and frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Spectrum {
-    /// Speeds in the middle of each window.
+    /// Speed in the middle of each window.
     pub speed_rad_per_s: Vec<f64>,
     /// Frequencies.
     pub frequency_rad_per_s: Vec<f64>,
-    /// Amplitudes: one row a speed.
+    /// Amplitudes, one row for each speed.
     pub amplitude_m: Vec<Vec<f64>>,
 }
 
-/// Modes at rest beside the shapes that lean and the static deflection.
+/// Number of modes at rest in addition to the shapes that diverge and the static deflection.
 pub(super) const MODES: usize = 14;
-/// Steps between two samples of the spectrum: three samples a period of the highest frequency.
+/// Number of steps per sample of the spectrum, which gives three samples per period of the highest frequency.
 const STRIDE: usize = 8;
-/// Samples from one look at the slopes to the next.
+/// Number of samples between evaluations of the slopes.
 const LOOKED: usize = 16;
-/// Speeds and frequencies of the spectrum.
+/// Number of speeds and of frequencies of the spectrum.
 const SPECTRUM: (usize, usize) = (240, 180);
-/// Length of a window.
+/// Smallest and largest length of a window.
 const WINDOW_S: (f64, f64) = (1.5, 6.0);
 
-/// Integrates the run-up with the potential of stretching, by steps that keep the energy of an undamped blade.
+/// Integrates the run-up with the potential of stretching. The steps conserve the energy of an undamped
+/// blade.
 ///
 /// # Errors
-/// [`TransientError::Stretched`] where nothing holds the blade, [`TransientError::SteepByForce`],
+/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::SteepByForce`],
 /// [`TransientError::NotBalanced`].
 pub fn stretched_run_up(
     plate: &Plate,
@@ -66,7 +67,7 @@ pub fn stretched_run_up(
     let place = (plate.blade.outer_radius_m, runup.angle_rad);
     let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
     let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(runup.force_n, place)?;
-    // With the damping of the saw, which the potential has not.
+    // The system includes the damping of the saw, which is not part of the potential.
     let system = GyroscopicSystem::of_plate(plate).project(blade.shapes());
     let forces: [&dyn Force; 1] = [blade.stretching()];
     let moving = Moving {
@@ -107,7 +108,7 @@ pub fn stretched_run_up(
     })
 }
 
-/// What the probe sees.
+/// The record of the probe.
 struct Samples<'a> {
     probe: StretchedProbe<'a>,
     speed_rad_per_s: Vec<f64>,
@@ -116,7 +117,7 @@ struct Samples<'a> {
 }
 
 impl Samples<'_> {
-    /// Adds a sample; false where slopes are too large.
+    /// Adds a sample; returns false if slopes are too large.
     fn take(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
         let is_looked_at = self.deflection_m.len().is_multiple_of(LOOKED);
         if is_looked_at && !self.probe.holds(state, speed_rad_per_s) {
@@ -129,8 +130,8 @@ impl Samples<'_> {
         true
     }
 
-    /// Short-time Fourier transforms under Hann's window, of what is left of a straight line: the lean, which changes
-    /// slowly, would hide everything else.
+    /// Short-time Fourier transforms with Hann's window. A straight line is subtracted first, because the
+    /// slowly changing mean deflection would conceal everything else.
     fn spectrum(&self, sample_s: f64, highest_rad_per_s: f64) -> Spectrum {
         let count = self.deflection_m.len();
         let duration_s = sample_s * count as f64;
@@ -171,7 +172,7 @@ impl Samples<'_> {
     }
 }
 
-/// Values less their straight line of least squares.
+/// Values minus their least-squares straight line.
 fn straightened(values: &[f64]) -> Vec<f64> {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -231,7 +232,7 @@ mod tests {
         assert!((0..400).all(|i| (left[i as usize] - wave(i)).abs() < 0.01));
     }
 
-    /// Small deflections are those of the linear model, which is computed on another basis.
+    /// Small deflections equal those of the linear model, computed on another basis.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
     fn a_small_force_moves_the_blade_as_the_linear_model_says() {
@@ -248,7 +249,7 @@ mod tests {
         assert_eq!(stretched.valid_until_rad_per_s, None);
     }
 
-    /// A force of 20 kN bends the blade beyond the model before it turns.
+    /// A force of 20 kN deflects the blade beyond the model at rest.
     #[test]
     fn a_force_that_leaves_no_record_is_refused_by_its_name() {
         let scene = Scene::paper().edited(|saw| {
@@ -265,7 +266,8 @@ mod tests {
         );
     }
 
-    /// Through the first band, where the linear model ends, the blade stays bounded and leans.
+    /// In the first band, where the linear model ends, the deflection remains bounded and does not return to
+    /// zero.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
     fn the_record_does_not_end_at_five_thicknesses() {

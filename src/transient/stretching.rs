@@ -1,4 +1,4 @@
-//! Stretching as a force of a time history: −∂U₄/∂q.
+//! Stretching as a force in a time history: −∂U₄/∂q.
 
 use faer::{Col, Mat};
 
@@ -10,7 +10,7 @@ impl Force for ReducedStretching {
     fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>) {
         match self.gradient(displacement) {
             Ok(gradient) => *force -= gradient,
-            // A deflection of another basis has no force, which no step balances.
+            // A deflection of another basis gives NaN, which no step can balance.
             Err(_) => force.fill(f64::NAN),
         }
     }
@@ -39,8 +39,8 @@ mod tests {
         radial_functions: 4,
     };
 
-    /// One travelling wave of a free blade is rigid in a frame that turns with it: for one mode of n
-    /// diameters it turns at nΩ + ω in space, ω² = ω_n²(Ω) + gA², U₄ = gA⁴/4.
+    /// A single travelling wave of a free blade is rigid in a frame that turns with it. For one mode of n
+    /// diameters this frame turns at nΩ + ω in space, ω² = ω_n²(Ω) + gA², U₄ = gA⁴/4.
     #[test]
     fn a_large_wave_of_a_free_blade_travels_as_the_closed_form_says() {
         let scene = Scene::paper().edited(|saw| {
@@ -62,7 +62,7 @@ mod tests {
         let system = GyroscopicSystem::of_plate(&plate).project(shapes.as_ref());
         let unit = Col::from_fn(2, |k| if k == 0 { 1.0 } else { 0.0 });
         let cubic = 4.0 * stretching.energy_j(&unit).unwrap();
-        // So large that stretching gives as much stiffness as bending and rotation.
+        // At this amplitude stretching contributes as much stiffness as bending and rotation.
         let amplitude = (modes.S()[0] / cubic).sqrt();
         let omega = n as f64 * speed + (2.0 * modes.S()[0]).sqrt();
         let forces: [&dyn Force; 1] = [&stretching];
@@ -88,7 +88,7 @@ mod tests {
         );
     }
 
-    /// Of a guided blade that bends by several thicknesses, without damping.
+    /// A guided blade without damping that deflects by several thicknesses.
     #[test]
     fn a_large_motion_keeps_its_energy() {
         let plate = Plate::new(&Scene::paper(), SMALL).conservative();

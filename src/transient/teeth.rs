@@ -1,9 +1,9 @@
-//! Teeth that pass, instead of loads that stand still.
+//! Tooth loads that move with the teeth, in contrast to stationary loads.
 //!
-//! The teeth in the cut carry their forces along for one pitch; then the next one takes
-//! over. Within a tooth period T = pitch/Ω the stiffness K_e turns with them, and what is
-//! left at its end is the product of the steps: a saw is stable when no Floquet multiplier
-//! μ of that product exceeds one, and ln|μ|/T is its growth rate.
+//! The teeth in the cut move with their forces by one pitch, then each is replaced by the next one. Within a
+//! tooth period T = pitch/Ω the stiffness K_e turns with them, and the transition over the period is the
+//! product of the steps: a saw is stable if no Floquet multiplier μ of this product exceeds one in magnitude,
+//! and ln|μ|/T is its growth rate.
 
 use faer::{Mat, Scale};
 use rayon::prelude::*;
@@ -18,32 +18,32 @@ use super::reduced::ReducedBlade;
 use super::saw_in_cut::{SawInCut, lateral_load};
 use super::{Growth, Integrator, Propagator, State, TransientError};
 
-/// What the passing of the teeth changes.
+/// Effect of the passing teeth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothPassing {
-    /// Teeth passing a second, teeth · Ω / 2π.
+    /// Tooth passing frequency.
     pub tooth_frequency_rad_per_s: f64,
-    /// Growth with loads that stand still, one pitch apart.
+    /// Growth under stationary loads, one pitch apart.
     pub standing_growth_per_s: f64,
-    /// Growth with the mean of the passing loads.
+    /// Growth under the mean of the moving loads.
     pub mean_growth_per_s: f64,
-    /// Growth with the passing loads, from Floquet multipliers.
+    /// Growth under the moving loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
-    /// Largest deflection at the probe in the cut, standing loads; `None` where the linear
-    /// model ends before the cut does.
+    /// Largest deflection at the probe in the cut under stationary loads; `None` if the linear model ends
+    /// before the cut does.
     pub standing_deflection_m: Option<f64>,
-    /// The same under passing ones.
+    /// Largest deflection at the probe in the cut under moving loads.
     pub passing_deflection_m: Option<f64>,
 }
 
-/// Moving loads couple two modes whose frequencies add up to that of the teeth, or differ by
-/// it: the shapes up to so many times that frequency take part. On fewer, the frequencies of
-/// the highest are those of no mode, and meet the teeth at any speed. On the saw with two
-/// pads (410 functions, 1800 rpm) the growth is 0.25 1/s with 1.5, 2, 3 and 4 times.
+/// Moving loads couple two modes whose frequencies add up to that of the teeth or differ by it, so shapes up
+/// to this multiple of the tooth passing frequency are included. With fewer, the highest frequencies would be
+/// wrong and could cause false resonances at any speed. On the saw with two pads (410 functions, 1800 rpm)
+/// the growth is 0.25 1/s with 1.5, 2, 3 and 4 times.
 const SHAPES_UP_TO: f64 = 2.0;
 
-/// Compares standing, mean and passing loads; `stages` positions of the teeth within a
-/// pitch, the force constant within each.
+/// Compares stationary, mean and moving loads, with `stages` positions of the teeth within a pitch and
+/// constant forces at each.
 ///
 /// # Errors
 /// [`TransientError`].
@@ -73,7 +73,7 @@ pub fn tooth_passing(
     })
 }
 
-/// The loads at some positions within a pitch, on a basis.
+/// The loads at some positions within a pitch, in a reduced basis.
 struct MovingLoads<'a> {
     saw: &'a SawInCut<'a>,
     blade: &'a ReducedBlade,
@@ -99,7 +99,7 @@ impl<'a> MovingLoads<'a> {
         pitch_s / self.turns_rad.len() as f64
     }
 
-    /// Loads turned by α on a blade are loads on a blade turned by −α.
+    /// Rotating the loads by α is equivalent to rotating the blade by −α.
     fn edge_at(&self, turn_rad: f64) -> Mat<f64> {
         let turned = self.blade.turned(self.saw.plate, -turn_rad);
         turned.matrix(&self.saw.edge_stiffness)
@@ -134,8 +134,8 @@ impl<'a> MovingLoads<'a> {
         turns.map(|turn| self.propagator(*turn)).collect()
     }
 
-    /// max ln|μ| / T over the multipliers of the product of the stages; zero where nothing
-    /// in an undamped saw grows beyond rounding.
+    /// max ln|μ| / T over the multipliers of the product of the stages; zero if nothing grows beyond rounding
+    /// in an undamped saw.
     fn floquet_growth(&self) -> Result<f64, TransientError> {
         let stages = self.propagators()?;
         let logarithm = largest_multiplier_ln(&stages, self.saw.run.rpm, self.step_s())?;
@@ -169,12 +169,11 @@ impl<'a> MovingLoads<'a> {
     }
 }
 
-/// Multipliers are known to some thousand roundings.
+/// Relative accuracy of multipliers, some thousand roundings.
 const MULTIPLIER_NOISE: f64 = 1e-11;
 
-/// ln max|μ| over the eigenvalues μ of the product of the stages, which is kept near one by
-/// powers of two that are counted apart: the growth of a violent saw within one tooth period
-/// exceeds every number.
+/// ln max|μ| over the eigenvalues μ of the product of the stages. The product is scaled by powers of two,
+/// which are counted separately, because violent growth within one tooth period would overflow.
 fn largest_multiplier_ln(
     stages: &[Propagator],
     rpm: f64,
@@ -199,7 +198,7 @@ fn largest_multiplier_ln(
     let order = product.nrows();
     let not_converged = || SpectrumError::NoConvergence { order, rpm };
     let multipliers = real_eigenvalues(product.as_ref()).map_err(|_| not_converged())?;
-    // A maximum would pass over what is not a number.
+    // A maximum would ignore NaN.
     if !multipliers.iter().all(|z| z.is_finite()) {
         return Err(not_converged().into());
     }
@@ -211,8 +210,8 @@ fn largest_multiplier_ln(
     }
 }
 
-/// The transition for x = (q, q̇/s) of another s: stages differ a little in stiffness, so
-/// that their scales may differ by a factor two.
+/// Converts a transition to x = (q, q̇/s) with another scale s: the stiffness of the stages differs slightly,
+/// so their scales may differ by a factor two.
 fn rescaled(propagator: &Propagator, scale_per_s: f64) -> Mat<f64> {
     let mut transition = propagator.transition().clone();
     let factor = propagator.scale_per_s() / scale_per_s;

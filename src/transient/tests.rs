@@ -1,5 +1,5 @@
-//! The saw in the cut and in the run-up: time histories against closed forms, invariants,
-//! another integrator, and the eigenvalues.
+//! The saw in the cut and in the run-up: time histories compared with closed forms, invariants, another
+//! integrator, and eigenvalues.
 
 use std::f64::consts::TAU;
 
@@ -36,7 +36,7 @@ fn run_at(rpm: f64) -> CutRun {
     paper_cut().at_rpm(rpm).unwrap()
 }
 
-/// ½ q̇ᵀq̇ + ½ qᵀKq: the gyroscopic force does no work, so that it stays what it is.
+/// ½ q̇ᵀq̇ + ½ qᵀKq, which is conserved because the gyroscopic force does no work.
 fn energy(system: &GyroscopicSystem, speed: f64, q: &Col<f64>, v: &Col<f64>) -> f64 {
     let stiffness = system.stiffness_at(speed);
     0.5 * (v.transpose() * v) + 0.5 * (q.transpose() * stiffness * q)
@@ -48,7 +48,7 @@ fn bent(order: usize) -> Col<f64> {
     })
 }
 
-/// Below the first critical speed, where every mode carries energy of one sign.
+/// The speed is below the first critical speed, where every mode has positive energy.
 #[test]
 fn an_undamped_unloaded_saw_keeps_its_energy() {
     let plate = paper_plate(Resolution {
@@ -69,7 +69,7 @@ fn an_undamped_unloaded_saw_keeps_its_energy() {
     };
     let lost = kept(&Propagator::new(&system, speed, &[], 2e-3).unwrap());
     assert!(lost < 1e-10, "{lost:e}");
-    // Each step solves with a matrix of condition 1e4 or so, and roundings add up.
+    // Each step solves with a matrix of condition number about 1e4, and rounding errors accumulate.
     let lost = kept(&Newmark::new(&system, (speed, 0.0), &[], 2e-3));
     assert!(lost < 1e-8, "{lost:e}");
 }
@@ -87,15 +87,15 @@ fn low_modes(system: &GyroscopicSystem, speed: f64) -> Mat<f64> {
     orthonormal(system.order(), &vectors, 1e-9)
 }
 
-/// Both integrators on the saw in the paper's cut at 2800 rpm, under a load that grows
-/// with time: halving Newmark's step quarters its distance to the exact answer.
+/// Both integrators on the saw in the paper's cut at 2800 rpm, under a load that grows with time: half of
+/// Newmark's step gives a quarter of its error.
 #[test]
 fn newmark_tends_to_the_exact_answer_in_second_order() {
     let plate = paper_plate(SMALL);
     let run = run_at(2800.0);
     let speed = run.speed_rad_per_s;
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&paper_cut(), &run));
-    // On few modes, for the stiffest of all would ask for steps of a microsecond.
+    // The basis contains few modes, because the stiffest would require steps of a microsecond.
     let basis = low_modes(&system, speed);
     let system = system.project(basis.as_ref());
     let rim = plate.functions_at(plate.blade.outer_radius_m, 0.3);
@@ -122,8 +122,8 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     assert!((order - 2.0).abs() < 0.02, "{order}: {coarse:e} {fine:e}");
 }
 
-/// Table 3's forces: an independent implementation has the saw stable at 1800 rpm, and
-/// 6.0 1/s at 4.53 Hz at 2800 rpm. The time history knows nothing of eigenvalues.
+/// With the forces of Table 3 an independent implementation finds the saw stable at 1800 rpm, and a growth of
+/// 6.0 1/s at 4.53 Hz at 2800 rpm. The time history does not use eigenvalues.
 #[test]
 fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let plate = paper_plate(DESIGN);
@@ -153,15 +153,14 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     );
     let dominant = loud.dominant_rad_per_s.unwrap() / TAU;
     assert!((dominant / hertz - 1.0).abs() < 1e-4, "{dominant} {hertz}");
-    // With the force that the measured power allows, both are stable.
+    // With the force that follows from the measured power, both are stable.
     for history in [quiet, loud] {
         assert_eq!(history.in_cut_by_power.unwrap().growth_per_s, 0.0);
         assert_eq!(history.idle.growth_per_s, 0.0);
     }
 }
 
-/// The probe's record on the few motions of the time history against the same on the
-/// full model.
+/// The record of the probe in the reduced basis equals that of the full model.
 #[test]
 fn few_motions_make_the_record_of_the_full_model() {
     let plate = paper_plate(SMALL);
@@ -191,9 +190,8 @@ fn few_motions_make_the_record_of_the_full_model() {
     assert!((few / whole - 1.0).abs() < 1e-3, "{few} {whole}");
 }
 
-/// Loads that travel with the teeth, by Floquet multipliers: the faster the teeth follow
-/// each other, the nearer to the mean of the loads. At 1960 teeth a second the two differ
-/// by 0.06 %; loads that stand still differ from both by 3 %.
+/// Floquet multipliers of moving loads approach those of mean loads as the teeth follow each other faster. At
+/// 1960 teeth a second the two differ by 0.06 %; stationary loads differ from both by 3 %.
 #[test]
 fn passing_teeth_act_like_their_mean() {
     let plate = paper_plate(DESIGN);
@@ -222,15 +220,15 @@ fn passing_teeth_act_like_their_mean() {
         8,
     )
     .unwrap();
-    // Moving loads on a saw without damping couple two high modes wherever their frequencies add
-    // up to a multiple of the teeth's. One such resonance, 0.07 rpm wide, lies near 1800 rpm, and
-    // the basis decides how near. Its growth stays below that which counts as flutter.
+    // On an undamped saw moving loads couple two high modes wherever their frequencies add up to a multiple
+    // of the tooth passing frequency. One such resonance, 0.07 rpm wide, is near 1800 rpm; its position
+    // depends on the basis. Its growth stays below the threshold of flutter.
     let threshold = Scene::paper().flutter_threshold_per_s();
     assert!(quiet.passing_growth_per_s < threshold, "{quiet:?}");
 }
 
-/// A point of the map between those whose modes it is made of, against a saw with its
-/// guides really moved and its loads really scaled, on the full model.
+/// A point of the map between its snapshots, compared with a saw whose guides are moved and whose loads are
+/// scaled, on the full model.
 #[test]
 fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     let (cut, run) = (paper_cut(), run_at(2800.0));
@@ -269,8 +267,8 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     }
 }
 
-/// Half the longest step changes the deflection in a run-up by less than one part in a
-/// hundred; a slow run-up below the critical speed is a row of static deflections.
+/// Half the largest step changes the deflection in a run-up by less than one percent; a slow run-up below the
+/// critical speed follows the static deflection.
 #[test]
 fn a_run_up_converges_and_is_static_when_slow() {
     let plate = paper_plate(SMALL);

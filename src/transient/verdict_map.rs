@@ -13,26 +13,26 @@ use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::{SawInCut, lateral_load};
 use super::{Growth, TransientError};
 
-/// Growth rates of one speed on a grid.
+/// Growth rates at one speed on a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct VerdictMap {
-    /// By how much all guides are moved around the axis.
+    /// Angles by which all guides are moved around the axis.
     pub turns_rad: Vec<f64>,
-    /// Multiples of the radial and tangential forces.
+    /// Factors of the radial and tangential forces.
     pub load_levels: Vec<f64>,
-    /// Growth: one row a load level, one column a turn.
+    /// Growth rates, with one row for each load level and one column for each angle.
     pub growth_per_s: Vec<Vec<f64>>,
 }
 
-/// Turns at which the modes in the cut join the basis.
+/// Number of angles at which the modes in the cut are added to the basis.
 const SNAPSHOTS: usize = 3;
-/// Modes of each: flutter in the cut is slow.
+/// Number of modes of each; flutter in the cut has low frequencies.
 const MODES: usize = 8;
 
-/// Maps the growth rate of one speed.
+/// Computes the map at one speed.
 ///
-/// Guides turned by α and the cut in its place are, but for a turn of the whole, guides in
-/// their place and the cut turned by −α: one basis then serves the map.
+/// Rotating the guides by α is equivalent, except for a rotation of the whole, to rotating the cut by −α, so
+/// that one basis serves the whole map.
 ///
 /// # Errors
 /// [`TransientError::Spectrum`].
@@ -72,7 +72,7 @@ pub fn verdict_map(
     })
 }
 
-/// The motions of the idle saw and of the cutting one with its cut turned to a few angles.
+/// The basis of the idle saw and of the saw with its cut rotated to a few angles.
 fn map_basis(
     saw: &SawInCut<'_>,
     turns_rad: &[f64],
