@@ -21,18 +21,17 @@
 //! # }
 //! ```
 //!
-//! The modules stand in the order in which a saw goes through them, and each imports only from
-//! those before it: [`scene`] → [`plate`] → [`system`] →
-//! [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] stand after [`stability`],
-//! [`study`] after [`check`]; [`spline`] stands beside [`system`]: it imports [`scene`] and
-//! [`plate`] alone, [`stretched`] beside [`campbell`]. [`analytical`] imports nothing: closed
-//! forms with their sources, which the tests hold the rest against.
+//! The modules are in the order in which a scene passes through them, and each imports only from those before
+//! it: [`scene`] → [`plate`] → [`system`] → [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
+//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] follow [`stability`], [`study`] follows
+//! [`check`]. [`spline`] is on the level of [`system`] and imports [`scene`] and [`plate`] alone;
+//! [`stretched`] is on the level of [`campbell`]. [`analytical`] imports nothing; it contains closed forms
+//! with their sources, with which tests compare the other modules.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
-// The integration tests' draws of saws serve the unit tests too, by the crate's own name.
+// Unit tests use the random saws of the integration tests, which refer to the crate by its name.
 #[cfg(test)]
 extern crate self as sawflutter;
 
@@ -64,7 +63,7 @@ pub mod transient;
 mod tuned;
 pub mod washboarding;
 
-/// What most programs that use the library need.
+/// Items that most programs need.
 pub mod prelude {
     pub use crate::check::{Check, Limits};
     pub use crate::report::Report;

@@ -1,19 +1,19 @@
 //! The equation of motion at a rotation speed.
 //!
-//! In goes a [`Plate`]; out comes a [`GyroscopicSystem`], its matrices put together, and from that
-//! K(Ω) and the factor of q̇ at any speed:
+//! A [`Plate`] gives a [`GyroscopicSystem`], its assembled matrices, and from that K(Ω) and the factor of q̇
+//! at any speed:
 //!
-//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ + K_n] q = 0, mass matrix one,
-//! K₀ = K_b + K_m + K_g + K_e. Terms that the scene does not name are absent.
+//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ + K_n] q = 0 with the identity as mass matrix and K₀ =
+//! K_b + K_m + K_g + K_e. Terms that the scene does not contain are absent.
 //!
-//! It is the plate's equation ρh D²w/Dt² + … = 0 with the convective derivative D/Dt = ∂t + Ω∂θ:
-//! D² gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the
-//! strain rate of the turning blade, η K_b Dq/Dt, hence its part η K_b in C and K_circ = η K_b G; air
-//! that turns with the share s of the speed resists w_t + sΩw_θ.
+//! This is the equation ρh D²w/Dt² + … = 0 of the plate with the convective derivative D/Dt = ∂t + Ω∂θ: D²
+//! gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the strain rate of
+//! the turning blade, η K_b Dq/Dt, hence the part η K_b of C, and K_circ = η K_b G; air that turns with the
+//! share s of the speed resists w_t + sΩw_θ.
 //!
-//! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster,
-//! *Strongly stable gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for the signs
-//! that symmetry and skewness give.
+//! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster, *Strongly stable
+//! gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for Krein signs as a consequence of
+//! symmetry and skewness.
 
 use faer::{Col, Mat, MatRef, Scale, c64};
 use nalgebra::DMatrix;
@@ -34,33 +34,32 @@ pub(crate) fn dynamic_stiffness(
     dynamic
 }
 
-/// Matrices of the gyroscopic system, N × N; projecting them on fewer vectors
-/// gives a system of the same kind.
+/// Matrices of the gyroscopic system, N × N; their projection on fewer vectors is a system of the same kind.
 #[derive(Debug, Clone)]
 pub struct GyroscopicSystem {
     /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric: bending, membrane stress, guides, edge loads.
     pub stiffness: Mat<f64>,
-    /// K_σ − N, dimensionless, symmetric: centrifugal tension less what the convective derivative
-    /// takes, N = n² for the waves of n nodal diameters.
+    /// K_σ − N, dimensionless, symmetric: centrifugal tension minus the convective term, N = n² for the waves
+    /// of n nodal diameters.
     pub spin: Mat<f64>,
     /// G = ∂θ in the basis, dimensionless, skew: n between the sines and cosines of n.
     pub gyroscopic: Mat<f64>,
     /// C, in 1/s, symmetric: pads, air and material.
     pub damping: Option<Mat<f64>>,
-    /// K_circ = η K_b G + s C_a G, in 1/s: material damping turns with the blade, and air, whose
-    /// part of C is C_a, with the share s of its speed.
+    /// K_circ = η K_b G + s C_a G, in 1/s: material damping turns with the blade, and air, with the part C_a
+    /// of C, with the share s of its speed.
     pub circulatory: Option<Mat<f64>>,
     /// K_n, in 1/s², of no symmetry: contact forces that have no potential.
     pub nonconservative: Option<Mat<f64>>,
     /// Rigid motions z that nothing holds, orthonormal: K(Ω) z = 0 at every speed.
     pub free_rigid: Vec<Col<f64>>,
-    /// What free rigid motions add to K_σ − N for a wave that stands still, see
+    /// Contribution of free rigid motions to K_σ − N for a wave that stands still, see
     /// [`GyroscopicSystem::standing_spin`]; dimensionless.
     pub drift: Option<Mat<f64>>,
 }
 
 impl GyroscopicSystem {
-    /// The whole plate, N × N.
+    /// The system of the whole plate, N × N.
     pub fn of_plate(plate: &Plate) -> Self {
         let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
         let fixed_in_space = [plate.contact.stiffness(), plate.edge_stiffness.as_ref()];
@@ -78,8 +77,7 @@ impl GyroscopicSystem {
         system
     }
 
-    /// The part of n nodal diameters, which nothing couples to others when the
-    /// plate is axisymmetric.
+    /// The block of n nodal diameters, which is decoupled from others if the plate is axisymmetric.
     pub fn of_harmonic(plate: &Plate, n: usize) -> Self {
         let mut system = Self::of_harmonics(plate, n..=n);
         system.find_free_rigid_motions(plate, plate.offset(n));
@@ -111,7 +109,8 @@ impl GyroscopicSystem {
         system
     }
 
-    /// Called before membrane stress, guides and edge loads join the stiffness, so K₀ is K_b here.
+    /// This is called before membrane stress, guides and edge loads are added to the stiffness, so K₀ is K_b
+    /// here.
     fn add_blade_damping(&mut self, plate: &Plate, range: std::ops::RangeInclusive<usize>) {
         let Some(damping) = plate.damping else {
             return;
@@ -141,11 +140,11 @@ impl GyroscopicSystem {
         self.damping = Some(total);
     }
 
-    /// Heave and tilt without stiffness. `first` is the index of the first unknown in the
-    /// basis of the plate.
+    /// Finds heave and tilt without stiffness. `first` is the index of the first unknown in the basis of the
+    /// plate.
     fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
-        // A force without potential does work on a rigid motion that nothing else resists: its
-        // momentum changes.
+        // A force without potential does work on a rigid motion that nothing else resists, so that its
+        // momentum is not conserved.
         if !plate.basis.has_rigid_motions() || self.nonconservative.is_some() {
             return;
         }
@@ -178,7 +177,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// 4 GᵀZ₀Z₀ᵀG, Z₀ the free rigid motions that G does not couple with each other.
+    /// 4 GᵀZ₀Z₀ᵀG with the free rigid motions Z₀ that G does not couple with each other.
     fn drift_of_free_motions(&self) -> Option<Mat<f64>> {
         let turned: Vec<Col<f64>> = self
             .free_rigid
@@ -206,13 +205,13 @@ impl GyroscopicSystem {
         drift
     }
 
-    /// What K₀ + Ω²(…) has to be for a wave to stand still: K_σ − N, and 4GᵀzzᵀG for a rigid
-    /// motion z that nothing holds. Its momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every
-    /// motion that oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and
-    /// 2ΩG times that drift is a force which grows with q, as that of a spring.
+    /// The matrix in place of K_σ − N for which K₀ + Ω²(…) is singular when a wave stands still: it includes
+    /// 4GᵀzzᵀG for a free rigid motion z. The momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every motion
+    /// that oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and 2ΩG times that drift is a
+    /// force proportional to q, as that of a spring.
     ///
-    /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until
-    /// the other's momentum vanishes.
+    /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until the momentum of
+    /// the other vanishes.
     pub fn standing_spin(&self) -> Mat<f64> {
         match &self.drift {
             Some(drift) => &self.spin + drift,
@@ -261,9 +260,8 @@ impl GyroscopicSystem {
         velocity
     }
 
-    /// Galerkin projection on the orthonormal columns of V: symmetric stays
-    /// symmetric and skew stays skew, so Krein's theory holds for the small system too.
-    /// V must span the free rigid motions.
+    /// Galerkin projection on the orthonormal columns of V. It preserves symmetry and skewness, so that
+    /// Krein's theory applies to the small system too. V must contain the free rigid motions.
     pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
         self.times(basis).onto(basis)
     }
@@ -283,7 +281,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// K₀, K_σ − N and G without other terms, or their products with some vectors.
+    /// K₀, K_σ − N and G without other terms, or their products with vectors.
     pub(crate) fn undamped(stiffness: Mat<f64>, spin: Mat<f64>, gyroscopic: Mat<f64>) -> Self {
         GyroscopicSystem {
             stiffness,
@@ -348,11 +346,11 @@ fn air_area(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Option<Mat
     Some(spread(plate, range, &blocks?))
 }
 
-/// Share of the largest number below which a number is rounding.
+/// Entries below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A matrix that couples no harmonics, from its blocks of n = 0 … n_max: the part of the given n,
-/// the same block for cosines and sines.
+/// A matrix that couples no harmonics, from its blocks of n = 0 … n_max; the rows and columns are those of
+/// `range`, and cosines and sines have the same block.
 pub(crate) fn spread(
     plate: &Plate,
     range: std::ops::RangeInclusive<usize>,

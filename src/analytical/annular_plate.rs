@@ -10,25 +10,25 @@
 use super::bessel::{Point, four};
 use super::bisected;
 
-/// What holds the bore; the rim is free.
+/// Boundary condition at the bore; the rim is free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bore {
-    /// No bending moment, no Kirchhoff shear force.
+    /// No bending moment and no Kirchhoff shear force.
     Free,
-    /// No deflection, no slope.
+    /// No deflection and no slope.
     Clamped,
 }
 
-/// Small beside the distance of two roots of one n in kb, which is π/(1 − a/b) for the higher
+/// Step in kb, small compared with the distance of two roots of one n, which is π/(1 − a/b) for the higher
 /// ones and above 1 for all.
 const STEP: f64 = 0.1;
-/// Largest kb looked at.
+/// Largest kb of the search.
 const LARGEST: f64 = 1000.0;
 
 /// A thin annular plate with a free rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnnularPlate {
-    /// What holds the bore.
+    /// Boundary condition at the bore.
     pub bore: Bore,
     /// a/b.
     pub radius_ratio: f64,
@@ -41,13 +41,12 @@ impl AnnularPlate {
     /// has s nodal circles, for a free bore and n ≤ 1 one more. Rigid heave and tilt of a free plate
     /// (λ = 0) are not among them.
     ///
-    /// Valid for 0.001 ≤ a/b ≤ 0.995, n ≤ 64, −0.99 ≤ ν < 0.5 and kb = √λ² < 1000, where the roots
-    /// were found right to 1e-10 or better. Beyond what can be computed the list is shorter than
-    /// `count`.
+    /// Valid for 0.001 ≤ a/b ≤ 0.995, n ≤ 64, −0.99 ≤ ν < 0.5 and kb = √λ² < 1000, where the roots are
+    /// accurate to 1e-10 or better. Outside this range the list may be shorter than `count`.
     pub fn roots(&self, nodal_diameters: usize, count: usize) -> Vec<f64> {
         let at = |k: f64| self.determinant(nodal_diameters, k);
-        // Below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and ≥ 0.9 n for more,
-        // the umbrella of ν = −0.99 has 1.04. Further below the determinant is rounding.
+        // The search starts below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and ≥ 0.9 n
+        // for larger n, the mode n = 0 for ν = −0.99 has 1.04. At smaller kb the determinant is rounding.
         let mut low = f64::max(0.5, 0.6 * nodal_diameters as f64);
         let mut before = at(low);
         let mut found = Vec::new();
@@ -76,8 +75,8 @@ impl AnnularPlate {
             / rim_radius_m.powi(2)
     }
 
-    /// The determinant of the two conditions at the bore and the two at the rim, rows and columns
-    /// scaled to one size; `rim_argument` is kb.
+    /// The determinant of the two conditions at the bore and the two at the rim, with rows and columns
+    /// scaled; `rim_argument` is kb.
     pub fn determinant(&self, nodal_diameters: usize, rim_argument: f64) -> f64 {
         let inner_argument = self.radius_ratio * rim_argument;
         let at_bore = functions(nodal_diameters, inner_argument);
@@ -92,7 +91,7 @@ impl AnnularPlate {
         };
         let [third, fourth] = free(&at_rim, rim_argument);
         let mut rows = [first, second, third, fourth];
-        // I and K come without their exponentials: what is left of them between the two edges.
+        // I and K have no exponential factor here; what remains is its ratio between the two edges.
         let decay = (inner_argument - rim_argument).exp();
         for row in &mut rows[..2] {
             row[2] *= decay;
@@ -104,7 +103,7 @@ impl AnnularPlate {
     }
 }
 
-/// One of J, Y, I, K at an edge, and the factor of its Laplacian: ∇²f = ∓f in units of 1/k².
+/// One of J, Y, I, K at an edge, with the sign of its Laplacian: ∇²f = ∓f in units of 1/k².
 #[derive(Clone, Copy)]
 struct Term {
     at: Point,
@@ -137,8 +136,8 @@ fn free_edge(at: &[Term; 4], n: usize, x: f64, nu: f64) -> [[f64; 4]; 2] {
     [at.map(moment), at.map(shear)]
 }
 
-/// Gaussian elimination with partial pivoting, after rows and columns have been divided by their
-/// largest numbers, which moves no root.
+/// Gaussian elimination with partial pivoting, after dividing rows and columns by their largest entries,
+/// which does not change roots.
 fn scaled_determinant(mut rows: [[f64; 4]; 4]) -> f64 {
     for column in 0..4 {
         let largest = rows

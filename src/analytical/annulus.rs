@@ -1,4 +1,4 @@
-//! Stress of a flat annulus of one thickness under loads that are the same all around, and its tilt.
+//! Stress of a flat annulus of uniform thickness under axisymmetric loads, and its tilt.
 //!
 //! Sources: S. P. Timoshenko & J. N. Goodier, *Theory of Elasticity*, 3rd ed. (1970), section 28 (Lamé
 //! 1852) for the ring under tension, 32 for rotation, 43 for the torque, 150 for heat.
@@ -14,7 +14,7 @@ pub struct Annulus {
     pub rim_radius_m: f64,
 }
 
-/// Stress that is the same all around, at one radius.
+/// Axisymmetric stress at one radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RadialAndHoop {
     /// σ_rr, in Pa.
@@ -24,8 +24,8 @@ pub struct RadialAndHoop {
 }
 
 impl Annulus {
-    /// Stress at a radius under the tension p at the rim, the bore free: A ∓ B/r² with
-    /// A = p b²/(b² − a²) and B = A a². A pressure is a negative tension.
+    /// Stress at a radius under the tension p at the rim, with a free bore: A ∓ B/r² with A = p b²/(b² − a²)
+    /// and B = A a². A pressure is a negative tension.
     pub fn stress_under_rim_tension(&self, tension_pa: f64, radius_m: f64) -> RadialAndHoop {
         let (aa, bb) = (self.bore_radius_m.powi(2), self.rim_radius_m.powi(2));
         let uniform = tension_pa * bb / (bb - aa);
@@ -36,8 +36,8 @@ impl Annulus {
         }
     }
 
-    /// σ_rθ in Pa at a radius under a torque T at the rim that is held at the bore: T/(2πr²h), whatever
-    /// a and b, and no other stress.
+    /// σ_rθ in Pa at a radius under a torque T at the rim that the bore reacts: T/(2πr²h), for any a and b;
+    /// other stresses are zero.
     pub fn shear_under_torque_pa(torque_n_m: f64, thickness_m: f64, radius_m: f64) -> f64 {
         torque_n_m / (TAU * radius_m.powi(2) * thickness_m)
     }
@@ -61,9 +61,9 @@ impl Annulus {
         }
     }
 
-    /// Stress of steady rotation, the bore held, u(a) = 0, the rim free. With
-    /// v = u E/((1 − ν²)ρΩ²) = A r + B/r − r³/8, σ_rr = ρΩ² (v′ + ν v/r) and
-    /// σ_θθ = ρΩ² (v/r + ν v′); A and B from v(a) = 0, σ_rr(b) = 0.
+    /// Stress of steady rotation with a fixed bore, u(a) = 0, and a free rim. With v = u E/((1 − ν²)ρΩ²) = A
+    /// r + B/r − r³/8, σ_rr = ρΩ² (v′ + ν v/r) and σ_θθ = ρΩ² (v/r + ν v′); A and B follow from v(a) = 0,
+    /// σ_rr(b) = 0.
     ///
     /// `load_pa_per_m2` is ρΩ².
     pub fn stress_of_rotation_with_held_bore(
@@ -87,11 +87,11 @@ impl Annulus {
         }
     }
 
-    /// Thermal stress of the rise T = ΔT ((r − a)/(b − a))², both edges free. With
-    /// I(r) = ∫ T r dr from the bore to r, σ_rr = αE/r² [(r² − a²)/(b² − a²) I(b) − I(r)] and
-    /// σ_θθ = αE/r² [(r² + a²)/(b² − a²) I(b) + I(r) − T r²]. A uniform rise adds nothing.
+    /// Thermal stress of the rise T = ΔT ((r − a)/(b − a))², both edges free. With I(r) = ∫ T r dr from the
+    /// bore to r, σ_rr = αE/r² [(r² − a²)/(b² − a²) I(b) − I(r)] and σ_θθ = αE/r² [(r² + a²)/(b² − a²) I(b) +
+    /// I(r) − T r²]. A uniform rise causes no stress.
     ///
-    /// `rim_load_pa` is αE ΔT, ΔT the rise of the rim over the bore.
+    /// `rim_load_pa` is αE ΔT with the temperature difference ΔT between rim and bore.
     pub fn stress_of_square_rise(&self, rim_load_pa: f64, radius_m: f64) -> RadialAndHoop {
         let (a, b, r) = (self.bore_radius_m, self.rim_radius_m, radius_m);
         let primitive = |r: f64| r.powi(4) / 4.0 - 2.0 * a * r.powi(3) / 3.0 + a * a * r * r / 2.0;
@@ -105,8 +105,8 @@ impl Annulus {
         }
     }
 
-    /// The same of heat conducted steadily between rim and bore, T = ΔT ln(r/a)/ln(b/a): equation (g)
-    /// of section 150, there with the bore the hotter edge.
+    /// Thermal stress of steady heat conduction between rim and bore, T = ΔT ln(r/a)/ln(b/a): equation (g) of
+    /// section 150, where the bore is the hotter edge.
     pub fn stress_of_conducted_heat(&self, rim_load_pa: f64, radius_m: f64) -> RadialAndHoop {
         let (a, b, r) = (self.bore_radius_m, self.rim_radius_m, radius_m);
         let logarithm = (b / a).ln();
@@ -125,8 +125,8 @@ impl Annulus {
         0.25 * PI * mass_per_area_kg_per_m2 * fourths
     }
 
-    /// ω² of the tilt at rest under the tension p at the rim, in 1/s²: 4 p b²/ρ(b⁴ − a⁴), as long as the
-    /// annulus hardly bends; see [`super::tilt`].
+    /// ω² of the tilt at rest under the tension p at the rim, in 1/s²: 4 p b²/ρ(b⁴ − a⁴), if bending is
+    /// negligible; see [`super::tilt`].
     pub fn tilt_frequency_squared_under_rim_tension(
         &self,
         density_kg_per_m3: f64,

@@ -1,9 +1,8 @@
 //! Bessel functions of integer order and positive argument, to about fourteen digits.
 //!
-//! J and I come from their backward recurrences, normalised by J₀ + 2ΣJ₂ₖ = 1 and
-//! I₀ + 2ΣIₖ = eˣ (Miller); Y₀ and Y₁ from Neumann's series in the same J, K₀ and K₁ from
-//! Kₙ(x) = ∫ exp(−x cosh t) cosh nt dt by the trapezoidal rule, which converges faster than any
-//! power of its step; Y and K of higher order from their forward recurrences.
+//! J and I follow from backward recurrences, normalized by J₀ + 2ΣJ₂ₖ = 1 and I₀ + 2ΣIₖ = eˣ (Miller); Y₀ and
+//! Y₁ from Neumann's series in J; K₀ and K₁ from Kₙ(x) = ∫ exp(−x cosh t) cosh nt dt by the trapezoidal rule,
+//! which converges faster than any power of its step; Y and K of higher order from forward recurrences.
 //!
 //! Sources: Abramowitz & Stegun, *Handbook of Mathematical Functions*, 9.1.27, 9.1.46, 9.1.88,
 //! 9.6.24, 9.6.26, 9.6.37, 9.12; Trefethen & Weideman, SIAM Review 56 (2014), 385–458.
@@ -50,7 +49,7 @@ pub(super) fn four(n: usize, x: f64) -> Four {
 /// J₀, J₁, … (sign −1) or e^{−x} I₀, e^{−x} I₁, … (sign 1), from
 /// f of order m − 1 = (2m/x) f of order m + sign · f of order m + 1.
 fn by_backward_recurrence(orders: usize, x: f64, sign: f64) -> Vec<f64> {
-    // Far enough above order and argument that what the recurrence starts from is forgotten.
+    // The starting order is so far above order and argument that starting values have no influence.
     let above = (orders as f64).max(x);
     let start = 2 * ((0.5 * (above + 20.0 + (60.0 * above).sqrt())) as usize) + 2;
     let mut values = vec![0.0_f64; start + 2];
@@ -70,7 +69,7 @@ fn by_backward_recurrence(orders: usize, x: f64, sign: f64) -> Vec<f64> {
     values
 }
 
-/// Yₙ and Yₙ₊₁, from J₀, J₁, … far beyond the argument.
+/// Yₙ and Yₙ₊₁, from J₀, J₁, … up to orders far beyond the argument.
 fn second_kind(n: usize, x: f64, bessel_j: &[f64]) -> [f64; 2] {
     let logarithm = (0.5 * x).ln() + GAMMA;
     let (mut zero, mut one) = (
@@ -90,9 +89,9 @@ fn second_kind(n: usize, x: f64, bessel_j: &[f64]) -> [f64; 2] {
 
 /// e^{x} Kₙ and e^{x} Kₙ₊₁.
 fn scaled_modified_second_kind(n: usize, x: f64) -> [f64; 2] {
-    // Beyond, exp(−x (cosh t − 1)) is below the smallest number.
+    // Beyond this t, exp(−x (cosh t − 1)) underflows.
     let end = (1.0 + 745.0 / x).acosh();
-    // Fine enough for the decay in t and, at large x, for a bell of width 1/√x.
+    // The step resolves the decay in t and, at large x, a bell of width 1/√x.
     let step = f64::min(0.1, 0.6 / x.sqrt());
     let mut sum = [0.5, 0.5];
     for k in 1..=(end / step) as usize {

@@ -1,10 +1,10 @@
-//! Waves of a blade that nothing outside touches, of n nodal diameters.
+//! Waves of n nodal diameters of a blade without contacts.
 //!
-//! On the blade a wave has the frequency ω_b, ω_b² = ω₀² + κΩ² for a shape that does not change
-//! with the speed: ω₀ is its frequency at rest, κ its stiffening by rotation (Rayleigh's
-//! quotients of bending and of centrifugal tension; κ is what [`super::spinning_membrane`] gives
-//! for the shape of a membrane). The true lowest frequency, whose shape adapts, is not below the
-//! value with the lowest ω₀ and the lowest κ, and not above that of any one shape.
+//! On the blade a wave has the frequency ω_b, with ω_b² = ω₀² + κΩ² for a shape that does not change with the
+//! speed: ω₀ is its frequency at rest, κ its stiffening by rotation (Rayleigh quotients of bending and of
+//! centrifugal tension; [`super::spinning_membrane`] gives κ for the shapes of a membrane). The true lowest
+//! frequency, whose shape changes with the speed, is at least that of the lowest ω₀ with the lowest κ, and at
+//! most that of any fixed shape.
 //!
 //! Sources: R. V. Southwell, Proc. R. Soc. Lond. A 101 (1922), 133–153; W. D. Iwan & K. J.
 //! Stahl, J. Appl. Mech. 40 (1973), 445–451; Huang & Crandall, J. Appl. Mech. 41 (1974), for
@@ -28,24 +28,23 @@ impl FreeWave {
         (self.rest_frequency_rad_per_s.powi(2) + stiffened).sqrt()
     }
 
-    /// The speed in rad/s at which the backward wave stands still in space: nΩ = ω_b, so
-    /// Ω = ω₀/√(n² − κ). `None` where tension outruns the speed, n² ≤ κ, as for n ≤ 1.
+    /// The speed in rad/s at which the backward wave stands still in space: nΩ = ω_b, so Ω = ω₀/√(n² − κ).
+    /// `None` if centrifugal stiffening prevents it, n² ≤ κ, as for n ≤ 1.
     pub fn critical_speed_rad_per_s(&self) -> Option<f64> {
         self.damped_onset_rad_per_s(LightDamping::default())
     }
 
     /// The speed in rad/s from which light damping makes the backward wave grow.
     ///
-    /// Seen from the blade the backward wave has the frequency ω_b; seen from air that turns at sΩ it is
-    /// carried along with the difference of the two speeds and has ω_b − n(1 − s)Ω. The work of both
-    /// dampings, η ω₀² ω_b + (c/ρh)(ω_b − n(1 − s)Ω), vanishes at Ω = q ω₀/√(n²(1 − s)² − κq²) with
-    /// q = 1 + η ω₀² ρh/c. Without material damping and in air at rest that is the critical speed; both
-    /// the material and the turning of the air delay the onset beyond it, and with either alone (no
-    /// air, or s = 1) it never comes. `None` where there is none, κq² ≥ n²(1 − s)².
+    /// In the body frame the backward wave has the frequency ω_b, in air that turns at sΩ the frequency ω_b −
+    /// n(1 − s)Ω. The work of both dampings, η ω₀² ω_b + (c/ρh)(ω_b − n(1 − s)Ω), vanishes at Ω = q ω₀/√(n²(1
+    /// − s)² − κq²) with q = 1 + η ω₀² ρh/c. Without material damping and in air at rest that is the critical
+    /// speed. Material damping and rotation of the air both delay the onset beyond it; without air, or with s
+    /// = 1, there is none. `None` if there is no onset, κq² ≥ n²(1 − s)².
     ///
-    /// Exact to first order in the damping ratios. Air that turns relative to the disk: M. H. Hansen, A.
-    /// Raman & C. D. Mote, *Estimation of nonconservative aerodynamic pressure leading to flutter of
-    /// spinning disks*, J. Fluids Struct. 15 (2001), 39–57.
+    /// The result is exact to first order in the damping ratios. For air that turns relative to the disk: M.
+    /// H. Hansen, A. Raman & C. D. Mote, *Estimation of nonconservative aerodynamic pressure leading to
+    /// flutter of spinning disks*, J. Fluids Struct. 15 (2001), 39–57.
     pub fn damped_onset_rad_per_s(&self, damping: LightDamping) -> Option<f64> {
         let q = 1.0 + damping.material_to_air;
         let carried = self.nodal_diameters as f64 * (1.0 - damping.air_rotation_share);
@@ -54,9 +53,8 @@ impl FreeWave {
     }
 }
 
-/// Frequencies in space of the forward and the backward wave, ω_b + nΩ and ω_b − nΩ, in rad/s.
-/// Where the second is negative the wave is reflected: past its critical speed it is carried
-/// forward.
+/// Frequencies in space of the forward and the backward wave, ω_b + nΩ and ω_b − nΩ, in rad/s. If the second
+/// is negative the wave is reflected: above its critical speed it travels forward.
 pub fn space_frequencies_rad_per_s(
     nodal_diameters: usize,
     body_frequency_rad_per_s: f64,
@@ -72,15 +70,15 @@ pub fn space_frequencies_rad_per_s(
 /// Light damping of a wave by air and by the material of the blade.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightDamping {
-    /// η ω₀² ρh/c, the ratio of the two dampings of the wave at rest: the material has the
-    /// retardation time η, the air the resistance c per area on a blade of mass ρh per area.
+    /// η ω₀² ρh/c, the ratio of the two dampings of the wave at rest, with the retardation time η of the
+    /// material, the resistance c of the air per area, and the mass ρh per area.
     pub material_to_air: f64,
-    /// s, the speed with which the air turns over that of the blade: 0 for air at rest in space.
+    /// s, the ratio of the rotation speed of the air to that of the blade; 0 for air at rest in space.
     pub air_rotation_share: f64,
 }
 
-/// ω_b on an even bed of springs under the whole blade, in rad/s: √(ω_b² + k″/ρh), with k″ in N/m
-/// per m². Every shape is as much stiffened as any other.
+/// ω_b on a uniform bed of springs under the whole blade, in rad/s: √(ω_b² + k″/ρh), with k″ in N/m per m².
+/// The bed stiffens all shapes equally.
 pub fn on_a_bed_rad_per_s(
     body_frequency_rad_per_s: f64,
     bed_stiffness_n_per_m3: f64,
@@ -93,7 +91,7 @@ pub fn on_a_bed_rad_per_s(
 mod tests {
     use super::*;
 
-    /// The work of the two dampings, put down for itself, changes its sign at the onset.
+    /// At the onset the work of the two dampings changes its sign; it is evaluated separately.
     #[test]
     fn no_work_is_done_at_the_onset() {
         let (n, ratio, share) = (3, 0.1, 0.3);
@@ -110,7 +108,7 @@ mod tests {
         };
         let speed = onset(ratio, share).unwrap();
         let body = wave.body_frequency_rad_per_s(speed);
-        // Seen from the air the wave is carried by what the blade is faster.
+        // In the frame of the air the wave turns with the difference of the two speeds.
         let [_, backward] = space_frequencies_rad_per_s(n, body, (1.0 - share) * speed);
         assert!((ratio * body + backward).abs() < 1e-12 * body);
         let critical = wave.critical_speed_rad_per_s().unwrap();

@@ -1,9 +1,8 @@
 //! Closed forms of plate, membrane and rotor theory, each with its source.
 //!
-//! They are the independent answers that the tests hold the program against, and serve for
-//! estimates by hand. The module imports nothing of the crate: arguments and results are plain
-//! numbers in SI units, and no function panics. What has no answer gives `None`, an empty list,
-//! or a value that is not a number where the arguments are outside the validity stated.
+//! They are independent references for the tests and serve for estimates by hand. The module imports nothing
+//! from the crate: arguments and results are numbers in SI units, and no function panics. Without a solution,
+//! or outside the stated validity, a function returns `None`, an empty list or NaN.
 //!
 //! | question | module |
 //! |---|---|
@@ -18,9 +17,9 @@
 //! | one degree of freedom in time | [`oscillator`] |
 //! | one mode under a force that depends on the surface left by the tooth before | [`regenerative`] |
 //!
-//! Signs and symbols are those of the whole crate: a bore radius, b rim radius, r radius, θ angle
-//! in the direction of rotation, n nodal diameters, ν Poisson's ratio, ρ density, Ω rotation
-//! speed. Tension is positive.
+//! Signs and symbols are those of the whole crate: a bore radius, b rim radius, r radius, θ angle in the
+//! direction of rotation, n nodal diameters, ν Poisson's ratio, ρ density, Ω rotation speed. Tension is
+//! positive.
 
 pub mod annular_plate;
 pub mod annulus;
@@ -34,8 +33,8 @@ pub mod spinning_membrane;
 pub mod tilt;
 pub mod wave_coupling;
 
-/// The root of a function that is negative towards `low` and positive towards `high`, by halving
-/// to the last digit. It is not evaluated at the ends, which may be poles.
+/// The root of a function that is negative near `low` and positive near `high`, by bisection to machine
+/// precision. The function is not evaluated at the ends, which may be poles.
 fn bisected(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = 0.5 * (low + high);

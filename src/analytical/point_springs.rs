@@ -1,11 +1,10 @@
-//! A blade on S equal point springs, evenly spaced on one radius and fixed in space; S = 1 is the
-//! single spring.
+//! A blade on S equal, evenly spaced point springs at one radius, fixed in space; S = 1 is a single spring.
 //!
-//! With waves of the signed wave number p (n and −n for n nodal diameters), on the blade of
-//! frequency ω_p, a motion e^{λt} meets the springs with the compliance
-//! Σ g_p²/(ω_p² + (λ − ipΩ)²); g_p = f/√2, or f for n = 0, where f is the amplitude at the
-//! springs' radius of the mode f cos nθ of unit modal mass. S springs couple only wave numbers that
-//! differ by a multiple of S. Each class p ≡ c (mod S) has an equation of its own:
+//! With waves of the signed wave number p (n and −n for n nodal diameters) and the frequency ω_p on the
+//! blade, the compliance for a motion e^{λt} at the springs is Σ g_p²/(ω_p² + (λ − ipΩ)²) with g_p = f/√2, or
+//! f for n = 0, where f is the amplitude, at the springs' radius, of the mode f cos nθ of unit modal mass. S
+//! springs couple only wave numbers that differ by a multiple of S. Each class p ≡ c (mod S) has its own
+//! equation:
 //!
 //! 1 + S k Σ_{p ≡ c} g_p²/(ω_p² + (λ − ipΩ)²) = 0.
 //!
@@ -27,7 +26,7 @@ pub struct BodyWave {
 }
 
 impl BodyWave {
-    /// g², in 1/kg: what one of the two waves that make up the mode has.
+    /// g², in 1/kg, of one of the two waves of which the mode consists.
     pub(super) fn share_per_kg(&self) -> f64 {
         let halves = if self.nodal_diameters == 0 { 1.0 } else { 2.0 };
         self.amplitude_per_sqrt_kg.powi(2) / halves
@@ -82,8 +81,8 @@ impl EvenSprings {
         sum
     }
 
-    /// The eigenvalue [Re, Im] of the class c to which the secant method converges from a place near
-    /// it, in 1/s. `None` where it does not.
+    /// The eigenvalue [Re, Im] of the class c, in 1/s, to which the secant method converges from a starting
+    /// value; `None` if it does not converge.
     pub fn eigenvalue_near(
         &self,
         class: i64,
@@ -127,16 +126,15 @@ fn quotient(numerator: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
 /// A standing wave x of the unsupported blade at the springs: with xᵀK_b x = 1 J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StandingWave {
-    /// μ = xᵀ(N − K_σ)x, in s²: 1/Ω² of its critical speed; not positive where it has none.
+    /// μ = xᵀ(N − K_σ)x, in s²: 1/Ω² of its critical speed; not positive if it has none.
     pub inverse_critical_speed_squared_s2: f64,
     /// f, its deflection at the spring, in m.
     pub deflection_m: f64,
 }
 
-/// Critical speeds in rad/s of a clamped blade on one point spring: the roots of
-/// 1/k + Σ f²/(1 − Ω²μ) = 0, ascending. One lies between each two neighbouring critical speeds of
-/// the waves that the spring feels (μ > 0, f ≠ 0), and one beyond the last unless nothing holds
-/// it. With k = ∞ the blade is pinned.
+/// Critical speeds in rad/s of a clamped blade on one point spring: the roots of 1/k + Σ f²/(1 − Ω²μ) = 0,
+/// ascending. One lies between any two neighbouring critical speeds of the waves that the spring affects (μ >
+/// 0, f ≠ 0), and one above the last, unless the blade is free. For k = ∞ the blade is pinned.
 ///
 /// Waves that have a node at the spring keep their critical speeds; they are not in the list.
 pub fn critical_speeds_rad_per_s(stiffness_n_per_m: f64, waves: &[StandingWave]) -> Vec<f64> {
@@ -189,7 +187,7 @@ mod tests {
         assert!((found[1] - expected).abs() < 1e-10 && found[0].abs() < 1e-10);
     }
 
-    /// Two waves: by hand, (1 − sμ₁)(1 − sμ₂)/k + f₁²(1 − sμ₂) + f₂²(1 − sμ₁) = 0.
+    /// Expected values for two waves follow from (1 − sμ₁)(1 − sμ₂)/k + f₁²(1 − sμ₂) + f₂²(1 − sμ₁) = 0.
     #[test]
     fn two_standing_waves_on_a_spring() {
         let wave = |mu: f64, f: f64| StandingWave {

@@ -1,7 +1,7 @@
-//! Stress of a full disk that two opposite forces press.
+//! Stress of a full disk under two opposite forces.
 //!
-//! Each force gives the field of a force on a half-plane, −2P cos φ/πhs along the line from it to
-//! the point at the distance s, φ off the force's axis; together with a uniform tension P/πbh the
+//! The stress of each force is that on a half-plane, −2P cos φ/πhs along the line from the force to a point
+//! at the distance s, with the angle φ to the axis of the force. Together with a uniform tension P/πbh the
 //! rim is free.
 //!
 //! Source: S. P. Timoshenko & J. N. Goodier, *Theory of Elasticity*, 3rd ed. (1970), section 41.
@@ -20,7 +20,7 @@ pub fn stress_pa(
     let uniform = force_n / (PI * rim_radius_m * thickness_m);
     let mut stress = [uniform, uniform, 0.0];
     for place_rad in [0.0, PI] {
-        // From the force to the point, in the point's own radial and hoop directions.
+        // Stress of one force in the radial and hoop directions of the point.
         let (sin, cos) = (place_rad - angle_rad).sin_cos();
         let (x, y) = (radius_m - rim_radius_m * cos, -rim_radius_m * sin);
         let distance = x.hypot(y);

@@ -1,7 +1,7 @@
-//! One mode under a regenerative cutting force: the lobes of stability.
+//! One mode under a regenerative cutting force: stability lobes.
 //!
 //! m(ẍ + 2ζω₀ẋ + ω₀²x) = −k (x(t) − x(t − τ)), full overlap. With the compliance G(iω) = 1/m(ω₀² − ω² +
-//! 2iζω₀ω) an eigenvalue iω is where 1 + k (1 − e^(−iωτ)) G = 0, whose real part is k = −1/(2 Re G).
+//! 2iζω₀ω), iω is an eigenvalue if 1 + k (1 − e^(−iωτ)) G = 0, which requires k = −1/(2 Re G).
 //!
 //! Sources: S. A. Tobias, *Machine-Tool Vibration* (1965), chapter 7; Y. Altintas, *Manufacturing
 //! Automation* (2000), section 4.3, with these signs: k_lim = −1/(2 Re G), τ = (2πj + 3π + 2ψ)/ω,
@@ -21,15 +21,15 @@ pub struct OneMode {
 /// A point of a lobe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LobePoint {
-    /// k, in N/m for each kg.
+    /// k, in N/m per kg.
     pub stiffness: f64,
     /// τ.
     pub delay_s: f64,
 }
 
 impl OneMode {
-    /// The point of the lobe j at which the mode vibrates with ω > ω₀; `None` for other ω, at which it
-    /// does so with no stiffness.
+    /// The point of the lobe j at which the mode vibrates with ω > ω₀; `None` for other ω, for which there is
+    /// no stiffness.
     pub fn lobe(&self, chatter_rad_per_s: f64, lobe: u32) -> Option<LobePoint> {
         let (own, omega) = (self.frequency_rad_per_s, chatter_rad_per_s);
         let real = own * own - omega * omega;
@@ -46,7 +46,7 @@ impl OneMode {
         })
     }
 
-    /// The stiffness below which the mode is stable with every delay, 2ω₀²ζ(1 + ζ), at ω = ω₀√(1 + 2ζ).
+    /// The stiffness below which the mode is stable for every delay, 2ω₀²ζ(1 + ζ), at ω = ω₀√(1 + 2ζ).
     pub fn least_stiffness(&self) -> f64 {
         let zeta = self.damping_ratio;
         2.0 * self.frequency_rad_per_s.powi(2) * zeta * (1.0 + zeta)
@@ -62,7 +62,7 @@ mod tests {
         damping_ratio: 0.02,
     };
 
-    /// Both parts of 1 + k (1 − e^(−iωτ)) G = 0, without complex numbers.
+    /// Both parts of 1 + k (1 − e^(−iωτ)) G = 0 are evaluated in real arithmetic.
     #[test]
     fn a_point_of_a_lobe_is_an_eigenvalue() {
         for (omega, lobe) in [(301.0, 0), (306.0, 1), (330.0, 2), (500.0, 5)] {

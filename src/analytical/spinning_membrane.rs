@@ -1,5 +1,5 @@
-//! Frequencies of a disk that turns so fast that its centrifugal tension outweighs its bending
-//! stiffness: as seen from the disk they are in a fixed ratio to the speed.
+//! Frequencies of a disk whose bending stiffness is negligible compared with centrifugal tension. In the body
+//! frame they are proportional to the speed.
 //!
 //! Source: H. Lamb & R. V. Southwell, *The vibrations of a spinning disk*, Proc. R. Soc. Lond. A
 //! 99 (1921), 272–280.
@@ -7,7 +7,7 @@
 /// ω²/Ω² of a full disk with a free rim, n nodal diameters and s nodal circles:
 /// [(3 + ν)(n + 2s)(n + 2s + 2) − (1 + 3ν) n²]/8. ω is the frequency on the disk.
 ///
-/// A bore of ratio a/b moves it by the order of (a/b)².
+/// A bore of ratio a/b changes it by terms of order (a/b)².
 pub fn disk_frequency_ratio_squared(
     poisson_ratio: f64,
     nodal_diameters: usize,
@@ -18,8 +18,8 @@ pub fn disk_frequency_ratio_squared(
     ((3.0 + poisson_ratio) * degree * (degree + 2.0) - (1.0 + 3.0 * poisson_ratio) * n * n) / 8.0
 }
 
-/// ω²/Ω² of an annulus with free edges that vibrates without nodal diameters and with l ≥ 1 nodal
-/// circles: (3 + ν) l (l + 1)/2, whatever its bore.
+/// ω²/Ω² of an annulus with free edges that vibrates without nodal diameters and with l ≥ 1 nodal circles: (3
+/// + ν) l (l + 1)/2, for any bore.
 ///
 /// With σ_rr = (3 + ν)/8 ρΩ² (r² − a²)(b² − r²)/r² and x = (2r² − a² − b²)/(b² − a²) the equation
 /// of the membrane is that of Legendre's polynomials, (1 − x²)w″ − 2x w′ + l(l + 1)w = 0.
@@ -32,8 +32,8 @@ pub fn annulus_umbrella_ratio_squared(poisson_ratio: f64, nodal_circles: usize) 
 mod tests {
     use super::*;
 
-    /// Both formulas on the case they share: a full disk without nodal diameters. And the tilt of
-    /// a full disk turns with it, whatever ν.
+    /// The two formulas agree for a full disk without nodal diameters. The tilt of a full disk turns with it
+    /// for any ν.
     #[test]
     fn the_two_formulas_agree_where_they_meet() {
         for nu in [-0.5, 0.0, 0.3, 0.49] {

@@ -1,8 +1,8 @@
-//! The tilt of a blade as a rigid body, and what in-plane forces do to it.
+//! The rigid tilt of a blade under in-plane forces.
 //!
-//! For w = x, w = y the geometric stiffness h ∫ σ_xx, h ∫ σ_xy, h ∫ σ_yy dA is, by equilibrium,
-//! the symmetric part of Σ x ⊗ F over all forces at the edges, whatever the stress inside. A
-//! traction that is the same all around an edge and a pure shear along it give nothing.
+//! For w = x, w = y the geometric stiffness h ∫ σ_xx, h ∫ σ_xy, h ∫ σ_yy dA is, by equilibrium, the symmetric
+//! part of Σ x ⊗ F over all forces at the edges, independently of the stress inside. Uniform shear along an
+//! edge and a traction of constant direction contribute nothing.
 //!
 //! Source: the theorem of the mean stress, M. E. Gurtin, *The Linear Theory of Elasticity*,
 //! Encyclopedia of Physics VIa/2 (1972), section 18.
@@ -14,9 +14,9 @@ pub struct PlaneForce {
     pub radius_m: f64,
     /// Angle of its point, in rad.
     pub angle_rad: f64,
-    /// Outwards, in N.
+    /// Radial component, outwards, in N.
     pub radial_n: f64,
-    /// In the direction of rotation, in N.
+    /// Tangential component in the direction of rotation, in N.
     pub tangential_n: f64,
 }
 
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
     use crate::analytical::annulus::Annulus;
 
-    /// Many equal forces outwards are the tension.
+    /// Many equal outward forces are equivalent to a uniform tension.
     #[test]
     fn a_ring_of_forces_is_the_tension() {
         let (a, b, h, rho, tension) = (0.1, 0.3, 0.002, 7800.0, 3e5);

@@ -1,23 +1,22 @@
-//! Which waves of a turning blade equal, evenly spaced springs couple, and what then happens
-//! where their frequencies in space meet: Chen's rules, and their first order in the stiffness.
+//! Coupling of the waves of a turning blade by equal, evenly spaced springs, and the behaviour of coupled
+//! waves of equal frequency in space: Chen's rules, and first order in the stiffness.
 //!
-//! S springs couple waves whose signed wave numbers differ by a multiple of S. Others cross. Of
-//! two that are coupled, one of them reflected, the frequencies coalesce and the blade flutters;
-//! otherwise they veer. At its critical speed a backward wave meets its own complex conjugate,
-//! of the opposite wave number: the blade diverges if 2n is a multiple of S.
+//! S springs couple waves whose signed wave numbers differ by a multiple of S; others cross. If one of two
+//! coupled waves is reflected the frequencies coalesce and the blade flutters; otherwise they veer. At its
+//! critical speed a backward wave has the same frequency as its complex conjugate of opposite wave number:
+//! the blade diverges if 2n is a multiple of S.
 //!
-//! Sources: J.-S. Chen, *Vibration and stability of a spinning disk in contact with evenly-spaced
-//! stationary load systems*; J.-S. Chen & D. B. Bogy, *Mathematical structure of modal
-//! interactions in a spinning disk–stationary load system*, J. Appl. Mech. 59 (1992), 390–397. The
-//! first orders follow from the two terms of [`EvenSprings::characteristic`] that are
-//! large near a meeting.
+//! Sources: J.-S. Chen, *Vibration and stability of a spinning disk in contact with evenly-spaced stationary
+//! load systems*; J.-S. Chen & D. B. Bogy, *Mathematical structure of modal interactions in a spinning
+//! disk–stationary load system*, J. Appl. Mech. 59 (1992), 390–397. The first orders follow from the two
+//! terms of [`EvenSprings::characteristic`] that are large near equal frequencies.
 
 use super::point_springs::{BodyWave, EvenSprings};
 
-/// A wave e^{i(ωt − pθ)} as seen from space with ω > 0.
+/// A wave e^{i(ωt − pθ)} seen from space, with ω > 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SpaceWave {
-    /// p: n if it runs with the rotation, −n if against.
+    /// Wave number p: n for a wave in the direction of rotation, −n against it.
     pub wave_number: i64,
     /// Whether its energy in space is negative (Krein sign −1).
     pub reflected: bool,
@@ -40,7 +39,7 @@ impl SpaceWave {
         }
     }
 
-    /// ω = nΩ − ω_b, beyond the critical speed: the backward wave, carried forward.
+    /// ω = nΩ − ω_b, above the critical speed: the backward wave, which travels forward.
     pub fn reflected(nodal_diameters: usize) -> Self {
         SpaceWave {
             wave_number: nodal_diameters as i64,
@@ -49,19 +48,19 @@ impl SpaceWave {
     }
 }
 
-/// What two waves do where their frequencies in space would be equal.
+/// Behaviour of two waves at a speed at which their uncoupled frequencies in space are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meeting {
-    /// They do not feel each other.
+    /// The waves are not coupled.
     Crossing,
-    /// Their frequencies keep apart; nothing grows.
+    /// The frequencies repel each other; nothing grows.
     Veering,
-    /// Their frequencies become one, and both waves grow together: flutter.
+    /// The frequencies become equal and the motion grows: flutter.
     Coalescence,
 }
 
 impl EvenSprings {
-    /// Chen's rule for two waves that meet.
+    /// Chen's rule for two waves of equal frequency.
     pub fn meeting(&self, first: SpaceWave, second: SpaceWave) -> Meeting {
         if !self.couple(first.wave_number, second.wave_number) {
             Meeting::Crossing
@@ -72,23 +71,23 @@ impl EvenSprings {
         }
     }
 
-    /// Chen's rule for a critical speed: whether the springs split the pair of waves of n nodal
-    /// diameters, between whose critical speeds the blade then diverges.
+    /// Chen's rule for a critical speed: whether the springs split the critical speed of the two waves of n
+    /// nodal diameters; between the two speeds the blade diverges.
     pub fn diverges(&self, nodal_diameters: usize) -> bool {
         let n = nodal_diameters as i64;
         n > 0 && self.couple(n, -n)
     }
 
-    /// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth where two coupled waves
-    /// coalesce, and half of the least distance of their frequencies where they veer.
+    /// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth if two coupled waves coalesce,
+    /// and half of the smallest difference of their frequencies if they veer.
     pub fn coupling_per_s(&self, first: BodyWave, second: BodyWave) -> f64 {
         let shares = (first.share_per_kg() * second.share_per_kg()).sqrt();
         let frequencies = (first.frequency_rad_per_s * second.frequency_rad_per_s).sqrt();
         0.5 * self.sum_n_per_m() * shares / frequencies
     }
 
-    /// ±S k g²/(2ω), in rad/s, to first order in k: by how much the springs raise the frequency in
-    /// space of a wave; they lower that of a reflected one.
+    /// ±S k g²/(2ω), in rad/s, to first order in k: the amount by which the springs raise the frequency in
+    /// space of a wave; that of a reflected wave is lowered.
     pub fn frequency_shift_rad_per_s(&self, wave: BodyWave, reflected: bool) -> f64 {
         let shift = self.coupling_per_s(wave, wave);
         if reflected { -shift } else { shift }
@@ -130,7 +129,7 @@ mod tests {
         assert!(!springs(3).diverges(0));
     }
 
-    /// The exact equation of two waves, at the speed where first order says that they coalesce.
+    /// The exact equation of two waves, at the speed of coalescence to first order.
     #[test]
     fn the_first_order_is_that_of_the_exact_equation() {
         let wave = |nodal_diameters, frequency_rad_per_s, amplitude_per_sqrt_kg| BodyWave {

@@ -1,4 +1,4 @@
-//! Charts as they are sent to the page, and kept for what it asks of them later.
+//! Diagrams sent to the page, and kept for later requests about them.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -14,44 +14,44 @@ use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
 
-/// Which accuracy a chart is asked for at.
+/// Accuracy with which a diagram is requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Fidelity {
-    /// To [`DRAFT_TOLERANCE`], whatever the scene says, and drawn at fewer speeds: for a saw that is just being
+    /// [`DRAFT_TOLERANCE`], whatever the scene's tolerance is, and fewer speeds: for a saw that is being
     /// changed.
     Draft,
-    /// The scene's own.
+    /// The tolerance of the scene.
     Scene,
 }
 
-/// Of critical speeds and frequencies at rest, relative: less than the width of the strokes that show them, and half of the
-/// time that one half as large takes.
+/// Tolerance of critical speeds and frequencies at rest: errors are smaller than the width of the lines, and
+/// half of it would take twice the time.
 const DRAFT_TOLERANCE: f64 = 2e-2;
 
 #[derive(Serialize)]
 struct Chart<'a> {
-    /// Name of the chart when its modes are asked for.
+    /// Identifier of the diagram for requests of modes.
     chart: usize,
     milliseconds: f64,
     told: Told,
-    /// What is drawn.
+    /// The drawing.
     figure: ChartData,
     report: &'a Report,
 }
 
-/// The latest charts of every page, for the modes on them.
+/// The latest diagrams of every page, for requests of modes.
 #[derive(Default)]
 pub struct Charts {
     kept: Mutex<Kept>,
-    /// The charts that are being computed.
+    /// Diagrams that are being computed.
     pub under_way: UnderWay,
 }
 
 #[derive(Default)]
 struct Kept {
     made: usize,
-    /// From the oldest on.
+    /// Kept diagrams, the oldest first.
     latest: VecDeque<KeptChart>,
 }
 
@@ -59,20 +59,21 @@ struct KeptChart {
     name: usize,
     page: String,
     analysis: Arc<Analysis>,
-    /// At the scene's own accuracy, for its files. Whatever is asked of the analysis later counts as work of its own.
+    /// Report with the accuracy of the scene, for files. Later requests of the analysis count as separate
+    /// work.
     report: Option<Arc<Report>>,
 }
 
-/// Of one page: the chart shown and those that are just being replaced.
+/// Number kept for one page: the visible diagram and those that replace it.
 const OF_A_PAGE: usize = 3;
-/// Of all pages: some megabytes each.
+/// Number kept for all pages; each takes some megabytes.
 const OF_ALL: usize = 48;
 
 impl Charts {
-    /// Computes a chart for a page and keeps it for its modes; the answer as JSON.
+    /// Computes a diagram for a page and keeps it for requests of modes; returns JSON.
     ///
     /// # Errors
-    /// [`Refusal`] of a scene or of a computation that fails or is stopped.
+    /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
     pub fn chart(&self, page: &str, scene: &str, fidelity: Fidelity) -> Result<String, Refusal> {
         let started = Instant::now();
         let mut scene = Scene::from_json(scene)?;
@@ -111,21 +112,21 @@ impl Charts {
         .map_err(|error| Refusal::of(&error))
     }
 
-    /// How the speeds of a chart move with the numbers of its scene.
+    /// Derivatives of the speeds of a diagram by the numbers of its scene.
     ///
     /// # Errors
-    /// [`Refusal`] of a chart that is not kept any more, or of a computation that fails.
+    /// [`Refusal`] if the diagram is no longer kept, or a computation fails.
     pub fn influence(&self, asked: &str) -> Result<Vec<SensitivityEntry>, Refusal> {
         let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let analysis = self.named(chart).ok_or_else(|| Refusal::gone(chart))?;
         SensitivityEntry::all(&analysis).map_err(|error| Refusal::of(&error))
     }
 
-    /// A file as `sawflutter analyze` writes it for a scene: of the chart of this name, where it is that scene's
-    /// and still kept; otherwise of one that is computed anew.
+    /// A file for a scene as `sawflutter analyze` writes it: from the diagram with this identifier if it
+    /// belongs to the scene and is kept; otherwise computed anew.
     ///
     /// # Errors
-    /// [`Refusal`] of a scene, or of a computation that fails or is stopped.
+    /// [`Refusal`] if the scene is refused, or a computation fails or is cancelled.
     pub fn file(&self, kind: SavedFile, chart: usize, scene: &str) -> Result<Vec<u8>, Refusal> {
         let scene = Scene::from_json(scene)?;
         let known = self.find(chart, |kept| kept.report.clone());
@@ -158,12 +159,12 @@ impl Charts {
         name
     }
 
-    /// A page is closed: its charts are not asked for any more.
+    /// Removes the diagrams of a closed page.
     pub fn forget(&self, page: &str) {
         self.kept().latest.retain(|chart| chart.page != page);
     }
 
-    /// A chart by its name, while it is kept.
+    /// The diagram with an identifier, if it is kept.
     pub fn named(&self, name: usize) -> Option<Arc<Analysis>> {
         self.find(name, |kept| kept.analysis.clone())
     }
@@ -174,7 +175,8 @@ impl Charts {
     }
 }
 
-/// Most of what would be sent: shapes at rest, and what the figure says of the branches.
+/// Removes what the page does not show, which is most of the data: shapes at rest, and texts for points of
+/// the branches.
 fn leave_out_what_is_not_shown(report: &mut Report) {
     let at_rest = report.modes_at_rest.iter_mut();
     at_rest.for_each(|mode| mode.shape.clear());
@@ -194,7 +196,7 @@ mod tests {
     use super::*;
     use crate::spectrum::Progress;
 
-    /// A page that is looked at keeps its chart, however many another one asks for meanwhile.
+    /// Requests of other pages do not remove the diagram of a page.
     #[test]
     fn charts_are_kept_for_each_page_apart() {
         let charts = Charts::default();
@@ -217,7 +219,7 @@ mod tests {
         );
     }
 
-    /// The file of a chart that is kept is that of one that is computed anew, and solves nothing.
+    /// The file of a kept diagram equals that of a new computation, and solves nothing.
     #[test]
     fn a_file_is_made_of_the_chart_that_is_kept() {
         let charts = Charts::default();
@@ -237,7 +239,7 @@ mod tests {
         let (kept, computed) = (file(1), file(2));
         assert!(kept.0 == computed.0);
         assert!(kept.1 == 0 && computed.1 > 0, "{} {}", kept.1, computed.1);
-        // A chart of another scene is not taken for it.
+        // A diagram of another scene is not used.
         let other = Scene::paper().edited(|file| file.blade.thickness_m = 3e-3);
         let other = other
             .unwrap()

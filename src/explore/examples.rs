@@ -1,4 +1,4 @@
-//! The saws of the gallery, for the page to begin with.
+//! Saws of the gallery, which the page offers as examples.
 
 use crate::scene::{Scene, SceneFile};
 
@@ -33,7 +33,7 @@ const SCENES: &[&str] = &[
     include_str!("../../scenes/gallery/weak-pad.json"),
 ];
 
-/// Every example, in the order in which they are offered.
+/// All examples, in the order of the menu.
 pub fn examples() -> Vec<SceneFile> {
     let scenes = SCENES.iter().filter_map(|text| Scene::from_json(text).ok());
     scenes.map(|scene| scene.file().clone()).collect()
@@ -43,7 +43,7 @@ pub fn examples() -> Vec<SceneFile> {
 mod tests {
     use super::*;
 
-    /// A saw that is put into the gallery is offered, and each can be read.
+    /// Every saw of the gallery is offered and can be read.
     #[test]
     fn the_whole_gallery_is_offered() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");

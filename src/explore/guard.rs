@@ -1,26 +1,26 @@
-//! Which requests are answered: those of pages that the server has served itself, on this computer.
+//! Access control: only requests of pages that this server has served, on this computer, are answered.
 
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// The names under which the server may be called, with its port.
+/// Host names of the server, with its port.
 #[derive(Debug, Clone)]
 pub struct Door {
     hosts: [String; 2],
 }
 
 impl Door {
-    /// The names of a port.
+    /// The host names with a port.
     pub fn new(port: u16) -> Self {
         Door {
             hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
         }
     }
 
-    /// Why a request is not let in. A page from elsewhere can have its own name point to this
-    /// computer; then `Host` is that name. Or it can send a request here; then `Origin` is it.
+    /// Reason for which a request is refused. A foreign page may have a host name that points to this
+    /// computer, which shows in `Host`; or it may send a request here, which shows in `Origin`.
     pub fn refusal(&self, headers: &HeaderMap) -> Option<String> {
         let own = |host: &str| self.hosts.iter().any(|own| own == host);
         let host = text(headers, header::HOST);
@@ -46,13 +46,12 @@ fn text(headers: &HeaderMap, name: header::HeaderName) -> Option<&str> {
     headers.get(name)?.to_str().ok()
 }
 
-/// Everything the page needs comes from here; scripts written into it by whatever way do
-/// not run.
+/// The page loads everything from this server, and injected scripts do not run.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; \
     font-src 'self'; img-src 'self' data: blob:; connect-src 'self'; base-uri 'none'; \
     form-action 'none'; frame-ancestors 'none'";
 
-/// Refuses requests that come from elsewhere, and tells the browser what the page may load.
+/// Refuses foreign requests and sends the content policy.
 pub async fn guard(State(door): State<Door>, request: Request, next: Next) -> Response {
     let mut response = match door.refusal(request.headers()) {
         Some(reason) => (StatusCode::FORBIDDEN, reason).into_response(),

@@ -1,4 +1,4 @@
-//! One computation at a time, and none that nobody waits for any more.
+//! Queue of computations: one at a time, and none whose result is no longer wanted.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,8 +7,7 @@ use tokio::sync::Semaphore;
 
 use crate::spectrum::Cancellation;
 
-/// Where computations wait for their turn. Each of them uses every core, so that two at a
-/// time would both be late.
+/// Queue of computations. Each uses all cores, so that two at a time would delay both.
 #[derive(Clone, Default)]
 pub struct Jobs {
     turn: Turn,
@@ -24,17 +23,17 @@ impl Default for Turn {
     }
 }
 
-/// What became of the computations.
+/// Numbers of completed and cancelled computations.
 #[derive(Default)]
 struct Count {
     finished: AtomicUsize,
     stopped: AtomicUsize,
 }
 
-/// Asks a computation to end as soon as whoever waits for it goes away.
+/// Cancels a computation when its future is dropped.
 struct CancelOnDrop {
     stop: Cancellation,
-    /// A chart that was finished keeps its flag and is computed with further.
+    /// A completed diagram keeps its flag, which later computations use.
     done: bool,
 }
 
@@ -47,11 +46,11 @@ impl Drop for CancelOnDrop {
 }
 
 impl Jobs {
-    /// Runs a computation when its turn comes. Dropping the future, which is what the server
-    /// does when the browser has closed the request, takes it out of the queue or asks it to
-    /// stop; the next one begins at once, while it comes to its end.
+    /// Runs a computation when its turn comes. Dropping the future, which the server does when the browser
+    /// closes the request, removes it from the queue or cancels it. The next one starts at once, while a
+    /// cancelled one ends.
     ///
-    /// `None` where the program is ending.
+    /// `None` if the program is ending.
     pub async fn run<T: Send + 'static>(
         &self,
         work: impl FnOnce() -> T + Send + 'static,
@@ -61,7 +60,7 @@ impl Jobs {
             done: false,
         };
         let stop = guard.stop.clone();
-        // The turn ends with the wish for the work: what nobody waits for holds up nothing.
+        // The turn ends with the future, so that a cancelled computation does not block the queue.
         let _turn = self.turn.0.acquire().await.ok()?;
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {
@@ -78,7 +77,7 @@ impl Jobs {
         done
     }
 
-    /// Computations that were done and that were stopped.
+    /// Numbers of completed and cancelled computations.
     pub fn counts(&self) -> [usize; 2] {
         [&self.count.finished, &self.count.stopped].map(|c| c.load(Ordering::Relaxed))
     }
@@ -98,14 +97,14 @@ mod tests {
         builder.enable_all().build().unwrap()
     }
 
-    /// A computation that would never end by itself ends when nobody waits for it any more, and the
-    /// next one begins without waiting for that end.
+    /// An endless computation ends when its future is dropped, and the next one starts without waiting for
+    /// this.
     #[test]
     fn what_nobody_waits_for_is_stopped_and_holds_up_nothing() {
         let jobs = Jobs::default();
         let may_end = Arc::new(std::sync::Mutex::new(()));
         let held = may_end.lock().unwrap();
-        // Its end waits for what it still runs.
+        // The end of the runtime waits for running computations.
         let runtime = runtime();
         let next = runtime.block_on(async {
             let may_end = may_end.clone();
@@ -145,8 +144,8 @@ mod tests {
         assert_eq!(jobs.counts(), [1, 0]);
     }
 
-    /// Cancelled before it begins, or by the progress that it reports itself, after the first, the
-    /// middle or the last speed: an analysis ends with the error of its own and not with a chart.
+    /// An analysis that is cancelled before it begins, or at a progress callback after the first, the middle
+    /// or the last speed, returns its error and no diagram.
     #[test]
     fn a_cancelled_analysis_does_not_finish() {
         let paper = Scene::paper();

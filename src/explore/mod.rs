@@ -1,9 +1,8 @@
-//! `sawflutter explore`: a page on which the saw can be changed by hand, and what becomes of
-//! its stability is seen at once.
+//! `sawflutter explore`: a live page on which a saw is changed by hand and its stability is shown at once.
 //!
-//! The page is served from the program itself, to this computer alone. It sends the whole
-//! scene with every request and holds no numbers of its own: what it shows, and every file it
-//! saves, comes from the same calls as on the command line.
+//! The program serves the page itself, to this computer only. The page sends the whole scene with every
+//! request and computes nothing: all that it shows, and every file that it saves, comes from the same
+//! functions as on the command line.
 
 mod charts;
 mod examples;

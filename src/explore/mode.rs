@@ -1,4 +1,4 @@
-//! One mode of a chart, for the page to set in motion on the blade.
+//! One mode of a diagram, which the page animates.
 
 use std::f64::consts::TAU;
 
@@ -11,11 +11,11 @@ use crate::scene::rpm;
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
 
-/// Which mode.
+/// A request of a mode.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Asked {
-    /// Name of the chart.
+    /// Identifier of the diagram.
     chart: usize,
     /// Speed of a point of a branch.
     rpm: f64,
@@ -23,10 +23,10 @@ struct Asked {
     frequency_hz: f64,
 }
 
-/// The mode that is asked for.
+/// The requested mode.
 ///
 /// # Errors
-/// [`Refusal`] of a request that cannot be read, or of a chart that is gone.
+/// [`Refusal`] if the request cannot be read, or the diagram is no longer kept.
 pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
     let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
     let found = charts.named(asked.chart);
@@ -37,7 +37,7 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
     Ok(ModeEntry::new(&analysis.model.plate, speed, mode))
 }
 
-/// The mode next to a frequency, of the speed next to one.
+/// The mode nearest to a frequency, at the speed nearest to that of the request.
 fn nearest<'a>(analysis: &'a Analysis, asked: &Asked) -> Option<(f64, &'a DescribedMode)> {
     let samples = analysis.chart.campbell.samples.iter();
     let off = |value: f64, wanted: f64| (value - wanted).abs();

@@ -1,4 +1,4 @@
-//! The files of the page, inside the program.
+//! Files of the page, embedded in the program.
 
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -49,7 +49,7 @@ files! {
     "Inter-SemiBold.otf": FONT, "../../assets/fonts/Inter-SemiBold.otf";
 }
 
-/// A file by name.
+/// A file by its name.
 pub fn file(name: &str) -> Response {
     match FILES.iter().find(|(known, ..)| *known == name) {
         Some((_, kind, content)) => ([(header::CONTENT_TYPE, *kind)], *content).into_response(),

@@ -1,34 +1,33 @@
-//! Which pages are open: the server ends with the last of them.
+//! Open pages: the server ends with the last of them.
 //!
-//! A page says every few seconds that it is there, and says when it is closed. A connection held
-//! open would tell sooner, but a browser opens six to one server in all, and a seventh page would
-//! wait for ever.
+//! A page reports every few seconds that it is open, and when it is closed. An open connection would be
+//! faster, but a browser opens only six to one server, and a seventh page would wait forever.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A page that is reloaded is away for no longer than this.
+/// Time within which a reloaded page returns.
 const GRACE: Duration = Duration::from_secs(3);
-/// Pages are looked at so often.
+/// Interval between checks.
 const LOOK: Duration = Duration::from_millis(500);
-/// A browser may run the timers of a page in the background once a minute only.
+/// Longest silence of an open page: browsers may run the timers of background pages once a minute only.
 const SILENCE: Duration = Duration::from_secs(150);
 
-/// Pages that are open, by the names that they gave themselves.
+/// Open pages, by names that they choose themselves.
 #[derive(Default)]
 pub struct Pages(Mutex<Open>);
 
 #[derive(Default)]
 struct Open {
     seen: HashMap<String, Instant>,
-    /// When the last page went, if one was ever there and none is.
+    /// Time at which the last page was closed, if no page is open.
     empty_since: Option<Instant>,
 }
 
-/// Pages remembered at most: nobody has so many, and names cost memory.
+/// Largest number of pages; it limits the memory for names.
 const MOST: usize = 1000;
-/// Names are this long at most.
+/// Largest length of a name.
 const LONGEST: usize = 64;
 
 impl Pages {
@@ -36,7 +35,7 @@ impl Pages {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A page is there.
+    /// Registers a page.
     pub fn seen(&self, page: String) {
         let mut open = self.open();
         if page.len() <= LONGEST && (open.seen.len() < MOST || open.seen.contains_key(&page)) {
@@ -45,12 +44,12 @@ impl Pages {
         }
     }
 
-    /// A page is gone.
+    /// Removes a page.
     pub fn left(&self, page: &str) {
         self.open().leave(|name, _| name == page);
     }
 
-    /// Ends when the last page has gone and none has come back since.
+    /// Ends when the last page has been closed and none has been opened since.
     pub async fn last_closed(&self) {
         loop {
             tokio::time::sleep(LOOK).await;

@@ -1,4 +1,4 @@
-//! What the page is sent besides charts: what it begins with, files, and why a scene was refused.
+//! Replies to the page other than diagrams: initial data, files and errors.
 
 use std::sync::Arc;
 
@@ -11,21 +11,21 @@ use crate::scene::{QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneF
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
 
-/// What the page begins with.
+/// Initial data of the page.
 #[derive(Serialize)]
 pub struct Start {
     scene: SceneFile,
     schema: serde_json::Value,
-    /// Saws to begin with.
+    /// Example saws.
     examples: Vec<SceneFile>,
-    /// Between which values the numbers of saws lie, for the sliders.
+    /// Usual ranges of the numbers of scenes, for sliders.
     quantities: &'static [Quantity],
     colours: figure::Palette,
     version: &'static str,
 }
 
 impl Start {
-    /// For a scene.
+    /// The initial data for a scene.
     pub fn new(scene: &Scene) -> Self {
         Start {
             scene: scene.file().clone(),
@@ -38,15 +38,14 @@ impl Start {
     }
 }
 
-/// Why there is no chart, and which quantity is to blame.
+/// An error, with the quantity that causes it.
 #[derive(Debug, Serialize)]
 pub struct Refusal {
-    /// JSON path of the quantity, where there is one.
+    /// JSON path of the quantity, if there is one.
     pub key: Option<String>,
-    /// The library's own words.
+    /// Message of the library.
     pub message: String,
-    /// What is allowed, where a number of the scene is to blame: for the page to say in the unit
-    /// of its field.
+    /// Allowed values of a number of the scene, which the page converts to the unit of its field.
     pub allowed: Option<String>,
 }
 
@@ -96,7 +95,7 @@ impl From<SpectrumError> for Refusal {
 }
 
 impl Refusal {
-    /// Of a chart that has been replaced by later ones.
+    /// The diagram has been replaced by later ones.
     pub fn gone(chart: usize) -> Self {
         Refusal {
             key: None,
@@ -105,7 +104,7 @@ impl Refusal {
         }
     }
 
-    /// A refusal that no quantity is to blame for.
+    /// An error that no quantity causes.
     pub fn of(error: &dyn std::error::Error) -> Self {
         Refusal {
             key: None,
@@ -131,7 +130,7 @@ pub enum SavedFile {
 }
 
 impl SavedFile {
-    /// By the name it has on the command line.
+    /// The file with a name, as on the command line.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "scene.json" => SavedFile::Scene,
@@ -143,7 +142,7 @@ impl SavedFile {
         })
     }
 
-    /// What a browser calls it.
+    /// Media type.
     pub fn media_type(self) -> &'static str {
         match self {
             SavedFile::Scene | SavedFile::Report => "application/json",
@@ -153,10 +152,10 @@ impl SavedFile {
         }
     }
 
-    /// Its bytes for a scene, of its report where that is known.
+    /// The bytes of the file for a scene, from its report if it is known.
     ///
     /// # Errors
-    /// [`Refusal`] of a computation that fails or is stopped.
+    /// [`Refusal`] if a computation fails or is cancelled.
     pub fn content(self, scene: &Scene, known: Option<Arc<Report>>) -> Result<Vec<u8>, Refusal> {
         if self == SavedFile::Scene {
             return pretty(scene.file());

@@ -1,4 +1,4 @@
-//! The server: what may be asked, and when it ends.
+//! The server: its routes, and its end.
 
 use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -25,45 +25,45 @@ use crate::fit::Measurement;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
-/// How to serve.
+/// Options of the server.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Options {
     /// Port on 127.0.0.1; 0 takes a free one.
     pub port: u16,
 }
 
-/// Why the page could not be served.
+/// Reason for which the page could not be served.
 #[derive(Debug, thiserror::Error)]
 pub enum ExploreError {
-    /// The port is taken, or the system does not grant it.
+    /// The port is in use, or the system refuses it.
     #[error("cannot listen on 127.0.0.1:{port}; leave --port out to take a free one")]
     Listen {
-        /// The port asked for.
+        /// The requested port.
         port: u16,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// The system failed the server while it ran.
+    /// The system reported an error while the server ran.
     #[error("the server failed")]
     Serve(#[from] std::io::Error),
 }
 
-/// What the routes share.
+/// State common to all routes.
 #[derive(Clone)]
 pub struct Desk {
     start: Arc<Start>,
     jobs: Jobs,
-    /// Tasks that take longer than a chart, which does not wait for them.
+    /// Queue of tasks, which take longer than a diagram; diagrams do not wait for it.
     tasks: Jobs,
-    /// Influences take about as long as a chart. They wait for no task: the connections on which
-    /// pages waited would be lacking for charts.
+    /// Queue of influences, which take about as long as a diagram. They do not wait for tasks, because
+    /// waiting requests would occupy connections that diagrams need.
     influences: Jobs,
     charts: Arc<Charts>,
     pages: Arc<Pages>,
 }
 
-/// Serves the page of a scene until Ctrl-C, or until the last page that was opened has been
-/// closed. `ready` is told the address.
+/// Serves the page of a scene until Ctrl-C, or until the last page is closed. `ready` is called with the
+/// address.
 ///
 /// # Errors
 /// [`ExploreError`] when the port cannot be had or the system fails.
@@ -100,7 +100,7 @@ pub fn serve(
             () = pages.last_closed() => Ok(()),
         }
     });
-    // Whatever is still being computed is not waited for: it ends with the process.
+    // Running computations are not waited for; they end with the process.
     runtime.shutdown_background();
     served
 }
@@ -129,13 +129,13 @@ fn router(desk: Desk, door: Door) -> Router {
         .with_state(desk)
 }
 
-/// What the page begins with: the scene, its schema, the colours.
+/// Sends the initial data of the page: scene, schema, colours.
 async fn start(State(desk): State<Desk>) -> Response {
     json(StatusCode::OK, &*desk.start)
 }
 
-/// Numbers of computations that were done and that were stopped: tests see by them that nothing
-/// outdated is computed.
+/// Sends the numbers of completed and cancelled computations, with which tests check that nothing outdated is
+/// computed.
 async fn jobs(State(desk): State<Desk>) -> Response {
     let [finished, stopped] = desk.jobs.counts();
     json(
@@ -144,9 +144,9 @@ async fn jobs(State(desk): State<Desk>) -> Response {
     )
 }
 
-/// Header with the name of the page that asks.
+/// Header with the name of the page.
 const PAGE: &str = "sawflutter-page";
-/// Header with the name of the chart that the page shows.
+/// Header with the identifier of the diagram that the page shows.
 const CHART: &str = "sawflutter-chart";
 
 fn text(headers: &HeaderMap, name: &str) -> String {
@@ -154,7 +154,7 @@ fn text(headers: &HeaderMap, name: &str) -> String {
     text.unwrap_or_default().to_owned()
 }
 
-/// What the chart of the page is at that is being computed; null where none is.
+/// Sends the stage of the page's diagram that is being computed; null if there is none.
 async fn progress(State(desk): State<Desk>, headers: HeaderMap) -> Response {
     let stage = desk.charts.under_way.stage(&text(&headers, PAGE));
     let stage = stage
@@ -162,7 +162,7 @@ async fn progress(State(desk): State<Desk>, headers: HeaderMap) -> Response {
     json(StatusCode::OK, &stage)
 }
 
-/// The chart of the scene that is sent.
+/// Sends the diagram of a scene.
 async fn chart(
     State(desk): State<Desk>,
     Path(fidelity): Path<Fidelity>,
@@ -179,7 +179,7 @@ async fn chart(
     }
 }
 
-/// A mode of a chart that was sent before.
+/// Sends a mode of an earlier diagram.
 async fn mode_shape(State(desk): State<Desk>, asked: String) -> Response {
     match mode::answer(&desk.charts, &asked) {
         Ok(found) => json(StatusCode::OK, &found),
@@ -187,7 +187,7 @@ async fn mode_shape(State(desk): State<Desk>, asked: String) -> Response {
     }
 }
 
-/// Progress, and then the answer, line by line; the task ends when nobody listens any more.
+/// Sends progress and then the result, line by line; the task is cancelled when the connection closes.
 async fn task(State(desk): State<Desk>, Path(task): Path<Task>, asked: String) -> Response {
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
@@ -216,7 +216,7 @@ fn last_line(done: Option<Result<String, Refusal>>) -> String {
     serde_json::json!({ "refusal": refusal }).to_string()
 }
 
-/// How the numbers of a chart that was sent before move with those of its scene.
+/// Sends the derivatives of an earlier diagram by the numbers of its scene.
 async fn influence(State(desk): State<Desk>, asked: String) -> Response {
     let charts = desk.charts.clone();
     let work = move || charts.influence(&asked);
@@ -227,7 +227,7 @@ async fn influence(State(desk): State<Desk>, asked: String) -> Response {
     }
 }
 
-/// A file as `sawflutter analyze` writes it for the scene that is sent.
+/// Sends a file as `sawflutter analyze` writes it for the scene.
 async fn save(
     State(desk): State<Desk>,
     Path(name): Path<String>,
@@ -262,7 +262,7 @@ fn json_text(status: StatusCode, text: String) -> Response {
     (status, [(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
 
-/// Reads a scene as the command line does, comments and all, and gives it back as plain JSON.
+/// Reads a scene as the command line does, with comments, and returns it as plain JSON.
 async fn read(scene: String) -> Response {
     match Scene::from_json(&scene) {
         Ok(scene) => json(StatusCode::OK, scene.file()),
@@ -270,7 +270,7 @@ async fn read(scene: String) -> Response {
     }
 }
 
-/// Reads a table of measured frequencies as `sawflutter fit` does, and gives it back as the block of a scene.
+/// Reads a table of measured frequencies as `sawflutter fit` does, and returns it as a block of a scene.
 async fn measured(Path(name): Path<String>, table: String) -> Response {
     match Measurement::from_csv(&name, &table) {
         Ok(measurement) => json(StatusCode::OK, &measurement.as_scene_block()),
@@ -278,13 +278,13 @@ async fn measured(Path(name): Path<String>, table: String) -> Response {
     }
 }
 
-/// A page says that it is open: a name of its own.
+/// Registers an open page by its name.
 async fn alive(State(desk): State<Desk>, page: String) -> StatusCode {
     desk.pages.seen(page);
     StatusCode::NO_CONTENT
 }
 
-/// A page says that it is being closed.
+/// Removes a page that is being closed.
 async fn leave(State(desk): State<Desk>, page: String) -> StatusCode {
     desk.pages.left(&page);
     desk.charts.forget(&page);

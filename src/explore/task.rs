@@ -1,5 +1,5 @@
-//! What the page can ask for besides the chart: each a command of the program, with its report, its
-//! summary and its figures.
+//! Tasks of the page besides the diagram: each is a command of the program, with its report, summary and
+//! figures.
 
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -32,39 +32,39 @@ pub enum Task {
     Fit,
     /// `sawflutter place`.
     Place,
-    /// `sawflutter study`, of tolerances.
+    /// `sawflutter study` with tolerances.
     Study,
 }
 
-/// What the page sends.
+/// A request.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
     scene: serde_json::Value,
-    /// Of a placement: the widest stable window instead of the largest flutter speed.
+    /// For a placement: maximize the window without instability instead of the flutter speed.
     #[serde(default)]
     window: bool,
-    /// Of a placement: the least lowest critical speed.
+    /// For a placement: lower limit of the first critical speed.
     #[serde(default)]
     min_critical_rpm: Option<f64>,
-    /// Of a study: what varies and how, as in a file for `sawflutter study`.
+    /// For a study: the varying numbers and their distributions, as in a file for `sawflutter study`.
     #[serde(default)]
     study: serde_json::Value,
 }
 
-/// Seen on the page before it is told again.
+/// Interval between progress messages.
 const PAUSE: Duration = Duration::from_millis(100);
-/// So long between figures of what is known so far: each is drawn anew.
+/// Interval between intermediate figures, each of which is drawn anew.
 const FIGURE_PAUSE: Duration = Duration::from_millis(400);
 
-/// Tells how far a task has come.
+/// Sends the progress of a task.
 pub struct Meter {
     tell: tokio::sync::mpsc::UnboundedSender<String>,
     told: Mutex<Option<Instant>>,
     drawn: Mutex<Option<Instant>>,
 }
 
-/// Whether it is time again, and then from now on.
+/// Whether the interval has passed; if so, it starts again.
 fn is_due(last: &Mutex<Option<Instant>>, pause: Duration) -> bool {
     let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
     let is_due = last.is_none_or(|last| last.elapsed() >= pause);
@@ -75,7 +75,7 @@ fn is_due(last: &Mutex<Option<Instant>>, pause: Duration) -> bool {
 }
 
 impl Meter {
-    /// Tells through a channel, line by line.
+    /// Sends progress through a channel, line by line.
     pub fn new(tell: tokio::sync::mpsc::UnboundedSender<String>) -> Self {
         Meter {
             tell,
@@ -90,7 +90,7 @@ impl Meter {
         }
     }
 
-    /// A figure of what is known so far. One that cannot be drawn yet is left out.
+    /// Sends an intermediate figure, unless it cannot be drawn yet.
     fn draw(&self, figure: impl FnOnce() -> Option<Figure>) {
         if !is_due(&self.drawn, FIGURE_PAUSE) {
             return;
@@ -103,27 +103,27 @@ impl Meter {
     }
 
     fn send(&self, line: serde_json::Value) {
-        // Whoever has gone away is not told.
+        // Errors are ignored, because the receiver may have closed.
         let _ = self.tell.send(line.to_string());
     }
 }
 
 #[derive(Serialize)]
 struct Answer<'a, R> {
-    /// As the program prints it.
+    /// Summary as printed by the program.
     summary: String,
     report: &'a R,
-    /// Each as SVG, by the name of its file.
+    /// Figures as SVG, by file name.
     figures: Vec<(&'static str, String)>,
-    /// The scene that was found, of a fit or a placement.
+    /// The resulting scene of a fit or a placement.
     scene: Option<&'a SceneFile>,
 }
 
 impl Task {
-    /// Does what is asked; the answer as JSON.
+    /// Runs a request; returns JSON.
     ///
     /// # Errors
-    /// [`Refusal`] of a scene or of a computation that fails or is stopped.
+    /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
     pub fn run(self, asked: &str, meter: &Meter) -> Result<String, Refusal> {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let scene = Scene::from_json(&asked.scene.to_string())?;
@@ -219,7 +219,7 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> 
     let file = StudyFile::from_json(&asked.study.to_string());
     let file = file.map_err(|error| Refusal::of(&error))?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
-    // In the order of their numbers, whichever was done first.
+    // Saws are sorted by number, in whatever order they were finished.
     let saws = Mutex::new(Vec::<Saw>::new());
     let done = |saw: Saw| {
         let mut saws = saws.lock().unwrap_or_else(|e| e.into_inner());

@@ -1,4 +1,4 @@
-//! What a chart says in words: the answer of the summary, and the numbers that a change is judged by.
+//! Text beside a diagram: the answer of the summary, and the numbers by which a change is judged.
 
 use serde::Serialize;
 
@@ -6,17 +6,17 @@ use crate::report::{HeatEntry, Report};
 use crate::summary::{Answer, answer};
 use crate::text::shown_to;
 
-/// In words of the summary.
+/// Text from the summary.
 #[derive(Serialize)]
 pub struct Told {
-    /// Whether the saw can run at its speed; null without one.
+    /// Whether the saw can run at its operating speed; null without one.
     answer: Option<Answer>,
-    /// The same in words, and its reasons.
+    /// This answer as text, and its reasons.
     lines: Vec<String>,
     facts: Vec<Fact>,
 }
 
-/// A number that a change is judged by.
+/// A number by which a change is judged.
 #[derive(Serialize)]
 struct Fact {
     name: &'static str,
@@ -25,7 +25,7 @@ struct Fact {
 }
 
 impl Told {
-    /// Of a report.
+    /// The text for a report.
     pub fn new(report: &Report) -> Self {
         let on_one_line = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
         Told {
@@ -79,7 +79,8 @@ fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact 
     Fact { name, words, unit }
 }
 
-/// Rise at which the first critical speed is that of operation, or the blade buckles before.
+/// Rise at which the first critical speed equals the operating speed, or at which the blade buckles if that
+/// is less.
 fn tolerated_rise_k(heat: &HeatEntry) -> Option<f64> {
     let limit = heat.operating_limit.as_ref().or(heat.buckling.as_ref());
     let limit = limit.filter(|_| !heat.past_critical_when_cold);
@@ -94,7 +95,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene};
     use crate::stability::Analysis;
 
-    /// The page is told the answer that the program prints, line for line.
+    /// The page receives the lines that the program prints.
     #[test]
     fn the_answer_is_that_of_the_summary() {
         for (rpm, wanted) in [

@@ -1,4 +1,4 @@
-//! How far the charts are that are being computed.
+//! Progress of the diagrams that are being computed.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::spectrum::{Progress, Stage};
 
-/// The stage of the latest chart of each page.
+/// Stage of the latest diagram of each page.
 #[derive(Default)]
 pub struct UnderWay {
     begun: AtomicUsize,
@@ -16,15 +16,15 @@ pub struct UnderWay {
 type Stages = Arc<Mutex<HashMap<String, (usize, Stage)>>>;
 
 impl UnderWay {
-    /// What the chart of a page is at; `None` where none is computed.
+    /// Stage of the diagram of a page; `None` if none is being computed.
     pub fn stage(&self, page: &str) -> Option<Stage> {
         locked(&self.stages).get(page).map(|(_, stage)| *stage)
     }
 
-    /// Does work that computes a chart of a page.
+    /// Runs a function that computes a diagram of a page.
     ///
     /// # Errors
-    /// When the system gives no more threads.
+    /// The error of starting a thread.
     pub fn watched<T: Send>(
         &self,
         page: &str,
@@ -34,7 +34,7 @@ impl UnderWay {
         let (stages, page_of) = (self.stages.clone(), page.to_owned());
         locked(&stages).insert(page_of.clone(), (number, Stage::default()));
         let progress = Progress::new(move |stage| {
-            // One that was given up may still be ending.
+            // A cancelled computation may still be ending.
             if let Some(latest) = locked(&stages).get_mut(&page_of)
                 && latest.0 == number
             {

@@ -1,24 +1,24 @@
-//! Why a JSON text was refused, and where.
+//! Error of reading a JSON text, and its position.
 
-/// What a JSON text was refused for.
+/// Error of reading a JSON text.
 #[derive(Debug)]
 pub(crate) struct KeyedError {
-    /// JSON path of the key, or the whole.
+    /// JSON path of the key, or the name of the whole.
     pub key: String,
-    /// What is wrong with it, and the remedy.
+    /// Description of the error, with remedy.
     pub message: String,
-    /// Whether a list of the known keys helps.
+    /// Whether a list of the known keys is helpful.
     pub of_keys: bool,
 }
 
-/// What the parser says, and where.
+/// Message and position of the parser.
 pub(super) struct Fault {
-    /// JSON path as the parser has it; empty for the whole.
+    /// JSON path given by the parser; empty for the whole text.
     pub path: String,
     pub error: serde_json::Error,
 }
 
-/// Offset in bytes at which the parser stopped, behind what it had read.
+/// Offset in bytes at which the parser stopped.
 pub(super) fn offset(text: &str, error: &serde_json::Error) -> usize {
     let lines = text
         .split_inclusive('\n')

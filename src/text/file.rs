@@ -1,62 +1,62 @@
-//! Files as Unicode text, whatever program wrote them.
+//! Reads files as Unicode text, whatever program wrote them.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Why a file gave no text.
+/// Reason for which a file could not be read as text.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
-    /// The system refused to open or read it.
+    /// The system could not open or read the file.
     #[error("cannot read {}: {source}", path.display())]
     Read {
-        /// The file asked for.
+        /// Path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// A directory in place of a file.
+    /// The path is that of a directory.
     #[error("{} is a directory; give a file inside it", path.display())]
     Directory {
-        /// The directory.
+        /// Path of the directory.
         path: PathBuf,
     },
-    /// More bytes than such a file can have.
+    /// The file is too large.
     #[error(
         "{} is larger than {limit} bytes; it should be a page of text, so this is probably another file",
         path.display()
     )]
     TooLarge {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Most bytes.
+        /// Largest number of bytes.
         limit: u64,
     },
-    /// No text at all.
+    /// The file does not contain text.
     #[error("{} is {kind}", path.display())]
     NotText {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What it is instead, and the remedy.
+        /// Kind of the file, and remedy.
         kind: &'static str,
     },
 }
 
-/// What is neither UTF-8 nor UTF-16.
+/// Handling of text that is neither UTF-8 nor UTF-16.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OtherEncodings {
-    /// Refused: JSON is Unicode.
+    /// It is refused, because JSON is Unicode.
     Refused,
-    /// Read as ISO 8859-1, for tables: their numbers and separators are ASCII in all of them, and
-    /// no more than the name of a column can come out wrong.
+    /// It is read as ISO 8859-1, for tables: numbers and separators are ASCII in all encodings, so that at
+    /// most the name of a column is wrong.
     AsLatin1,
 }
 
-/// What a file is expected to be.
+/// Expected properties of a file.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// Most bytes.
+    /// Largest number of bytes.
     pub limit: u64,
-    /// How other encodings are dealt with.
+    /// Handling of other encodings.
     pub other_encodings: OtherEncodings,
 }
 
@@ -78,15 +78,14 @@ pub fn read_path(path: &Path, kind: Kind) -> Result<String, FileError> {
     read_stream(file, path, kind)
 }
 
-/// The text of a stream, called `path` in errors.
+/// The text of a stream; errors name it `path`.
 ///
 /// # Errors
 /// [`FileError`] with the name.
 pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String, FileError> {
     let path = || path.to_owned();
     let limit = kind.limit;
-    // The limit is on what is read, not on what the file system reports: pipes and devices
-    // report nothing.
+    // The limit applies to the bytes that are read, because pipes and devices report no size.
     let mut bytes = Vec::new();
     let mut limited = stream.take(limit + 1);
     limited
@@ -104,7 +103,7 @@ pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String,
     decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path: path(), kind })
 }
 
-/// How files begin that people take for tables or scenes.
+/// First bytes of files that are confused with tables or scenes.
 const FOREIGN: [(&[u8], &str); 6] = [
     (
         b"PK\x03\x04",
@@ -130,7 +129,7 @@ const BINARY: &str = "not text, but binary; give a file of plain text";
 const UNKNOWN_ENCODING: &str = "not UTF-8 or UTF-16 text; save it as UTF-8";
 const LONE_SURROGATE: &str = "broken UTF-16 text; save it as UTF-8";
 
-/// The text of bytes in UTF-8 or UTF-16, without byte order mark, or why there is none.
+/// Decodes UTF-8 or UTF-16 and removes the byte order mark, or returns the reason for failure.
 fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'static str> {
     if let Some((_, kind)) = FOREIGN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Err(kind);
@@ -138,7 +137,8 @@ fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'sta
     let utf_16 = match bytes {
         [0xff, 0xfe, rest @ ..] => Some((rest, u16::from_le_bytes as fn([u8; 2]) -> u16)),
         [0xfe, 0xff, rest @ ..] => Some((rest, u16::from_be_bytes as fn([u8; 2]) -> u16)),
-        // Without a mark: what such files begin with is ASCII, whose other half is zero.
+        // Without a mark UTF-16 is recognized by its first character, which is ASCII, so that one byte is
+        // zero.
         [first, 0, second, 0, ..] if *first != 0 && *second != 0 => {
             Some((bytes, u16::from_le_bytes as fn([u8; 2]) -> u16))
         }
@@ -175,7 +175,7 @@ fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'sta
 mod tests {
     use super::*;
 
-    /// The expected bytes are those of `iconv`, written out.
+    /// The expected bytes were produced by `iconv`.
     #[test]
     fn the_same_text_in_every_encoding() {
         let text = "{\"ä\": z}";

@@ -1,4 +1,4 @@
-//! JSON as people write it, read where it is unambiguous.
+//! JSON with comments and other deviations that are unambiguous.
 
 use serde::de::DeserializeOwned;
 
@@ -6,9 +6,8 @@ use super::fault::{Fault, KeyedError, offset};
 use super::problem;
 use super::token::{Part, tokens, without_comments};
 
-/// Reads JSON, and nothing after it; errors point at the key, or at the `whole` by its name.
-/// Comments, commas before a closing bracket, and numbers in quotation marks where only a number
-/// can be meant, are read too.
+/// Reads JSON without trailing text; errors point at the key, or at the `whole` by its name. Comments, commas
+/// before a closing bracket, and quoted numbers where only a number is allowed are accepted.
 pub(crate) fn from_keyed_json<T: DeserializeOwned>(
     text: &str,
     whole: &str,
@@ -38,13 +37,13 @@ fn strict<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     Ok(value)
 }
 
-/// A path without what the parser does not know yet: the key that it is at.
+/// The path of the key, without parts that the parser marks as unknown.
 fn known_path(path: &str) -> String {
     let path = path.trim_end_matches('?').trim_end_matches('.');
     path.trim_end_matches("[?]").to_owned()
 }
 
-/// The text without the quotation marks around the number that an error complains of.
+/// The text without the quotation marks around the number to which an error refers.
 fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
     let message = error.to_string();
     let (found, expected) = message
@@ -63,7 +62,8 @@ fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
         .into_iter()
         .filter(|token| token.part == Part::Quoted && token.text == found)
         .collect();
-    // The parser has just read it, but for variants, which it reads whole before it looks.
+    // The token is the one that the parser has just read, except for variants, which it reads as a whole
+    // first.
     if let Some(place) = same.iter().position(|token| token.end() == end) {
         same = vec![same[place]];
     }

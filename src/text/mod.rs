@@ -1,7 +1,7 @@
-//! Text as people have it: files of any editor or spreadsheet as Unicode, JSON with comments, and
-//! words that may be shown on a terminal.
+//! Input and output of text: files of any editor or spreadsheet, JSON with comments, and text that is safe to
+//! show on a terminal.
 //!
-//! In go the bytes of a file; out comes text, or an error that names the line and column.
+//! The bytes of a file become text, or an error that names line and column.
 
 mod fault;
 mod file;
@@ -17,15 +17,15 @@ pub use file::{FileError, Kind, OtherEncodings, read_path};
 pub(crate) use json::from_keyed_json;
 pub(crate) use number::{shown, shown_to};
 
-/// Characters that steer a terminal, or turn the direction of what follows, as their escapes.
-/// Line breaks stay.
+/// Replaces characters that control a terminal or change the direction of text by their escapes. Line breaks
+/// are kept.
 pub fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for character in text.chars() {
         let steers = character.is_control() && character != '\n';
         let turns = matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         match steers || turns {
-            // An escape of JSON too: what is printed as JSON stays the same text.
+            // The escape is one of JSON too, so that printed JSON keeps its meaning.
             true => shown.push_str(&format!("\\u{:04x}", u32::from(character))),
             false => shown.push(character),
         }
@@ -33,7 +33,7 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
-/// The same on one line.
+/// As [`printable`], on one line.
 pub fn printable_line(text: &str) -> String {
     printable(text).replace('\n', "\\n")
 }

@@ -1,9 +1,9 @@
-//! Numbers as people write them, in every message.
+//! Format of numbers in all messages.
 
-/// Digits of a number in a message: all that anyone types, and none of those that rounding adds
-/// (0.1 + 0.2 is 0.3).
+/// Digits of a number in a message: sufficient for typed numbers, and few enough to hide rounding errors (0.1
+/// + 0.2 is 0.3).
 const DIGITS: usize = 12;
-/// Sizes that are written without an exponent.
+/// Range of numbers that are written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-4..1e6;
 
 /// A number in a message: 2750, 0.0028, 2.1e11.
@@ -11,7 +11,7 @@ pub fn shown(value: f64) -> String {
     shown_to(DIGITS, value)
 }
 
-/// The same to so many digits, one at least.
+/// A number with the given number of digits, at least one.
 pub fn shown_to(digits: usize, value: f64) -> String {
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let rounded: f64 = rounded.parse().unwrap_or(value);

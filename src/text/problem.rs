@@ -1,9 +1,9 @@
-//! What keeps a text from being the JSON that was expected, in plain words.
+//! Explains why a text is not the expected JSON.
 
 use super::fault::{Fault, KeyedError, offset};
 use super::token::{Part, Token, tokens};
 
-/// The cause and the remedy of a parser's complaint.
+/// Cause and remedy of an error of the parser.
 pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     let Fault { path, error } = fault;
     let said = error.to_string();
@@ -74,7 +74,7 @@ fn below(path: &str, key: &str) -> String {
     }
 }
 
-/// JSON, but not what was expected.
+/// The text is JSON, but not what is expected.
 fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
     let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
@@ -112,7 +112,7 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     (path.to_owned(), format!("{message} (line {line})"))
 }
 
-/// What has another type than it should have.
+/// A value has the wrong type.
 fn of_type(found: &str, expected: &str) -> String {
     let (kind, value) = found.split_once(' ').unwrap_or((found, ""));
     let is = match kind {
@@ -145,7 +145,7 @@ fn of_type(found: &str, expected: &str) -> String {
     format!("must be {must}, but is {is}{remedy}")
 }
 
-/// Units that people write, and what one of them is in the unit that a key has.
+/// Units in which people write numbers, with their conversion to the unit of a key.
 const UNITS: [(&str, &str, &str); 13] = [
     ("mm", "m", "0.001"),
     ("cm", "m", "0.01"),
@@ -162,10 +162,10 @@ const UNITS: [(&str, &str, &str); 13] = [
     ("m_per_min", "m_per_s", "1/60"),
 ];
 
-/// A near miss differs in no more than a third of its letters.
+/// Smallest similarity of a misspelt name.
 const LIKENESS: f64 = 0.75;
 
-/// The known name that was meant, or all of them.
+/// The known name that was probably meant, or all known names.
 fn meant(subject: &str, known: &[&str]) -> String {
     for (unit, own, factor) in UNITS {
         let stem = subject
@@ -192,7 +192,7 @@ fn meant(subject: &str, known: &[&str]) -> String {
     }
 }
 
-/// No JSON: the first thing up to where the parser stopped that people write and JSON has not.
+/// The text is not JSON: reports the first common mistake up to where the parser stopped.
 fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(String, String)> {
     let stopped = offset(text, error);
     let all = tokens(text);
@@ -231,7 +231,7 @@ fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(Strin
     of_parser(error).map(|message| (path.to_owned(), message))
 }
 
-/// `0,0028` where a key should follow the comma, or a number that cannot begin with 0.
+/// `0,0028` where a key should follow the comma, or a number that begins with 0.
 fn decimal_comma(
     token: &Token,
     comma: Option<&Token>,
@@ -255,7 +255,7 @@ fn decimal_comma(
     found.then(|| format!("{},{}", token.text, after.text))
 }
 
-/// A word that is no number, `true`, `false` or `null`.
+/// A word that is not a number, `true`, `false` or `null`.
 fn of_word(token: &Token, begins_key: bool) -> Option<String> {
     let text = token.text;
     if token.part != Part::Word || serde_json::from_str::<serde_json::Value>(text).is_ok() {
@@ -295,7 +295,7 @@ fn of_word(token: &Token, begins_key: bool) -> Option<String> {
     })
 }
 
-/// The parser's own complaints that have a usual cause.
+/// Errors of the parser with a common cause.
 fn of_parser(error: &serde_json::Error) -> Option<String> {
     let (said, line) = (error.to_string(), error.line());
     let message = [

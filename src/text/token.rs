@@ -1,20 +1,19 @@
-//! JSON as people write it, cut into tokens: for the comments in it, and to find what keeps a
-//! parser from reading it.
+//! Tokens of JSON, for removing comments and for finding the cause of a syntax error.
 
-/// What a token is.
+/// Kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// One of `{}[]:,`.
+    /// One of the characters `{}[]:,`.
     Mark,
-    /// A text in double quotation marks.
+    /// Text in double quotation marks.
     Quoted,
-    /// Anything else without white space: a number, `true`, or what should be in quotation marks.
+    /// Anything else without white space: a number, `true`, or text without quotation marks.
     Word,
     /// `// …` or `/* … */`.
     Comment,
 }
 
-/// A token and where it stands.
+/// A token and its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Token<'a> {
     pub part: Part,
@@ -24,7 +23,7 @@ pub struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// Offset behind it.
+    /// Offset of its end.
     pub fn end(&self) -> usize {
         self.start + self.text.len()
     }
@@ -58,7 +57,7 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     found
 }
 
-/// Length of a text in quotation marks; one that is not closed ends with the line.
+/// Length of a quoted text; without a closing mark it ends with the line.
 fn quoted(rest: &str) -> usize {
     let mut escaped = false;
     for (offset, character) in rest.char_indices().skip(1) {
@@ -88,8 +87,8 @@ fn word(rest: &str) -> usize {
     end.map_or(rest.len(), |(offset, _)| offset)
 }
 
-/// The same text with spaces in place of comments and of commas before a closing bracket: what
-/// is left stands where it stood.
+/// Replaces comments, and commas before a closing bracket, by spaces. All other characters keep their
+/// positions.
 pub fn without_comments(text: &str) -> String {
     let all = tokens(text);
     let mut blanks: Vec<&Token> = all.iter().filter(|t| t.part == Part::Comment).collect();
@@ -125,7 +124,7 @@ mod tests {
         assert_eq!(without_comments(plain), plain);
     }
 
-    /// Whatever it is, it is cut into pieces that are there.
+    /// Any text is divided into tokens without a panic.
     #[test]
     fn broken_text_has_tokens_too() {
         for text in ["\"open", "/* open", "{,,}]", "ä/b//c", "\\\"\\", "/"] {
