@@ -955,10 +955,6 @@ class CutCertificate(Entry):
     miscounted_modes: tuple[Miscount, ...]
     """Modes that the counts say are missing, or too many; expected none."""
 
-    differing_growths: int
-    """In how many of the two the fastest of these modes does not grow as the criteria say;
-    expected 0."""
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ByPower(Entry):

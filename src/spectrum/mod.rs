@@ -72,9 +72,9 @@ pub(crate) use critical::{clear_range, searched_range, standing_name};
 pub use error::SpectrumError;
 pub use event_name::{EventName, EventWaves};
 pub(crate) use full_model::{AtSpeed, FullModel};
-pub(crate) use growth::fastest_growing;
 #[doc(hidden)]
-pub use growth::fastest_growing_of;
+pub use growth::fastest_growing;
+pub(crate) use growth::{eigenvalues, grows};
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
 pub(crate) use hermitian::negative_eigenvalues;
 pub(crate) use interval::SearchModel;

@@ -71,7 +71,7 @@ pub(super) const GROWTH_NOISE: f64 = 1e-7;
 /// A growth or decay of a damped mode below this share of |λ| is rounding of the eigenproblem, which is a small
 /// multiple of ε of its largest eigenvalue: of a free blade with damped material, which tilts without bending, Re λ was
 /// up to 3e-13 |λ|.
-const DAMPED_NOISE: f64 = 1e-10;
+pub(super) const DAMPED_NOISE: f64 = 1e-10;
 /// Eigenvalues below this share of the root mean square frequency are zero, where rigid
 /// motions are free: a double zero is known to √ε of it only.
 pub(super) const RIGID_NOISE: f64 = 2e-7;

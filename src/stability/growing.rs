@@ -1,7 +1,8 @@
 //! Growing modes of one speed, held against counts on the full model: for a saw that is looked at once, as in a cut.
 //!
-//! The lowest modes come from an iteration, which might pass over one. Of an undamped saw the Krein index, n₋(K) by a
-//! factorization, and the counts between modes of opposite sign tell; of a damped one the argument principle.
+//! Of an undamped saw the lowest modes are enough, where the Krein index, n₋(K) by a factorization, says that no other
+//! grows and the counts between modes of opposite sign say that none is passed over. Of any other all eigenvalues are
+//! taken, and the lowest counted by the argument principle.
 
 use faer::c64;
 
@@ -10,16 +11,18 @@ use super::mode_counts::{Miscount, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
-    FullModel, LowestModes, Mode, SpectrumError, krein_index, negative_eigenvalues,
+    FullModel, LowestModes, Mode, SpectrumError, eigenvalues, grows, krein_index,
+    negative_eigenvalues,
 };
+use crate::system::GyroscopicSystem;
 
 /// Growing modes of a plate at a speed, and what was checked of them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct GrowingModes {
     /// How many modes grow; a pair of conjugate eigenvalues is one.
     pub modes: usize,
-    /// Re λ of the fastest of them, in 1/s.
-    pub growth_per_s: Option<f64>,
+    /// The eigenvalue of largest real part, Im λ ≥ 0; `None` of an undamped saw of which no mode grows.
+    pub fastest: Option<c64>,
     /// n₋(K) and the Krein index of the modes, of an undamped saw.
     pub krein: Option<[usize; 2]>,
     /// Counts of modes on the full model that were certain.
@@ -38,14 +41,15 @@ impl GrowingModes {
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, SpectrumError> {
         let lowest = LowestModes::new(plate);
-        let is_undamped = lowest.components.iter().all(|c| c.full.is_conservative());
+        let has_krein_index =
+            |system: &GyroscopicSystem| system.is_conservative() && system.free_rigid.is_empty();
+        if !lowest.components.iter().all(|c| has_krein_index(&c.full)) {
+            return Self::by_all_eigenvalues(plate, &lowest, speed_rad_per_s);
+        }
         let mut count = LOOKED_AT;
         loop {
             let modes = lowest.at(speed_rad_per_s, count)?;
-            let checked = match is_undamped {
-                true => Self::undamped(plate, &lowest, speed_rad_per_s, &modes),
-                false => Self::damped(plate, &lowest, speed_rad_per_s, &modes),
-            };
+            let checked = Self::undamped(plate, &lowest, speed_rad_per_s, &modes);
             let is_whole = modes.len() < count;
             if checked.is_clean() || is_whole {
                 return Ok(checked);
@@ -65,20 +69,16 @@ impl GrowingModes {
             .is_none_or(|[stiffness, modes]| stiffness == modes)
     }
 
-    fn of_modes(modes: &[Mode]) -> Self {
-        let growth = modes.iter().map(Mode::growth_per_s).filter(|g| *g > 0.0);
-        GrowingModes {
-            modes: growth.clone().count(),
-            growth_per_s: growth.max_by(f64::total_cmp),
-            ..GrowingModes::default()
-        }
-    }
-
     fn undamped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
-        let mut found = Self::of_modes(modes);
-        if has_free_motions(lowest) {
-            return found;
-        }
+        let growing = modes.iter().filter(|mode| mode.growth_per_s() > 0.0);
+        let fastest = growing
+            .clone()
+            .max_by(|x, y| x.lambda.re.total_cmp(&y.lambda.re));
+        let mut found = GrowingModes {
+            modes: growing.count(),
+            fastest: fastest.map(|mode| mode.lambda),
+            ..GrowingModes::default()
+        };
         let systems = lowest.components.iter().map(|component| &component.full);
         let negative: Option<usize> = systems
             .map(|system| negative_eigenvalues(&system.stiffness_at(speed)))
@@ -105,25 +105,47 @@ impl GrowingModes {
         found
     }
 
-    fn damped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
-        let mut found = Self::of_modes(modes);
-        if plate.is_axisymmetric() || has_free_motions(lowest) {
-            return found;
+    fn by_all_eigenvalues(
+        plate: &Plate,
+        lowest: &LowestModes,
+        speed: f64,
+    ) -> Result<Self, SpectrumError> {
+        let mut values = Vec::new();
+        let mut has_free_motions = false;
+        for component in &lowest.components {
+            values.extend(eigenvalues(&component.full, speed)?);
+            has_free_motions |= !component.full.free_rigid.is_empty();
         }
-        let full = FullModel::new(plate);
-        let listed: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
-        let highest = listed.iter().fold(0.0, |top: f64, value| top.max(value.im));
-        if let Some(miscount) = counted_in_window(&full, speed, &listed, highest) {
-            found.full_basis_counts = 1;
-            found.miscounts = miscount.into_iter().collect();
+        let is_undamped = lowest.components.iter().all(|c| c.full.is_conservative());
+        let mut found = Self::of_values(&values, speed, is_undamped);
+        if !plate.is_axisymmetric() && !has_free_motions {
+            found.count(&FullModel::new(plate), speed, values);
         }
-        found
+        Ok(found)
     }
-}
 
-fn has_free_motions(lowest: &LowestModes) -> bool {
-    let mut components = lowest.components.iter();
-    components.any(|component| !component.full.free_rigid.is_empty())
+    fn of_values(values: &[c64], speed: f64, is_undamped: bool) -> Self {
+        let grows = |lambda: &&c64| grows(**lambda, speed, is_undamped);
+        let fastest = values.iter().max_by(|x, y| x.re.total_cmp(&y.re));
+        GrowingModes {
+            modes: values.iter().filter(grows).count(),
+            fastest: fastest
+                .filter(|fastest| !is_undamped || grows(fastest))
+                .copied(),
+            ..GrowingModes::default()
+        }
+    }
+
+    /// Counts the lowest of all eigenvalues of a damped saw.
+    fn count(&mut self, full: &FullModel, speed: f64, mut values: Vec<c64>) {
+        values.sort_by(|x, y| x.im.total_cmp(&y.im));
+        values.truncate(LOOKED_AT);
+        let highest = values.last().map_or(0.0, |value| value.im);
+        if let Some(miscount) = counted_in_window(full, speed, &values, highest) {
+            self.full_basis_counts = 1;
+            self.miscounts = miscount.into_iter().collect();
+        }
+    }
 }
 
 #[cfg(test)]
@@ -132,7 +154,6 @@ mod tests {
     use crate::plate::{Resolution, RimForce};
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::{ModeKind, companion_eigenpairs};
-    use crate::system::GyroscopicSystem;
 
     /// The paper's saw pushed at its rim, idle, and with a damper.
     fn plates() -> [Plate; 3] {
@@ -163,7 +184,8 @@ mod tests {
                     .filter(|re| *re > noise);
                 let fastest = grows.clone().fold(0.0, f64::max);
                 assert_eq!(found.modes, grows.clone().count(), "{rpm}: {found:?}");
-                let off = (found.growth_per_s.unwrap_or(0.0) - fastest).abs();
+                let growth = found.fastest.map_or(0.0, |lambda| lambda.re.max(0.0));
+                let off = (growth - fastest).abs();
                 assert!(off <= 1e-6 * (1.0 + fastest), "{rpm}: {off:e}");
                 assert!(found.is_clean(), "{rpm}: {found:?}");
                 assert!(found.full_basis_counts > 0, "{rpm}: {found:?}");
@@ -196,12 +218,16 @@ mod tests {
                 assert!(!found.is_clean(), "{:?}: {found:?}", mode.kind);
             }
         }
-        let (lowest, speed) = (LowestModes::new(&damped), rad_per_s(1540.0));
-        let mut modes = lowest.at(speed, LOOKED_AT).unwrap();
-        assert!(GrowingModes::damped(&damped, &lowest, speed, &modes).is_clean());
-        let growing = modes.iter().position(|mode| mode.growth_per_s() > 0.0);
-        modes.remove(growing.expect("a growing mode"));
-        let found = GrowingModes::damped(&damped, &lowest, speed, &modes);
-        assert_eq!(found.miscounts[0].missing, 1);
+        let (full, speed) = (FullModel::new(&damped), rad_per_s(1540.0));
+        let mut values = eigenvalues(&GyroscopicSystem::of_plate(&damped), speed).unwrap();
+        let counted = |values: &[c64]| {
+            let mut found = GrowingModes::of_values(values, speed, false);
+            found.count(&full, speed, values.to_vec());
+            found
+        };
+        assert!(counted(&values).is_clean());
+        let growing = values.iter().position(|lambda| lambda.re > 0.0);
+        values.remove(growing.expect("a growing mode"));
+        assert_eq!(counted(&values).miscounts[0].missing, 1);
     }
 }

@@ -5,7 +5,8 @@ use faer::{Col, Mat, Scale, c64};
 use super::*;
 use crate::plate::Resolution;
 use crate::scene::{Scene, rad_per_s};
-use crate::spectrum::{SpectralModel, companion_eigenpairs, fastest_growing_of};
+use crate::spectrum::{SpectralModel, companion_eigenpairs, fastest_growing};
+use crate::system::GyroscopicSystem;
 use crate::transient::{Force, Integrator, Newmark, State};
 
 const RESOLUTION: Resolution = Resolution {
@@ -356,7 +357,8 @@ fn flutter_rises_as_far_as_the_normal_form_says() {
         let speed = rad_per_s(rpm);
         let blade = StretchedBlade::at_speed(&plate, speed, 6).unwrap();
         let predicted = blade.saturation(speed).unwrap().unwrap();
-        let growth = fastest_growing_of(&plate, speed).unwrap().unwrap().re;
+        let system = GyroscopicSystem::of_plate(&plate);
+        let growth = fastest_growing(&system, speed).unwrap().unwrap().re;
         assert!((predicted.growth_per_s / growth - 1.0).abs() < 1e-5);
         let largest = simulated(&blade, &predicted);
         let error = predicted.amplitude_m / largest - 1.0;

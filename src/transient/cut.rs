@@ -6,7 +6,7 @@ use faer::{Col, c64};
 
 use crate::plate::Plate;
 use crate::scene::{CutRun, Probe};
-use crate::spectrum::{companion_eigenpairs, fastest_growing_of};
+use crate::spectrum::companion_eigenpairs;
 use crate::stability::GrowingModes;
 use crate::system::GyroscopicSystem;
 
@@ -30,7 +30,9 @@ impl Growth {
     /// # Errors
     /// [`TransientError::Spectrum`].
     pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, TransientError> {
-        Ok(fastest_growing_of(plate, speed_rad_per_s)?.into())
+        Ok(GrowingModes::of_plate(plate, speed_rad_per_s)?
+            .fastest
+            .into())
     }
 }
 
@@ -102,12 +104,11 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         let plate = plate.in_cut(cut, &by_power);
         Growth::of_plate(&plate, speed)
     });
-    let idle = Growth::of_plate(plate, speed)?;
-    let in_cut = Growth::of_plate(&saw.cutting, speed)?;
     let growing = [
         GrowingModes::of_plate(plate, speed)?,
         GrowingModes::of_plate(&saw.cutting, speed)?,
     ];
+    let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.fastest));
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let (record, stretched) = match cut.stretching {
         false => (record(saw, &gauge, [idle, in_cut])?, None),

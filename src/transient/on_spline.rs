@@ -2,7 +2,6 @@
 
 use crate::plate::{Plate, RimForce};
 use crate::scene::{Cut, CutRun, Scene};
-use crate::spectrum::fastest_growing_of;
 use crate::spline::{self, SplineRun, reaction_effect};
 use crate::system::GyroscopicSystem;
 
@@ -47,10 +46,10 @@ pub fn on_spline(
     let blade = ReducedBlade::new(plate, &[snapshot], MODES, &[]);
     let stiffness_change = effect.relative_change_on(blade.basis());
     let cutting = plate.with_edge_stiffness(effect.simulated);
-    let fastest = fastest_growing_of(&cutting, speed_rad_per_s)?;
+    let in_cut = Growth::of_plate(&cutting, speed_rad_per_s)?;
     Ok(Some(OnSpline {
         motion,
         stiffness_change,
-        in_cut: fastest.into(),
+        in_cut,
     }))
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
-use crate::spectrum::{fastest_growing_of, lowest_eigenpairs, orthonormal, split};
+use crate::spectrum::{fastest_growing, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 use crate::transient::{
     Integrator, Newmark, Propagator, SawInCut, State, cut_history, run_up, tooth_passing,
@@ -255,7 +255,8 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
                 ..run
             };
             let cutting = moved.in_cut(&cut, &scaled);
-            let exact = fastest_growing_of(&cutting, run.speed_rad_per_s).unwrap();
+            let system = GyroscopicSystem::of_plate(&cutting);
+            let exact = fastest_growing(&system, run.speed_rad_per_s).unwrap();
             let exact = exact.map_or(0.0, |lambda| lambda.re);
             let mapped = map.growth_per_s[row][column];
             let scale = exact.max(0.1);

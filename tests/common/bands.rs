@@ -90,6 +90,35 @@ pub fn drawn_saw(index: u64) -> SceneFile {
     file
 }
 
+/// The same saw in a cut of which the forces bear on the chart, as large as one that the paper's saw stands or less;
+/// halved until the blade is stable at rest.
+pub fn drawn_saw_in_cut(index: u64) -> SceneFile {
+    let mut file = drawn_saw(index);
+    let mut draw = Draw(index.wrapping_mul(0x9e6c_63d0_876a_68de) ^ 1);
+    let (blade, outer_m) = (&file.blade, file.blade.outer_diameter_m);
+    let bending_n = blade.material.youngs_modulus_pa * blade.thickness_m.powi(3) / outer_m.powi(2);
+    let mut tangential_n = bending_n * draw.log_between(0.02, 0.14);
+    let (radial, angle_deg) = (draw.between(-0.1, 0.1), draw.between(-180.0, 180.0));
+    let depth_m = outer_m * draw.between(0.05, 0.25);
+    for _ in 0..8 {
+        let cut = serde_json::json!({
+            "angle_deg": angle_deg,
+            "depth_m": depth_m,
+            "tangential_n_per_tooth": tangential_n,
+            "radial_n_per_tooth": radial * tangential_n,
+            "chart_rpm": 1000.0,
+            "speeds": [{ "rpm": 1000.0 }],
+        });
+        file.cut = Some(serde_json::from_value(cut).unwrap());
+        let scene = Scene::try_from(file.clone()).unwrap();
+        if Analysis::new(&scene).is_ok() {
+            break;
+        }
+        tangential_n *= 0.5;
+    }
+    file
+}
+
 /// Every eigenvalue with Im λ ≥ 0 of the full model, in 1/s.
 fn all_eigenvalues(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> {
     let (n, scale) = (system.order(), 2_f64.powi(12));

@@ -16,6 +16,17 @@ fn lists_of_bands_of_three_hundred_saws_are_those_of_all_eigenvalues() {
 
 #[test]
 #[ignore = "a trial"]
+fn lists_of_bands_of_twenty_saws_in_the_cut_are_those_of_all_eigenvalues() {
+    let mut trial = Trial::new("bands of 20 saws in the cut");
+    for saw in mine(0..20) {
+        let file = bands::drawn_saw_in_cut(saw);
+        trial.saw(&format!("saw {saw}"), || bands::wrong_bands(&file));
+    }
+    trial.end();
+}
+
+#[test]
+#[ignore = "a trial"]
 fn bands_of_forty_damped_saws_are_those_of_every_eigenvalue() {
     let mut trial = Trial::new("bands of 40 damped saws");
     for (k, file) in mine((0..40).zip(damped::drawn_saws(40))) {

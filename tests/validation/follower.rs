@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use faer::{Col, Mat, Scale};
 use sawflutter::plate::{Contact, ContactTerms, Plate, Resolution};
 use sawflutter::scene::GuideFile;
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy, fastest_growing_of};
+use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy, fastest_growing};
 use sawflutter::system::GyroscopicSystem;
 
 /// A force P at a point of the blade, along the circumference of the deflected blade: its
@@ -74,7 +74,8 @@ fn loaded(plate: &Plate, force_n: f64) -> Plate {
 /// where eigenvalues themselves are known to half their digits.
 fn onset_n(plate: &Plate, about_n: f64) -> f64 {
     let squared_growth = |force_n: f64| {
-        let fastest = fastest_growing_of(&loaded(plate, -force_n), 0.0).unwrap();
+        let system = GyroscopicSystem::of_plate(&loaded(plate, -force_n));
+        let fastest = fastest_growing(&system, 0.0).unwrap();
         fastest.map_or(0.0, |lambda| lambda.re.max(0.0).powi(2))
     };
     assert!(
