@@ -91,8 +91,8 @@ pub fn drawn_saw(index: u64) -> SceneFile {
 }
 
 /// The same saw in a cut of which the forces bear on the chart, as large as one that the paper's saw stands or less;
-/// halved until the blade is stable at rest.
-pub fn drawn_saw_in_cut(index: u64) -> SceneFile {
+/// halved until the blade is stable at rest. `None` of a saw that is never, for its guides leave a rigid motion free.
+pub fn drawn_saw_in_cut(index: u64) -> Option<SceneFile> {
     let mut file = drawn_saw(index);
     let mut draw = Draw(index.wrapping_mul(0x9e6c_63d0_876a_68de) ^ 1);
     let (blade, outer_m) = (&file.blade, file.blade.outer_diameter_m);
@@ -112,11 +112,11 @@ pub fn drawn_saw_in_cut(index: u64) -> SceneFile {
         file.cut = Some(serde_json::from_value(cut).unwrap());
         let scene = Scene::try_from(file.clone()).unwrap();
         if Analysis::new(&scene).is_ok() {
-            break;
+            return Some(file);
         }
         tangential_n *= 0.5;
     }
-    file
+    None
 }
 
 /// Every eigenvalue with Im λ ≥ 0 of the full model, in 1/s.

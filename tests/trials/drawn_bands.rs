@@ -18,8 +18,8 @@ fn lists_of_bands_of_three_hundred_saws_are_those_of_all_eigenvalues() {
 #[ignore = "a trial"]
 fn lists_of_bands_of_twenty_saws_in_the_cut_are_those_of_all_eigenvalues() {
     let mut trial = Trial::new("bands of 20 saws in the cut");
-    for saw in mine(0..20) {
-        let file = bands::drawn_saw_in_cut(saw);
+    let saws = (0..).filter_map(|saw| Some((saw, bands::drawn_saw_in_cut(saw)?)));
+    for (saw, file) in mine(saws.take(20)) {
         trial.saw(&format!("saw {saw}"), || bands::wrong_bands(&file));
     }
     trial.end();
