@@ -17,6 +17,7 @@ __all__ = [
     "functions_at",
     "matrices",
     "modes",
+    "number",
     "palette",
     "panic",
     "paper",
@@ -31,6 +32,7 @@ __all__ = [
     "schema",
     "summary",
     "tradeoff",
+    "vtk_files",
     "washboard",
 ]
 
@@ -49,7 +51,12 @@ def program(arguments: Sequence[str]) -> int: ...
 def panic() -> None: ...
 def processor() -> str: ...
 def analyze(
-    scene: str, *, sensitivity: bool = False, amplitude: bool = False, progress: _Progress = None
+    scene: str,
+    *,
+    sensitivity: bool = False,
+    amplitude: bool = False,
+    shapes_at_rpm: Sequence[float] | None = None,
+    progress: _Progress = None,
 ) -> str: ...
 def modes(scene: str, at_rpm: Sequence[float], *, progress: _Progress = None) -> str: ...
 def check(
@@ -118,6 +125,7 @@ def summary(command: str, report: str) -> str: ...
 def chart(command: str, name: str, report: str) -> str | None: ...
 def campbell_csv(report: str) -> str: ...
 def palette() -> str: ...
+def vtk_files(report: str) -> list[tuple[str, str]]: ...
 
 @final
 class Study:

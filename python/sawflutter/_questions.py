@@ -35,6 +35,7 @@ class Questions(Searches):
         tolerance: Number = None,
         sensitivity: bool = False,
         amplitude: bool = False,
+        shapes: bool | Iterable[SupportsFloat] = False,
         progress: Progress = None,
     ) -> CampbellResults:
         """Charts the saw: modes, critical speeds, bands of instability, certificate. Before a search of
@@ -53,6 +54,9 @@ class Questions(Searches):
             Also how critical speeds and onsets move with the numbers of the scene.
         amplitude : bool
             Also how far the flutter of each band rises: ``saturated_amplitude_m`` of the bands.
+        shapes : bool or array_like
+            Also the shape of the blade at every critical speed, in every band and at the
+            operating speed, and at the speeds given here in rpm.
         progress : bool or callable, optional
             True shows a bar, a callable is called with what is done of a step and of how many, one
             step of the computation after the other.
@@ -83,7 +87,17 @@ class Questions(Searches):
         if speed_range is not None:
             speeds = np.asarray(speed_range, float)
             scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
-        ask = partial(_native.analyze, sensitivity=sensitivity, amplitude=amplitude)
+        shapes_at_rpm: list[float] | None
+        if isinstance(shapes, (bool, np.bool_)):
+            shapes_at_rpm = [] if shapes else None
+        else:
+            shapes_at_rpm = [float(rpm) for rpm in shapes]
+        ask = partial(
+            _native.analyze,
+            sensitivity=sensitivity,
+            amplitude=amplitude,
+            shapes_at_rpm=shapes_at_rpm,
+        )
         return scene._asked(CampbellResults, ask, "speeds", accuracy, tolerance, progress)
 
     @overload

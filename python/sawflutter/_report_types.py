@@ -18,6 +18,8 @@ StabilityState: TypeAlias = Literal["stable", "divergence", "flutter", "outside_
 
 Direction: TypeAlias = Literal["forward", "backward", "reflected", "standing"]
 
+ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "operating_speed", "asked_speed"]
+
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
 CutVerdict: TypeAlias = Literal["stable", "leaves_model", "unstable"]
@@ -346,6 +348,65 @@ class Whirl(Entry):
 
     modes: tuple[WhirlMode, ...]
     """Modes, ascending in frequency."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Complex(Entry):
+    """A list of complex numbers."""
+
+    re: FloatArray
+    """Real parts."""
+
+    im: FloatArray
+    """Imaginary parts."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Wave(Entry):
+    """n nodal diameters of a mode."""
+
+    nodal_diameters: int
+    """n."""
+
+    share: float
+    """Share between 0 and 1: in the kinetic energy of a mode, in the square of the deflection
+    of the shape of an event."""
+
+    cosine: Complex
+    """Coefficient of cos nθ at the radii."""
+
+    sine: Complex
+    """Coefficient of sin nθ at the radii."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EventShape(ModeMethods):
+    """The shape of the blade at an event: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ)
+    e^{λt}. The largest deflection of all points is 1, at t = 0."""
+
+    occasion: ShapeOccasion
+    """Why it is shown."""
+
+    name: str
+    """The waves that make it, named as the event is."""
+
+    direction: Direction
+    """How the wave runs, seen from space."""
+
+    rpm: float
+    """Rotation speed."""
+
+    frequency_hz: float
+    """|Im λ|/2π in the space-fixed frame."""
+
+    growth_per_s: float
+    """Re λ."""
+
+    radius_m: FloatArray
+    """Radii of the profiles."""
+
+    harmonics: tuple[Wave, ...]
+    """Harmonics with a visible share in the square of the deflection, largest first."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -782,6 +843,10 @@ class CampbellReport(Entry):
 
     whirl: Whirl | None
     """The modes of one speed, when asked for."""
+
+    shapes: tuple[EventShape, ...]
+    """Shapes of the blade at every critical speed, at the peak of every band, at the operating
+    speed and at speeds asked for, when asked for."""
 
     accuracy: AccuracyEntry
     """How fine the computation was, and how far it may be off."""
@@ -1516,34 +1581,6 @@ class FitReport(Entry):
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Complex(Entry):
-    """A list of complex numbers."""
-
-    re: FloatArray
-    """Real parts."""
-
-    im: FloatArray
-    """Imaginary parts."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Wave(Entry):
-    """n nodal diameters of a mode."""
-
-    nodal_diameters: int
-    """n."""
-
-    share: float
-    """Share in the kinetic energy, between 0 and 1."""
-
-    cosine: Complex
-    """Coefficient of cos nθ at the radii."""
-
-    sine: Complex
-    """Coefficient of sin nθ at the radii."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -28,7 +28,7 @@ class CampbellResults(Result, CampbellReport):
     """Campbell diagram, critical speeds and bands of instability of a saw."""
 
     command = "analyze"
-    figure_names = pictures("campbell", "root-loci", "membrane", "in-cut")
+    figure_names = pictures("campbell", "root-loci", "membrane", "in-cut", "modes")
 
     @property
     def critical_rpm(self) -> FloatArray:
@@ -134,6 +134,40 @@ class CampbellResults(Result, CampbellReport):
         True
         """
         Path(path).write_bytes(_native.campbell_csv(self._text).encode())
+
+    def save_vtk(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the shapes for ParaView, as the program writes them: ``modes.pvd``, which lists a
+        grid for each phase of a period.
+
+        Parameters
+        ----------
+        folder : str or path
+            An existing folder.
+
+        Raises
+        ------
+        ValueError
+            Where the chart was made without shapes.
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft", shapes=True)
+        >>> r.shapes[0].occasion, r.shapes[0].name
+        ('critical_speed', '2 diameters')
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> r.save_vtk(folder)
+        >>> (folder / "modes.pvd").exists()
+        True
+        """
+        files = _native.vtk_files(self._text)
+        if not files:
+            raise ValueError("the chart has no shapes; run_campbell(shapes=True) computes them")
+        for name, text in files:
+            (Path(folder) / name).write_text(text, encoding="utf-8")
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
         """A table, a row each; needs pandas.

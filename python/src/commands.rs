@@ -28,12 +28,13 @@ fn json(report: &impl Serialize) -> Result<String, Failure> {
 
 /// `report.json` of a scene.
 #[pyfunction]
-#[pyo3(signature = (scene, *, sensitivity=false, amplitude=false, progress=None))]
+#[pyo3(signature = (scene, *, sensitivity=false, amplitude=false, shapes_at_rpm=None, progress=None))]
 pub fn analyze(
     py: Python<'_>,
     scene: &str,
     sensitivity: bool,
     amplitude: bool,
+    shapes_at_rpm: Option<Vec<f64>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -51,6 +52,12 @@ pub fn analyze(
         let mut report = analysis.report();
         if amplitude {
             report.add_amplitudes(&analysis)?;
+        }
+        if let Some(asked_rpm) = shapes_at_rpm {
+            let range = SpeedRange::from(analysis.range_rad_per_s);
+            let asked = asked_rpm.iter().map(|rpm| range.speed_at("shapes", *rpm));
+            let asked = asked.collect::<Result<Vec<_>, _>>()?;
+            report.add_shapes(&analysis, &asked)?;
         }
         if sensitivity {
             report.sensitivities = SensitivityEntry::all(&analysis)?;

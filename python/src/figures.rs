@@ -100,6 +100,14 @@ pub fn campbell_csv(report: &str) -> PyResult<String> {
     Ok(String::from_utf8_lossy(&table).into_owned())
 }
 
+/// The files of VTK of a report with shapes: names and texts.
+#[pyfunction]
+pub fn vtk_files(report: &str) -> PyResult<Vec<(String, String)>> {
+    let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
+    let files = report.vtk_files().into_iter();
+    Ok(files.map(|(name, text)| (name.to_owned(), text)).collect())
+}
+
 /// The colours of the figures, red, green and blue by what is drawn, as JSON.
 #[pyfunction]
 pub fn palette() -> PyResult<String> {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::figure::CampbellView;
-use crate::report::{Report, SensitivityEntry, WhirlEntry};
+use crate::report::{Report, SensitivityEntry, VTK_NAMES, WhirlEntry};
 use crate::scene::{Scene, SpeedRange};
 use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
@@ -24,6 +24,7 @@ Examples:
   sawflutter analyze my-saw.json --accuracy reference # slower, for comparisons
   sawflutter analyze --set blade.thickness_m=2.6mm    # a thinner blade
   sawflutter analyze --at-rpm 1800                    # the modes of one speed
+  sawflutter analyze --shapes                         # the shape at each event
   sawflutter analyze --amplitude                      # how far flutter rises
   sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
   sawflutter analyze --in-cut 2800                    # with forces of a cut
@@ -48,6 +49,13 @@ pub struct Arguments {
     /// Also say how far the flutter of each band rises, in millimetres, without damping
     #[arg(long)]
     amplitude: bool,
+    /// Also show the shape of the blade at every critical speed, in every band, at the operating speed and at --at-rpm:
+    /// modes.png and modes.svg
+    #[arg(long)]
+    shapes: bool,
+    /// Also write these shapes for ParaView, over a period: modes.pvd with its modes-00.vtu and further
+    #[arg(long)]
+    vtk: bool,
     /// Also list the modes at this speed: frequency, direction, growth, damping, Krein sign
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     at_rpm: Option<f64>,
@@ -149,18 +157,23 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let report = report(arguments, scene)?;
     let (files, json) = files(arguments, &report)?;
     // The table of several scenes is not this run's.
-    let optional = [&figure_names::<Report>()[..], &several::FILES].concat();
+    let optional = [&optional_names()[..], &several::FILES].concat();
     let words = || report.summary();
     arguments
         .output
         .print(&folder, &files, &optional, &json, words)
 }
 
+/// Files of an earlier run that this one may not write.
+fn optional_names() -> Vec<&'static str> {
+    [&figure_names::<Report>()[..], &VTK_NAMES].concat()
+}
+
 /// Charts a saw into a folder of its own.
 fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
     let folder = OutputFolder::open(path)?;
     let report = report(arguments, scene)?;
-    folder.write_together(&files(arguments, &report)?.0, &figure_names::<Report>())?;
+    folder.write_together(&files(arguments, &report)?.0, &optional_names())?;
     Ok(report)
 }
 
@@ -184,9 +197,14 @@ fn watched_report(
     };
     let analysis = Analysis::with_options(scene, options)?;
     let mut report = analysis.report();
-    if let Some(rpm) = arguments.at_rpm {
-        let speed = SpeedRange::from(analysis.range_rad_per_s).speed_at("--at-rpm", rpm)?;
+    let range = SpeedRange::from(analysis.range_rad_per_s);
+    let asked = arguments.at_rpm.map(|rpm| range.speed_at("--at-rpm", rpm));
+    let asked = asked.transpose()?;
+    if let Some(speed) = asked {
         report.whirl = Some(WhirlEntry::new(&analysis, speed)?);
+    }
+    if arguments.shapes || arguments.vtk {
+        report.add_shapes(&analysis, asked.as_slice())?;
     }
     if arguments.amplitude {
         report.add_amplitudes(&analysis)?;
@@ -204,6 +222,10 @@ fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFil
     let view = arguments.drawn.view(sweep)?;
     let mut files = pictures::files(&report.figures_within(view))?;
     files.push(("campbell.csv", report.campbell_csv()?));
+    if arguments.vtk {
+        let vtk = report.vtk_files().into_iter();
+        files.extend(vtk.map(|(name, text)| (name, text.into_bytes())));
+    }
     files.push(("report.json", json.clone().into_bytes()));
     Ok((files, json))
 }

@@ -96,6 +96,8 @@ pub enum Mark {
     Line(Vec<[f64; 2]>, Stroke),
     /// A filled rectangle.
     Fill(Frame, Colour),
+    /// A filled polygon.
+    Polygon(Vec<[f64; 2]>, Colour),
     /// A filled circle: centre and radius.
     Disc([f64; 2], f64, Colour),
     /// A line of text; its point lies on the baseline.
@@ -152,6 +154,14 @@ impl Sheet {
                 bottom,
             };
             self.marks.push(Mark::Fill(frame, colour));
+        }
+    }
+
+    /// Fills a polygon; non-finite points are skipped.
+    pub fn polygon(&mut self, points: impl IntoIterator<Item = [f64; 2]>, colour: Colour) {
+        let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
+        if points.len() >= 3 {
+            self.marks.push(Mark::Polygon(points, colour));
         }
     }
 

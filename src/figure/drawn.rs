@@ -4,8 +4,8 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, cut, cut_map, deflect, fit, in_cut, membrane, place, render,
-    response_map, root_loci, runup, spline_orbit, study, washboard,
+    FigureError, campbell, check, cut, cut_map, deflect, fit, in_cut, membrane, modes, place,
+    render, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
     CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, Report, RunUpReport,
@@ -88,6 +88,7 @@ impl Figures for Report {
         ["root-loci.png", "root-loci.svg"],
         ["membrane.png", "membrane.svg"],
         ["in-cut.png", "in-cut.svg"],
+        ["modes.png", "modes.svg"],
     ];
 
     fn figures(&self) -> Vec<Figure> {
@@ -111,6 +112,7 @@ impl Report {
             root_loci::sheet(self),
             membrane::sheet(self),
             in_cut::sheet(self),
+            modes::sheet(self),
         ];
         named(Self::NAMES, sheets)
     }

@@ -35,6 +35,7 @@ mod in_cut;
 mod key;
 mod meeting;
 mod membrane;
+mod modes;
 mod paint;
 mod palette;
 mod place;

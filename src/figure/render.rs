@@ -52,6 +52,8 @@ fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) ->
         "<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\""
     );
     text.replacen(&drawn_size, &shown_size, 1)
+        // Tiles that touch would show the paper between them.
+        .replace("<polygon ", "<polygon shape-rendering=\"crispEdges\" ")
         .replace("dy=\"0.76em\"", "dy=\"0.62em\"")
         .replace("font-weight=\"bold\"", "font-weight=\"600\"")
         .replace("opacity=\"1\" ", "")
@@ -107,6 +109,11 @@ where
             Mark::Fill(frame, colour) => {
                 let corners = [[frame.left, frame.top], [frame.right, frame.bottom]];
                 let shape = Rectangle::new(corners.map(fine_point), colour.filled());
+                area.draw(&shape).map_err(refused)?;
+            }
+            Mark::Polygon(points, colour) => {
+                let points: Vec<_> = points.iter().map(|&p| fine_point(p)).collect();
+                let shape = Polygon::new(points, colour.filled());
                 area.draw(&shape).map_err(refused)?;
             }
             Mark::Disc(centre, radius, colour) => {

@@ -57,6 +57,7 @@ pub fn empty_report(name: &str) -> Report {
         flutter_threshold_per_s: 0.25,
         operating: None,
         whirl: None,
+        shapes: Vec::new(),
         accuracy: AccuracyEntry {
             name: Accuracy::Draft,
             max_diameters: 8,

@@ -60,6 +60,7 @@ impl Analysis {
             in_cut: InCutEntry::new(analysis),
             excitation: ExcitationEntry::new(scene, &self.crossings, &branches),
             whirl: None,
+            shapes: Vec::new(),
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,

@@ -3,7 +3,7 @@
 //! Reports are made from an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a
 //! fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
 //! and growth rates in 1/s. A report solves no eigenproblem; its contents were computed before. Only
-//! [`WhirlEntry`] and [`SensitivityEntry`] are computed on request.
+//! [`WhirlEntry`], [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request.
 
 mod branches;
 mod build;
@@ -13,6 +13,7 @@ mod check;
 mod csv;
 mod cut;
 mod deflect;
+mod event_shape;
 mod excitation;
 mod fit;
 #[cfg(feature = "explore")]
@@ -27,6 +28,7 @@ mod runup;
 mod saturated;
 mod schema;
 mod spline;
+mod vtu;
 mod washboard;
 mod whirl;
 
@@ -43,6 +45,7 @@ pub use self::cut::{
 pub use self::deflect::{
     ArcEntry, DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry, TurnEntry,
 };
+pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 #[cfg(feature = "explore")]
@@ -58,6 +61,7 @@ pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
 pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
+pub use self::vtu::VTK_NAMES;
 pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};
 pub use self::whirl::{WhirlEntry, WhirlMode};
 use crate::scene::{Accuracy, SceneFile};
@@ -110,6 +114,10 @@ pub struct Report {
     pub operating: Option<OperatingEntry>,
     /// The modes of one speed, when asked for.
     pub whirl: Option<WhirlEntry>,
+    /// Shapes of the blade at every critical speed, at the peak of every band, at the operating speed and at speeds
+    /// asked for, when asked for.
+    #[serde(default)]
+    pub shapes: Vec<EventShapeEntry>,
     /// How fine the computation was, and how far it may be off.
     pub accuracy: AccuracyEntry,
     /// Number of eigenproblems solved for the chart.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faer::c64;
+use faer::{Col, c64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +40,7 @@ pub struct ModeEntry {
 pub struct WaveEntry {
     /// n.
     pub nodal_diameters: usize,
-    /// Share in the kinetic energy, between 0 and 1.
+    /// Share between 0 and 1: in the kinetic energy of a mode, in the square of the deflection of the shape of an event.
     pub share: f64,
     /// Coefficient of cos nθ at the radii.
     pub cosine: ComplexEntry,
@@ -76,18 +76,19 @@ impl ModeEntry {
             krein_sign: mode.krein_sign(),
             radius_m: plate.sampled_radii_m().collect(),
             harmonics: seen
-                .map(|h| wave(plate, described, h.diameters, h.share))
+                .map(|h| profile(plate, &described.shape, h.diameters, h.share))
                 .collect(),
         }
     }
 }
 
-fn wave(plate: &Plate, described: &DescribedMode, n: usize, share: f64) -> WaveEntry {
+/// n nodal diameters of a shape in the basis of the plate.
+pub(super) fn profile(plate: &Plate, shape: &Col<c64>, n: usize, share: f64) -> WaveEntry {
     let (first, size) = (plate.offset(n), plate.basis.count());
-    let profile = |offset: usize| {
+    let over_radii = |offset: usize| {
         let at = |radial: &Vec<f64>| -> c64 {
             let terms = radial.iter().zip(offset..);
-            let sum: c64 = terms.map(|(r, i)| described.shape[i] * *r).sum();
+            let sum: c64 = terms.map(|(r, i)| shape[i] * *r).sum();
             sum / plate.angular_norm(n)
         };
         let values: Vec<c64> = plate.sampled_functions(n).iter().map(at).collect();
@@ -103,7 +104,11 @@ fn wave(plate: &Plate, described: &DescribedMode, n: usize, share: f64) -> WaveE
     WaveEntry {
         nodal_diameters: n,
         share,
-        cosine: profile(first),
-        sine: if n > 0 { profile(first + size) } else { none() },
+        cosine: over_radii(first),
+        sine: if n > 0 {
+            over_radii(first + size)
+        } else {
+            none()
+        },
     }
 }

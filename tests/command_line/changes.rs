@@ -84,6 +84,35 @@ fn scene_of(arguments: &[&str], name: &str, folder: &TempDir) -> (SceneFile, Str
     (scene, text(&output.stderr).to_owned())
 }
 
+/// Shapes are computed and written where they are asked for, and do not stay behind.
+#[test]
+fn shapes_are_written_where_they_are_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let plain = ["analyze", scene.to_str().unwrap()];
+    let of_modes = |folder: &TempDir| {
+        let names = names_in(&out(folder)).into_iter();
+        names
+            .filter(|name| name.starts_with("modes"))
+            .collect::<Vec<_>>()
+    };
+    let both = report(
+        &[&plain[..], &["--vtk", "--at-rpm", "500"]].concat(),
+        &folder,
+    );
+    assert!(
+        both.shapes
+            .iter()
+            .any(|shape| (shape.rpm - 500.0).abs() < 1e-9)
+    );
+    assert_eq!(of_modes(&folder).len(), 2 + 1 + 12);
+    let drawn = report(&[&plain[..], &["--shapes"]].concat(), &folder);
+    assert_eq!(of_modes(&folder), ["modes.png", "modes.svg"]);
+    assert!(!drawn.shapes.is_empty());
+    assert!(report(&plain, &folder).shapes.is_empty());
+    assert!(of_modes(&folder).is_empty());
+}
+
 #[test]
 fn a_scene_without_a_run_up_takes_one_from_options_and_says_what_is_assumed() {
     let folder = TempDir::new().unwrap();

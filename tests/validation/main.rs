@@ -22,6 +22,7 @@ mod rigid_motions;
 mod run_up;
 mod saws;
 mod sensitivity;
+mod shapes;
 mod spline;
 mod static_deflection;
 mod thickness_profile;

@@ -1,0 +1,201 @@
+//! Shapes of the blade at critical speeds, in bands and at single speeds, seen along the axis.
+
+mod blade;
+
+use super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::heading;
+use super::key::Key;
+use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
+use crate::report::{EventShapeEntry, Report, ShapeOccasion};
+use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
+
+/// Panels side by side.
+const COLUMNS: usize = 4;
+/// Panels of a figure: more are too many to look at.
+const MOST: usize = 16;
+const PANEL: [f64; 2] = [266.0, 336.0];
+const TOP: f64 = 86.0;
+const BELOW: f64 = 56.0;
+/// Harmonics named below a shape.
+const NAMED: usize = 3;
+/// A harmonic with a smaller share is not named.
+const LEAST_NAMED: f64 = 0.01;
+
+pub fn sheet(report: &Report) -> Option<Sheet> {
+    let shown = shown(&report.shapes);
+    if shown.is_empty() {
+        return None;
+    }
+    let rows = shown.len().div_ceil(COLUMNS);
+    let width = COLUMNS as f64 * PANEL[0] + 2.0 * MARGIN;
+    let height = TOP + rows as f64 * PANEL[1] + BELOW;
+    let mut sheet = Sheet::new(width as u32, height as u32);
+    heading::draw(&mut sheet, &report.scene.name, &facts(report, shown.len()));
+    for (place, shape) in shown.iter().enumerate() {
+        let (column, row) = ((place % COLUMNS) as f64, (place / COLUMNS) as f64);
+        let corner = [MARGIN + column * PANEL[0], TOP + row * PANEL[1]];
+        panel(&mut sheet, corner, report, shape);
+    }
+    key(&mut sheet, height - 24.0);
+    Some(sheet)
+}
+
+/// The shapes that fit: those at single speeds, which were asked for, before those of further events.
+fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
+    let is_event = |shape: &&EventShapeEntry| {
+        !matches!(
+            shape.occasion,
+            ShapeOccasion::OperatingSpeed | ShapeOccasion::AskedSpeed
+        )
+    };
+    let singles = shapes.iter().filter(|shape| !is_event(shape)).count();
+    let events = shapes.iter().filter(is_event);
+    let events = events.take(MOST.saturating_sub(singles));
+    let singles = shapes.iter().filter(|shape| !is_event(shape));
+    events.chain(singles).take(MOST).collect()
+}
+
+fn facts(report: &Report, shown: usize) -> String {
+    let mut facts = vec![
+        "deflection seen along the axis, in units of its largest".to_owned(),
+        "rotation counterclockwise".to_owned(),
+        "n: shares in its square".to_owned(),
+    ];
+    if shown < report.shapes.len() {
+        let all = report.shapes.len();
+        facts.push(format!("{shown} of {all} shapes; report.json has all"));
+    }
+    facts.join(BETWEEN_FACTS)
+}
+
+fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &EventShapeEntry) {
+    let centre = [left + 0.5 * PANEL[0], top + 54.0 + blade::RADIUS];
+    blade::draw(sheet, centre, report, shape);
+    let room = PANEL[0] - 14.0;
+    let mut write = |y: f64, em: f64, colour, weight, text: &str| {
+        let letters = Lettering {
+            weight,
+            ..Lettering::regular(em, colour, Anchor::Middle)
+        };
+        let text = shorten(text, em, weight, room);
+        sheet.text([centre[0], y], letters, &text);
+    };
+    write(top + 14.0, 14.0, INK, Weight::SemiBold, &heading_of(shape));
+    write(top + 33.0, LABEL_SIZE, INK, Weight::Regular, &shape.name);
+    let bottom = centre[1] + blade::RADIUS + 20.0;
+    write(bottom, LABEL_SIZE, QUIET, Weight::Regular, &shares(shape));
+    let below = bottom + 17.0;
+    write(below, LABEL_SIZE, QUIET, Weight::Regular, &motion(shape));
+}
+
+/// "1531 rpm, critical", "2261 rpm, flutter".
+fn heading_of(shape: &EventShapeEntry) -> String {
+    let what = match shape.occasion {
+        ShapeOccasion::CriticalSpeed => "critical",
+        ShapeOccasion::Divergence => "divergence",
+        ShapeOccasion::Flutter => "flutter",
+        ShapeOccasion::OperatingSpeed => "operating speed",
+        ShapeOccasion::AskedSpeed => "mode",
+    };
+    format!("{:.0} rpm, {what}", shape.rpm)
+}
+
+/// "6.0 Hz, +0.49 1/s"; nothing of a wave that stands still.
+fn motion(shape: &EventShapeEntry) -> String {
+    let mut parts = Vec::new();
+    if shape.frequency_hz > 0.0 {
+        parts.push(format!("{:.2} Hz", shape.frequency_hz));
+    }
+    if shape.growth_per_s.abs() >= 5e-4 {
+        let growth = format!("{:+.3} 1/s", shape.growth_per_s);
+        parts.push(growth.replace('-', "\u{2212}"));
+    }
+    parts.join(", ")
+}
+
+/// "n = 2: 78 %, 0: 15 %".
+fn shares(shape: &EventShapeEntry) -> String {
+    let seen = shape.harmonics.iter().filter(|h| h.share >= LEAST_NAMED);
+    let shares = seen
+        .take(NAMED)
+        .map(|h| format!("{}: {:.0} %", h.nodal_diameters, 1e2 * h.share));
+    format!("n = {}", shares.collect::<Vec<_>>().join(", "))
+}
+
+fn key(sheet: &mut Sheet, baseline: f64) {
+    let line = |width: f64, colour| {
+        move |sheet: &mut Sheet, [x, y]: [f64; 2]| {
+            sheet.line([[x, y], [x + 22.0, y]], Stroke::solid(colour, width));
+        }
+    };
+    Key::new(sheet, MARGIN, baseline)
+        .shade(colour(1.0))
+        .word("towards the viewer")
+        .shade(colour(-1.0))
+        .word("away")
+        .mark(22.0, line(NODAL_WIDTH, INK))
+        .word("nodal line, of a wave that travels at this moment")
+        .mark(22.0, line(GUIDE_WIDTH, INK))
+        .word("guide");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::canvas::Mark;
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::scene::{Accuracy, Scene};
+    use crate::stability::Analysis;
+
+    fn report(speeds_rpm: &[f64]) -> Report {
+        let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
+        let analysis = Analysis::new(&scene.unwrap()).unwrap();
+        let mut report = analysis.report();
+        let asked: Vec<f64> = speeds_rpm
+            .iter()
+            .map(|rpm| crate::scene::rad_per_s(*rpm))
+            .collect();
+        report.add_shapes(&analysis, &asked).unwrap();
+        report
+    }
+
+    #[test]
+    fn every_event_has_a_panel_and_nothing_is_cut_off() {
+        let report = report(&[1000.0]);
+        let sheet = sheet(&report).unwrap();
+        assert_tidy(&sheet);
+        let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        assert!(all.iter().any(|text| text.starts_with("n = ")), "{all:?}");
+        let critical = format!("{:.0} rpm, critical", report.critical_speeds[0].rpm);
+        assert!(all.contains(&critical.as_str()), "{all:?}");
+        assert!(all.contains(&"1000 rpm, mode"), "{all:?}");
+        let without = Report {
+            shapes: Vec::new(),
+            ..report
+        };
+        assert!(super::sheet(&without).is_none());
+    }
+
+    /// The tiles cover the blade: their areas sum up to that between two regular polygons.
+    #[test]
+    fn the_tiles_of_a_shape_cover_the_blade_once() {
+        let report = report(&[]);
+        let mut sheet = Sheet::new(400, 400);
+        blade::draw(&mut sheet, [200.0, 200.0], &report, &report.shapes[0]);
+        let twice_area = |points: &[[f64; 2]]| {
+            let next = points.iter().cycle().skip(1);
+            let pairs = points.iter().zip(next);
+            pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+        };
+        let tiles = sheet.marks().iter().filter_map(|mark| match mark {
+            Mark::Polygon(points, _) => Some(0.5 * twice_area(points).abs()),
+            _ => None,
+        });
+        let found: f64 = tiles.sum();
+        let inner = 0.2 / 0.71 * blade::RADIUS;
+        let sector = std::f64::consts::TAU / blade::ANGLES as f64;
+        let polygon = 0.5 * blade::ANGLES as f64 * sector.sin();
+        let expected = polygon * (blade::RADIUS.powi(2) - inner.powi(2));
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+}

@@ -1,0 +1,154 @@
+//! One deflected blade: tiles between levels of the deflection, nodal lines, edges and guides.
+
+use std::f64::consts::TAU;
+
+use crate::figure::canvas::{Sheet, Stroke};
+use crate::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, PAPER, QUIET, tint};
+use crate::report::{EventShapeEntry, Report};
+use crate::scene::GuideFile;
+
+/// Outer radius on the sheet.
+pub const RADIUS: f64 = 108.0;
+pub const NODAL_WIDTH: f64 = 1.3;
+pub const GUIDE_WIDTH: f64 = 2.2;
+/// Angles of the tiles.
+pub const ANGLES: usize = 72;
+/// Of the radii of a report every so many are corners of tiles.
+const STRIDE: usize = 4;
+/// Levels on either side of zero.
+const LEVELS: i32 = 6;
+/// A guide smaller than this on the sheet is drawn as a point.
+const SMALL: f64 = 5.0;
+
+/// A corner of a tile and the deflection there.
+type Corner = ([f64; 2], f64);
+
+pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventShapeEntry) {
+    let outer = shape.radius_m.last().copied().unwrap_or(1.0);
+    let on_sheet = |r: f64, angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let size = RADIUS * r / outer;
+        [centre[0] + size * cos, centre[1] - size * sin]
+    };
+    let angles: Vec<f64> = (0..=ANGLES)
+        .map(|k| TAU * k as f64 / ANGLES as f64)
+        .collect();
+    let values = shape.at(&angles);
+    let rings: Vec<Vec<Corner>> = (shape.radius_m.iter().zip(values))
+        .step_by(STRIDE)
+        .map(|(r, row)| {
+            let corners = angles.iter().zip(row);
+            corners.map(|(a, [re, _])| (on_sheet(*r, *a), re)).collect()
+        })
+        .collect();
+    let tiles = || {
+        let rings = rings.windows(2);
+        rings.flat_map(|pair| {
+            (0..ANGLES).map(|k| [pair[0][k], pair[0][k + 1], pair[1][k + 1], pair[1][k]])
+        })
+    };
+    for tile in tiles() {
+        draw_tile(sheet, &tile);
+    }
+    for tile in tiles() {
+        let ends = crossings(&tile);
+        if let [a, b] = ends[..] {
+            sheet.line([a, b], Stroke::solid(INK, NODAL_WIDTH));
+        }
+    }
+    for r in [shape.radius_m.first(), shape.radius_m.last()]
+        .into_iter()
+        .flatten()
+    {
+        let circle = angles.iter().map(|a| on_sheet(*r, *a));
+        sheet.line(circle, Stroke::solid(QUIET, HAIRLINE));
+    }
+    for guide in &report.scene.guides {
+        draw_guide(sheet, guide, RADIUS / outer, centre);
+    }
+}
+
+/// Colour of a deflection.
+pub fn colour(deflection: f64) -> Colour {
+    let hue = if deflection < 0.0 { FORWARD } else { BACKWARD };
+    tint(hue, 0.06 + 0.84 * deflection.abs().min(1.0))
+}
+
+/// The parts of a tile between neighbouring levels, each in the colour of the middle between them.
+fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
+    let values = tile.map(|(_, value)| value);
+    let (low, high) = values.iter().fold((1.0_f64, -1.0_f64), |(low, high), v| {
+        (low.min(*v), high.max(*v))
+    });
+    for level in -LEVELS..LEVELS {
+        let ends = [level, level + 1].map(|level| f64::from(level) / f64::from(LEVELS));
+        // The outermost are open, so that rounding leaves no hole.
+        let from = if level == -LEVELS {
+            f64::NEG_INFINITY
+        } else {
+            ends[0]
+        };
+        let to = if level + 1 == LEVELS {
+            f64::INFINITY
+        } else {
+            ends[1]
+        };
+        if high < from || low > to {
+            continue;
+        }
+        let above = clipped(tile, from, 1.0);
+        let between = clipped(&above, to, -1.0);
+        let points: Vec<[f64; 2]> = between.iter().map(|(point, _)| *point).collect();
+        sheet.polygon(points, colour(0.5 * (ends[0] + ends[1])));
+    }
+}
+
+/// The part of a polygon on one side of a level, the deflection being linear along its sides.
+fn clipped(polygon: &[Corner], level: f64, side: f64) -> Vec<Corner> {
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    let next = polygon.iter().cycle().skip(1);
+    for (a, b) in polygon.iter().zip(next) {
+        let [from_a, from_b] = [a, b].map(|(_, value)| side * (value - level));
+        if from_a >= 0.0 {
+            kept.push(*a);
+        }
+        if (from_a > 0.0 && from_b < 0.0) || (from_a < 0.0 && from_b > 0.0) {
+            kept.push((between(a.0, b.0, from_a / (from_a - from_b)), level));
+        }
+    }
+    kept
+}
+
+fn between(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
+    [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
+}
+
+/// Where the deflection changes sign along the sides of a tile.
+fn crossings(tile: &[Corner; 4]) -> Vec<[f64; 2]> {
+    let next = tile.iter().cycle().skip(1);
+    let sides = tile.iter().zip(next);
+    let crossed = sides.filter(|(a, b)| (a.1 < 0.0) != (b.1 < 0.0));
+    crossed
+        .map(|(a, b)| between(a.0, b.0, a.1 / (a.1 - b.1)))
+        .collect()
+}
+
+/// The outline of a pad, or a point.
+fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]) {
+    let (sin, cos) = guide.angle_deg.to_radians().sin_cos();
+    let at = |along: f64, across: f64| {
+        let (x, y) = (guide.radius_m + along, across);
+        [
+            centre[0] + scale * (x * cos - y * sin),
+            centre[1] - scale * (x * sin + y * cos),
+        ]
+    };
+    let [a, b] = [guide.radial_length_m, guide.tangential_length_m].map(|side| 0.5 * side);
+    if 2.0 * scale * a.max(b) < SMALL {
+        sheet.ring(at(0.0, 0.0), 3.5, Stroke::solid(INK, GUIDE_WIDTH), PAPER);
+        return;
+    }
+    let corners = [(-a, -b), (a, -b), (a, b), (-a, b), (-a, -b), (a, -b)];
+    let outline = corners.map(|(along, across)| at(along, across));
+    sheet.line(outline, Stroke::solid(INK, GUIDE_WIDTH));
+}

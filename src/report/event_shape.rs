@@ -1,0 +1,277 @@
+//! Shapes of the blade at critical speeds, in bands and at single speeds.
+
+use std::f64::consts::TAU;
+
+use faer::{Col, c64};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Report;
+use super::mode::{WaveEntry, profile};
+use crate::plate::Plate;
+use crate::scene::rpm;
+use crate::spectrum::{Direction, EventName, Mode, ModeKind, SpectrumError};
+use crate::stability::{Analysis, Instability, InstabilityKind, StabilityState};
+
+/// Why a shape is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeOccasion {
+    /// The wave that stands still at a critical speed.
+    CriticalSpeed,
+    /// The motion of largest growth of a band of divergence.
+    Divergence,
+    /// The motion of largest growth of a band of flutter.
+    Flutter,
+    /// A mode at the operating speed.
+    OperatingSpeed,
+    /// A mode at a speed that was asked for.
+    AskedSpeed,
+}
+
+/// The shape of the blade at an event: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}. The largest
+/// deflection of all points is 1, at t = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EventShapeEntry {
+    /// Why it is shown.
+    pub occasion: ShapeOccasion,
+    /// The waves that make it, named as the event is.
+    pub name: String,
+    /// How the wave runs, seen from space.
+    pub direction: Direction,
+    /// Rotation speed.
+    pub rpm: f64,
+    /// |Im λ|/2π in the space-fixed frame.
+    pub frequency_hz: f64,
+    /// Re λ.
+    pub growth_per_s: f64,
+    /// Radii of the profiles.
+    pub radius_m: Vec<f64>,
+    /// Harmonics with a visible share in the square of the deflection, largest first.
+    pub harmonics: Vec<WaveEntry>,
+}
+
+/// Harmonics with a smaller share in the square of the deflection are a ten-thousandth of it, and not seen. Of a blade on a stiff
+/// pad many are small: with 1e-6 the deflection of the paper's saw was off by more than a thousandth.
+const LEAST_SHARE: f64 = 1e-8;
+/// Modes at a single speed, besides those that grow: those that a slow side force bends most.
+const LOWEST: usize = 4;
+/// Angles at which the largest deflection is looked for, for each nodal diameter.
+const ANGLES_EACH: usize = 24;
+
+impl Report {
+    /// Adds the shapes at every critical speed, at the peak of every band, at the operating speed and at
+    /// the speeds asked for, by ascending speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn add_shapes(
+        &mut self,
+        analysis: &Analysis,
+        asked_rad_per_s: &[f64],
+    ) -> Result<(), SpectrumError> {
+        let mut shapes = standing(analysis);
+        for band in analysis.bands() {
+            shapes.extend(of_band(analysis, band)?);
+        }
+        shapes.sort_by(|x, y| x.rpm.total_cmp(&y.rpm));
+        if let Some(speed) = analysis.scene.operating_rad_per_s()
+            && analysis.verdict(speed).state != StabilityState::OutsideSweep
+        {
+            shapes.extend(at_speed(analysis, speed, ShapeOccasion::OperatingSpeed)?);
+        }
+        for speed in asked_rad_per_s {
+            shapes.extend(at_speed(analysis, *speed, ShapeOccasion::AskedSpeed)?);
+        }
+        self.shapes = shapes;
+        Ok(())
+    }
+}
+
+/// The waves that stand still, each speed of a free blade once: its two waves differ by a turn.
+fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
+    let model = &analysis.model;
+    let end = analysis.range_rad_per_s.1;
+    let within = model.critical.iter().filter(|c| c.speed_rad_per_s <= end);
+    let mut shapes: Vec<EventShapeEntry> = Vec::new();
+    for critical in within {
+        let speed = critical.speed_rad_per_s;
+        let first = model.components[critical.component].first;
+        let mut shape = Col::zeros(model.plate.degrees_of_freedom());
+        for (k, x) in critical.shape.iter().enumerate() {
+            shape[first + k] = c64::new(*x, 0.0);
+        }
+        let found = Found {
+            occasion: ShapeOccasion::CriticalSpeed,
+            name: critical.name.in_words(),
+            direction: Direction::Standing,
+            speed_rad_per_s: speed,
+            lambda: c64::new(0.0, 0.0),
+            shape: &shape,
+        };
+        let entry = found.entry(&model.plate);
+        let double = |other: &EventShapeEntry| {
+            let nearness = (other.rpm / entry.rpm - 1.0).abs();
+            model.plate.is_axisymmetric() && other.name == entry.name && nearness < 1e-9
+        };
+        if !shapes.last().is_some_and(double) {
+            shapes.push(entry);
+        }
+    }
+    shapes
+}
+
+/// The motion of largest growth of a band.
+fn of_band(
+    analysis: &Analysis,
+    band: &Instability,
+) -> Result<Option<EventShapeEntry>, SpectrumError> {
+    let (model, speed) = (&analysis.model, band.peak_rad_per_s);
+    // A band of divergence has a real λ beside which a pair may grow faster.
+    let is_of_band = |mode: &Mode| match band.kind {
+        InstabilityKind::Divergence => mode.lambda.im == 0.0,
+        InstabilityKind::Flutter => mode.lambda.im != 0.0,
+    };
+    let distance = |mode: &Mode| (mode.growth_per_s() - band.peak_growth_per_s).abs();
+    let modes = model.modes(speed)?.into_iter();
+    let modes = modes.filter(|mode| is_of_band(mode) && mode.growth_per_s() > 0.0);
+    let Some(mode) = modes.min_by(|x, y| distance(x).total_cmp(&distance(y))) else {
+        return Ok(None);
+    };
+    let described = model.describe(speed, vec![mode]);
+    Ok(described.first().map(|described| {
+        let name = EventName::growing(&model.plate, &described.mode, &described.shape, speed);
+        let found = Found {
+            occasion: match band.kind {
+                InstabilityKind::Divergence => ShapeOccasion::Divergence,
+                InstabilityKind::Flutter => ShapeOccasion::Flutter,
+            },
+            name: name.in_words(),
+            direction: described.name.direction,
+            speed_rad_per_s: speed,
+            lambda: described.mode.lambda,
+            shape: &described.shape,
+        };
+        found.entry(&model.plate)
+    }))
+}
+
+/// The modes that grow at a speed, and those of lowest frequency, ascending.
+fn at_speed(
+    analysis: &Analysis,
+    speed_rad_per_s: f64,
+    occasion: ShapeOccasion,
+) -> Result<Vec<EventShapeEntry>, SpectrumError> {
+    let model = &analysis.model;
+    let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
+    // The mirror image of a flutter mode is of no account by itself.
+    let modes = modes
+        .iter()
+        .filter(|found| found.mode.kind != ModeKind::Decaying);
+    let shown = modes
+        .enumerate()
+        .filter(|(place, found)| *place < LOWEST || found.mode.growth_per_s() > 0.0);
+    let entries = shown.map(|(_, described)| {
+        let found = Found {
+            occasion,
+            name: described.name.in_shares(),
+            direction: described.name.direction,
+            speed_rad_per_s,
+            lambda: described.mode.lambda,
+            shape: &described.shape,
+        };
+        let mut entry = found.entry(&model.plate);
+        // Rounding of an undamped mode is no growth.
+        entry.growth_per_s = described.mode.growth_per_s();
+        entry
+    });
+    Ok(entries.collect())
+}
+
+/// A shape in the basis of the plate, and what it is.
+struct Found<'a> {
+    occasion: ShapeOccasion,
+    name: String,
+    direction: Direction,
+    speed_rad_per_s: f64,
+    lambda: c64,
+    shape: &'a Col<c64>,
+}
+
+impl Found<'_> {
+    fn entry(self, plate: &Plate) -> EventShapeEntry {
+        let mut entry = EventShapeEntry {
+            occasion: self.occasion,
+            name: self.name,
+            direction: self.direction,
+            rpm: rpm(self.speed_rad_per_s),
+            frequency_hz: self.lambda.im.abs() / TAU,
+            growth_per_s: self.lambda.re,
+            radius_m: plate.sampled_radii_m().collect(),
+            harmonics: harmonics(plate, self.shape),
+        };
+        entry.normalize();
+        entry
+    }
+}
+
+/// The unknowns are orthonormal with the mass, so that their squares are shares in the square of the deflection.
+fn harmonics(plate: &Plate, shape: &Col<c64>) -> Vec<WaveEntry> {
+    let size = plate.basis.count();
+    let square = |n: usize| {
+        let own = plate.offset(n)..plate.offset(n) + if n == 0 { size } else { 2 * size };
+        own.map(|k| shape[k].norm_sqr()).sum::<f64>()
+    };
+    let squares: Vec<f64> = (0..=plate.max_diameters()).map(square).collect();
+    let total = squares.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    let mut seen: Vec<(usize, f64)> = squares.iter().map(|s| s / total).enumerate().collect();
+    seen.retain(|(_, share)| *share >= LEAST_SHARE);
+    seen.sort_by(|(_, x), (_, y)| y.total_cmp(x));
+    let seen = seen.into_iter();
+    seen.map(|(n, share)| profile(plate, shape, n, share))
+        .collect()
+}
+
+impl EventShapeEntry {
+    /// Complex deflections at angles, a row for each radius.
+    pub(crate) fn at(&self, angles_rad: &[f64]) -> Vec<Vec<[f64; 2]>> {
+        let mut rows = vec![vec![[0.0; 2]; angles_rad.len()]; self.radius_m.len()];
+        for wave in &self.harmonics {
+            let n = wave.nodal_diameters as f64;
+            let turns: Vec<(f64, f64)> = angles_rad.iter().map(|a| (n * a).sin_cos()).collect();
+            for (k, row) in rows.iter_mut().enumerate() {
+                let (c, s) = (&wave.cosine, &wave.sine);
+                for (value, (sin, cos)) in row.iter_mut().zip(&turns) {
+                    value[0] += c.re[k] * cos + s.re[k] * sin;
+                    value[1] += c.im[k] * cos + s.im[k] * sin;
+                }
+            }
+        }
+        rows
+    }
+
+    /// Scales and turns the shape so that its largest deflection is 1 at t = 0.
+    fn normalize(&mut self) {
+        let most = self.harmonics.iter().map(|wave| wave.nodal_diameters);
+        let count = ANGLES_EACH * most.max().unwrap_or(0).max(1);
+        let angles: Vec<f64> = (0..count).map(|k| TAU * k as f64 / count as f64).collect();
+        let rows = self.at(&angles);
+        let square = |[re, im]: [f64; 2]| re * re + im * im;
+        let values = rows.into_iter().flatten();
+        let largest = values.max_by(|x, y| square(*x).total_cmp(&square(*y)));
+        let Some([re, im]) = largest.filter(|value| square(*value) > 0.0) else {
+            return;
+        };
+        // Dividing by the largest value makes it 1.
+        let size = square([re, im]);
+        let (re, im) = (re / size, -im / size);
+        for wave in &mut self.harmonics {
+            for part in [&mut wave.cosine, &mut wave.sine] {
+                for (x, y) in part.re.iter_mut().zip(&mut part.im) {
+                    (*x, *y) = (re * *x - im * *y, re * *y + im * *x);
+                }
+            }
+        }
+    }
+}

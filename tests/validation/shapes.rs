@@ -1,0 +1,178 @@
+//! Goal: the shapes that are shown are those of the events.
+//!
+//! Independent values: a free blade stands in cos nθ, with n nodal diameters; the basis functions at points, which
+//! the profiles of a report do not go through; K(Ω)x = 0 at a critical speed, from the assembled matrices.
+
+use std::f64::consts::TAU;
+
+use sawflutter::report::{EventShapeEntry, Report, ShapeOccasion};
+use sawflutter::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::stability::Analysis;
+
+fn charted(scene: &Scene, asked_rpm: &[f64]) -> (Analysis, Report) {
+    let scene = scene.edited(|file| file.accuracy = Accuracy::Draft);
+    let analysis = Analysis::new(&scene.unwrap()).unwrap();
+    let mut report = analysis.report();
+    let asked: Vec<f64> = asked_rpm.iter().map(|rpm| rad_per_s(*rpm)).collect();
+    report.add_shapes(&analysis, &asked).unwrap();
+    (analysis, report)
+}
+
+/// Complex deflection at the k-th radius of the shape.
+fn at(shape: &EventShapeEntry, k: usize, angle_rad: f64) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for wave in &shape.harmonics {
+        let (sin, cos) = (wave.nodal_diameters as f64 * angle_rad).sin_cos();
+        sum[0] += wave.cosine.re[k] * cos + wave.sine.re[k] * sin;
+        sum[1] += wave.cosine.im[k] * cos + wave.sine.im[k] * sin;
+    }
+    sum
+}
+
+#[test]
+fn a_free_blade_stands_in_a_cosine_of_its_nodal_diameters() {
+    let scene = Scene::from_path(crate::common::path("scenes/free-blade.json")).unwrap();
+    let (_, report) = charted(&scene, &[]);
+    let standing = report.shapes.iter();
+    let standing: Vec<_> = standing
+        .filter(|shape| shape.occasion == ShapeOccasion::CriticalSpeed)
+        .collect();
+    assert_eq!(standing.len(), report.critical_speeds.len());
+    for (shape, critical) in standing.iter().zip(&report.critical_speeds) {
+        assert_eq!(shape.name, critical.name);
+        assert!((shape.rpm / critical.rpm - 1.0).abs() < 1e-12);
+        let n = critical.nodal_diameters as f64;
+        let rim = shape.radius_m.len() - 1;
+        let count = 720;
+        let angle = |k: usize| TAU * k as f64 / count as f64;
+        let values: Vec<f64> = (0..count).map(|k| at(shape, rim, angle(k))[0]).collect();
+        // Least squares of a cosine and a sine at even angles are sums.
+        let sum = |of: fn(f64) -> f64| -> f64 {
+            let terms = values.iter().enumerate();
+            2.0 / count as f64 * terms.map(|(k, w)| w * of(n * angle(k))).sum::<f64>()
+        };
+        let (a, b) = (sum(f64::cos), sum(f64::sin));
+        for (k, w) in values.iter().enumerate() {
+            let cosine = a * (n * angle(k)).cos() + b * (n * angle(k)).sin();
+            assert!((w - cosine).abs() < 1e-9, "{n}");
+        }
+        // The rim of a free blade without nodal circles deflects most.
+        assert!((a.hypot(b) - 1.0).abs() < 1e-3, "{n}: {}", a.hypot(b));
+    }
+}
+
+#[test]
+fn the_wave_that_stands_on_a_guided_blade_is_not_stiff_at_its_speed() {
+    let (analysis, report) = charted(&Scene::paper(), &[]);
+    let model = &analysis.model;
+    let critical = &model.critical[0];
+    let shape = &report.shapes[0];
+    assert_eq!(shape.occasion, ShapeOccasion::CriticalSpeed);
+    let component = &model.components[critical.component];
+    let (stiffness, x) = (
+        component.full.stiffness_at(critical.speed_rad_per_s),
+        &critical.shape,
+    );
+    let residual = (&stiffness * x).norm_l2();
+    assert!(
+        residual < 1e-9 * stiffness.norm_l2() * x.norm_l2(),
+        "{residual}"
+    );
+    // The same shape at points, by the basis functions there; up to the factor that makes its largest value 1.
+    let deflection = |radius_m: f64, angle_rad: f64| -> f64 {
+        let functions = model.plate.functions_at(radius_m, angle_rad);
+        let own = functions.iter().skip(component.first);
+        own.zip(x.iter()).map(|(phi, x)| phi * x).sum()
+    };
+    let points = [(0, 0.3), (17, 2.0), (40, -1.1), (40, 4.0)];
+    let pairs = points.map(|(k, angle)| {
+        let [re, im] = at(shape, k, angle);
+        assert!(im.abs() < 1e-12, "it stands");
+        (re, deflection(shape.radius_m[k], angle))
+    });
+    let factor = pairs[2].1 / pairs[2].0;
+    for (shown, by_functions) in pairs {
+        let error = (shown - by_functions / factor).abs();
+        assert!(error < 1e-3, "{shown} {} {error}", by_functions / factor);
+    }
+}
+
+/// A shape is shown for each event once; its largest deflection is 1 at the beginning.
+#[test]
+fn every_event_is_shown_and_scaled() {
+    let (_, report) = charted(&Scene::paper(), &[1000.0]);
+    let count = |occasion| {
+        let shapes = report.shapes.iter();
+        shapes.filter(|shape| shape.occasion == occasion).count()
+    };
+    let bands = count(ShapeOccasion::Divergence) + count(ShapeOccasion::Flutter);
+    assert_eq!(bands, report.instabilities.len());
+    assert_eq!(
+        count(ShapeOccasion::CriticalSpeed),
+        report.critical_speeds.len()
+    );
+    assert_eq!(count(ShapeOccasion::AskedSpeed), 4);
+    for band in &report.instabilities {
+        let of_band = report
+            .shapes
+            .iter()
+            .find(|shape| shape.rpm == band.peak_rpm);
+        let shape = of_band.expect("each band has one");
+        assert!((shape.growth_per_s / band.peak_growth_per_s - 1.0).abs() < 0.05);
+        assert_eq!(Some(&shape.name), band.name.as_ref());
+    }
+    for shape in &report.shapes {
+        let mut largest = 0.0_f64;
+        for k in 0..shape.radius_m.len() {
+            for step in 0..720 {
+                let [re, im] = at(shape, k, TAU * f64::from(step) / 720.0);
+                largest = largest.max(re.hypot(im));
+                assert!(re <= 1.0 + 5e-3, "{}: {re}", shape.name);
+            }
+        }
+        assert!((largest - 1.0).abs() < 5e-3, "{}: {largest}", shape.name);
+    }
+}
+
+/// The files for ParaView: a grid of every phase, with the points on the blade and the deflections there.
+#[test]
+fn the_grids_of_vtk_hold_the_deflections_of_their_phase() {
+    let (_, report) = charted(&Scene::paper(), &[1000.0]);
+    let files = report.vtk_files();
+    let (name, list) = &files[0];
+    assert_eq!(*name, "modes.pvd");
+    for (name, _) in &files[1..] {
+        assert_eq!(list.matches(name).count(), 1, "{name}");
+    }
+    let numbers = |text: &str, array: usize| -> Vec<f64> {
+        let body = text.split("<DataArray").nth(array).unwrap();
+        let body = body.split_once('>').unwrap().1;
+        let body = body.split_once("</DataArray>").unwrap().0;
+        body.split_whitespace()
+            .map(|n| n.parse().unwrap())
+            .collect()
+    };
+    let flutter = report
+        .shapes
+        .iter()
+        .position(|s| s.occasion == ShapeOccasion::Flutter);
+    let flutter = flutter.unwrap();
+    // A quarter of a period later, Re(w e^{iπ/2}) = −Im w.
+    for (phase, turned) in [(0, 0), (3, 1)] {
+        let text = &files[1 + phase].1;
+        let (points, values) = (numbers(text, 1), numbers(text, 5 + flutter));
+        assert_eq!(points.len(), 3 * values.len());
+        for k in [0, 77, 1234, values.len() - 1] {
+            let [x, y] = [points[3 * k], points[3 * k + 1]];
+            let radii = &report.shapes[flutter].radius_m;
+            let ring = radii.iter().position(|r| (r - x.hypot(y)).abs() < 2e-6);
+            let w = at(&report.shapes[flutter], ring.unwrap(), y.atan2(x));
+            let expected = if turned == 0 { w[0] } else { -w[1] };
+            assert!(
+                (values[k] - expected).abs() < 2e-5,
+                "{k}: {} {expected}",
+                values[k]
+            );
+        }
+    }
+}
