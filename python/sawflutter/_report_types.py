@@ -1293,6 +1293,10 @@ class Arc(Entry):
     """Frequencies of small motions about the deflected blade in space, ascending, up to
     `campbell.complete_to_hz`."""
 
+    pad_forces_n: FloatArray | None = field(default=None)
+    """Force of each pad that lifts off on the blade beyond its gap, without that of its film: a
+    row for each such guide, in the order of the scene."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Jump(Entry):

@@ -7,7 +7,16 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, SupportsFloat, TypeAlias, cast
 
 from . import _native, _paths, _values
-from ._scene_types import Accuracy, BladeDict, CutDict, GuideDict, MountDict, SceneDict
+from ._scene_types import (
+    Accuracy,
+    BladeDict,
+    ContactLaw,
+    CutDict,
+    GuideDict,
+    GuideSide,
+    MountDict,
+    SceneDict,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -180,6 +189,9 @@ class SceneData(Mapping[str, Any]):
         stiffness_n_per_m: Number = None,
         damping_n_s_per_m: Number = None,
         gap_m: Number = None,
+        contact: ContactLaw | None = None,
+        side: GuideSide | None = None,
+        film_stiffness_n_per_m: Number = None,
     ) -> Self:
         """The scene with one more guide, the last of :attr:`guides`.
 
@@ -187,8 +199,12 @@ class SceneData(Mapping[str, Any]):
         ----------
         radius_m, angle_deg, radial_length_m, tangential_length_m : float, optional
             Its place and size, as in a scene file.
-        stiffness_n_per_m, damping_n_s_per_m, gap_m : float, optional
-            Its other numbers. A number that is left out is that of the last guide.
+        stiffness_n_per_m, damping_n_s_per_m, gap_m, film_stiffness_n_per_m : float, optional
+            Its other numbers.
+        contact : {"linear", "one_sided"}, optional
+            Whether it holds the blade at any deflection, or touches it beyond the gap only.
+        side : {"both", "left", "right"}, optional
+            Sides of the blade on which a one-sided guide stands. What is left out is as of the last guide.
 
         Returns
         -------

@@ -9,6 +9,10 @@ from typing import Literal, TypeAlias, TypedDict
 
 InPlane: TypeAlias = Literal["fixed", "free"]
 
+ContactLaw: TypeAlias = Literal["linear", "one_sided"]
+
+GuideSide: TypeAlias = Literal["both", "left", "right"]
+
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
 
@@ -132,8 +136,18 @@ class GuideDict(_GuideDict, total=False):
 
     gap_m: float | None
     """Gap between the pad and a face of the blade, such as its film of water: `check` holds the
-    static deflection in the cut against it. The pad acts all the same. Not looked at by
-    default."""
+    static deflection in the cut against it. A linear pad acts within it all the same. Not
+    looked at by default."""
+
+    contact: ContactLaw
+    """Whether the pad acts at any deflection, which is the default, or only beyond the gap."""
+
+    side: GuideSide
+    """Sides of the blade on which a one-sided pad stands; both by default."""
+
+    film_stiffness_n_per_m: float
+    """Lateral stiffness of the whole pad inside the gap if it is one-sided, such as that of a
+    film of water. Zero by default."""
 
 
 class DampingDict(TypedDict, total=False):

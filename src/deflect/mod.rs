@@ -203,6 +203,10 @@ fn curves(
     for start in mirrored(blade, sweeps.map(|(sweep, _)| sweep))? {
         add_curve(blade, &mut curves, (&start, &[true, false]), range)?;
     }
+    if blade.lifts_off() {
+        // Within the gaps the blade is another one than that of the critical speeds.
+        return Ok(curves);
+    }
     let unforced = blade.clone().unforced();
     for (critical, shape) in unforced.pitchforks()? {
         if !(range.0..range.1).contains(&critical) {

@@ -19,6 +19,8 @@ pub struct Reading {
     pub largest_m: f64,
     /// Largest slope.
     pub largest_slope: f64,
+    /// Force of each pad that lifts off on the blade beyond its gap, in the order of the scene's guides.
+    pub pad_forces_n: Vec<f64>,
     /// Number of negative eigenvalues of ∂²V/∂q²; zero if the equilibrium is stable.
     pub negative_eigenvalues: usize,
     /// Eigenvalues of small motions about it, with Im λ ≥ 0, by magnitude; empty for curves.
@@ -91,6 +93,7 @@ impl<'a> Reader<'a> {
             deflection_m: self.at_probe(e),
             largest_m: self.sites.largest_m(&e.coordinates),
             largest_slope: self.blade.largest_slope(e),
+            pad_forces_n: self.blade.pad_forces_n(e),
             negative_eigenvalues: e.negative_eigenvalues,
             eigenvalues_per_s: Vec::new(),
         }

@@ -255,7 +255,7 @@ fn guide() -> GuideFile {
         tangential_length_m: 0.1,
         stiffness_n_per_m: 1e5,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     }
 }
 

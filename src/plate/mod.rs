@@ -24,6 +24,8 @@ mod radial;
 mod stress;
 mod stretching;
 
+pub(crate) use contact::GapPotential;
+use contact::LiftingPads;
 pub use contact::{Contact, ContactTerms};
 #[doc(hidden)]
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
@@ -103,6 +105,8 @@ pub struct Plate {
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of contacts: guides, and those that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
+    /// Pads that lift off, which are linear ones in `contact`.
+    lifting: Option<LiftingPads>,
     /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, if the scene has any.
@@ -149,6 +153,7 @@ impl Plate {
             basis,
             harmonics,
             contact: ContactTerms::default(),
+            lifting: None,
             edge_stiffness: None,
             damping: scene.damping(),
             membrane,
@@ -159,6 +164,7 @@ impl Plate {
             guide.add_to(&plate, &mut contact);
         }
         plate.contact = contact;
+        plate.lifting = LiftingPads::of(&plate, scene.guides());
         match scene.cut().and_then(|cut| cut.chart.map(|run| (cut, run))) {
             Some((cut, run)) => plate.in_cut(cut, &run),
             None => plate,
@@ -169,7 +175,21 @@ impl Plate {
     pub fn with_contact(&self, more: &impl Contact) -> Self {
         let mut plate = self.clone();
         more.add_to(self, &mut plate.contact);
+        if let Some(lifting) = &mut plate.lifting {
+            more.add_to(self, &mut lifting.released);
+        }
         plate
+    }
+
+    /// The same plate with its pads that lift off within their gaps, where they have the stiffness of their films only; `None`
+    /// where no pad lifts off.
+    pub(crate) fn released(&self) -> Option<Self> {
+        let lifting = self.lifting.as_ref()?;
+        Some(Plate {
+            contact: lifting.released.clone(),
+            lifting: None,
+            ..self.clone()
+        })
     }
 
     /// The plate under dead forces at its rim, with reactions at the bore as in [`EdgeStress`].
@@ -210,6 +230,7 @@ impl Plate {
     pub fn conservative(&self) -> Self {
         Plate {
             contact: self.contact.conservative(),
+            lifting: self.lifting.as_ref().map(LiftingPads::conservative),
             damping: None,
             ..self.clone()
         }
@@ -310,7 +331,7 @@ mod tests {
             tangential_length_m: 0.30,
             stiffness_n_per_m: 2.0e7,
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         };
         let plate = plate_with(&[pad]);
         let cells = 400;
@@ -342,7 +363,7 @@ mod tests {
             tangential_length_m: 2.0,
             stiffness_n_per_m: 4.0e6,
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         };
         let plate = plate_with(&[pad]);
         let per_mass = 1.0e6 / plate.blade.mass_per_area_kg_per_m2();
@@ -361,7 +382,7 @@ mod tests {
             tangential_length_m: size,
             stiffness_n_per_m: 1.0e6,
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         };
         let point = plate_with(&[pad(0.0)]).contact.stiffness().unwrap().clone();
         let distance = |size| {

@@ -36,6 +36,16 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
     pairs
 }
 
+/// Gauss–Legendre on [from, to].
+pub fn smooth(from: f64, to: f64, points: usize) -> Rule {
+    let half = 0.5 * (to - from);
+    let mut rule = Rule::default();
+    for (x, w) in gauss(points) {
+        rule.push(from + half * (1.0 + x), half * w);
+    }
+    rule
+}
+
 /// Rule on [from, to], 0 < from, for a polynomial times r⁻³ … r⁻¹: each panel ends at twice its first radius
 /// or before, so that the negative powers converge as 5.8⁻²ⁿ for every bore.
 pub fn graded(from: f64, to: f64, points: usize) -> Rule {

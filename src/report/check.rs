@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use super::branches::Numbered;
+use super::remarks::lifting_off;
 use super::saturated::add_amplitudes;
 use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm};
@@ -134,7 +135,7 @@ impl CheckReport {
 }
 
 fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
-    let mut warnings = Vec::new();
+    let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = check.analysis.critical_rpm_at(operating) {
         warnings.push(format!(

@@ -14,6 +14,7 @@ pub use self::criteria::{CutCriterion, CutCriterionEntry, CutVerdict, Verdict};
 use self::criteria::{agree, criteria, growing_hz, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
+use super::remarks::lifting_off;
 use crate::scene::{Scene, SceneFile, unusual_number};
 use crate::transient::{CutHistory, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m};
 
@@ -202,9 +203,9 @@ impl CutReport {
                 .tooth_angles_rad()
                 .map(f64::to_degrees)
                 .collect(),
-            warnings: runs
-                .iter()
-                .flat_map(|run| warnings(run, thickness_m))
+            warnings: lifting_off(scene)
+                .into_iter()
+                .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
                 .collect(),
             runs,
         }

@@ -85,6 +85,10 @@ pub struct ArcEntry {
     pub largest_deflection_m: Vec<f64>,
     /// Largest slope of the blade.
     pub largest_slope: Vec<f64>,
+    /// Force of each pad that lifts off on the blade beyond its gap, without that of its film: a row for each such guide, in
+    /// the order of the scene.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pad_forces_n: Vec<Vec<f64>>,
     /// Frequencies of small motions about the deflected blade in space, ascending, up to `campbell.complete_to_hz`.
     pub frequencies_hz: Vec<Vec<f64>>,
 }
@@ -220,7 +224,10 @@ impl ArcEntry {
             below.sort_by(f64::total_cmp);
             below
         };
+        let pads = arc.first().map_or(0, |at| at.pad_forces_n.len());
+        let of_pad = |pad: usize| arc.iter().map(|at| at.pad_forces_n[pad]).collect();
         ArcEntry {
+            pad_forces_n: (0..pads).map(of_pad).collect(),
             rpm: of(|at| rpm(at.speed_rad_per_s)),
             deflection_m: of(|at| at.deflection_m),
             largest_deflection_m: of(|at| at.largest_m),

@@ -94,6 +94,7 @@ pub fn warnings(
         contradicted(certificate),
         left_free(analysis),
         ended_early(scene, analysis),
+        lifting_off(scene),
     ];
     found.into_iter().flatten().collect()
 }
@@ -202,5 +203,32 @@ fn left_free(analysis: &Analysis) -> Option<String> {
     let free = free_bore && components.any(|p| !p.full.free_rigid.is_empty());
     free.then(|| {
         "nothing holds the blade against some rigid motion; it is left out of the modes".to_owned()
+    })
+}
+
+/// How the linear model treats pads that lift off.
+pub(super) fn lifting_off(scene: &Scene) -> Option<String> {
+    let lifting = scene.guides().iter();
+    let lifting = lifting.filter_map(|guide| Some((guide, guide.lifting?)));
+    let each: Vec<String> = lifting
+        .map(|(guide, law)| {
+            let within = match law.film_stiffness_n_per_m {
+                0.0 => "nothing of it holds the blade".to_owned(),
+                film => format!("only its film of {} N/m holds the blade", shown(film)),
+            };
+            format!(
+                "guides[{}] lifts off: within its gap of {} mm {within}",
+                guide.index,
+                shown(1e3 * law.gap_m)
+            )
+        })
+        .collect();
+    (!each.is_empty()).then(|| {
+        format!(
+            "{}. The linear model (Campbell diagram, critical speeds, bands, checks) treats such a guide as a spring of its full \
+             stiffness at any deflection: it describes a blade that is preloaded, or deflected far beyond the gap; deflect, \
+             runup.stretching and cut.stretching follow the contact",
+            each.join("; ")
+        )
     })
 }

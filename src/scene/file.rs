@@ -140,7 +140,7 @@ pub enum InPlane {
 
 /// A rectangular guide pad, its sides along and across the radius at its
 /// centre. Without size it is a point spring.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GuideFile {
     /// Distance of the pad's centre from the axis.
@@ -157,9 +157,48 @@ pub struct GuideFile {
     #[serde(default, skip_serializing_if = "is_zero")]
     pub damping_n_s_per_m: f64,
     /// Gap between the pad and a face of the blade, such as its film of water: `check` holds the static
-    /// deflection in the cut against it. The pad acts all the same. Not looked at by default.
+    /// deflection in the cut against it. A linear pad acts within it all the same. Not looked at by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap_m: Option<f64>,
+    /// Whether the pad acts at any deflection, which is the default, or only beyond the gap.
+    #[serde(default, skip_serializing_if = "is_usual")]
+    pub contact: ContactLaw,
+    /// Sides of the blade on which a one-sided pad stands; both by default.
+    #[serde(default, skip_serializing_if = "is_usual")]
+    pub side: GuideSide,
+    /// Lateral stiffness of the whole pad inside the gap if it is one-sided, such as that of a film of water. Zero by
+    /// default.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub film_stiffness_n_per_m: f64,
+}
+
+/// How a guide pad holds the blade.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactLaw {
+    /// A spring in both directions at any deflection: a preloaded pad, or one that is carried by a film.
+    #[default]
+    Linear,
+    /// A spring beyond the gap only, which presses and never pulls. `deflect`, `runup.stretching` and `cut.stretching`
+    /// follow the contact; linear analyses such as the Campbell diagram treat the pad as linear.
+    OneSided,
+}
+
+/// Sides of the blade on which a guide pad stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GuideSide {
+    /// Both: a gap on each.
+    #[default]
+    Both,
+    /// The side of positive deflections, which is left when looking from the cut towards the axis with θ = 90° up.
+    Left,
+    /// The side of negative deflections.
+    Right,
+}
+
+fn is_usual<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// Damping of the blade. Each number states the frame it lives in.

@@ -1,12 +1,14 @@
 //! Validated guide pads, angles in radians.
 
 use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
-use super::{Blade, GuideFile, SceneError};
+use super::{Blade, ContactLaw, GuideFile, GuideSide, RefusedValue, SceneError};
 use crate::text::shown;
 
 /// Validated guide pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guide {
+    /// Its place in the scene.
+    pub index: usize,
     /// Distance of the centre from the axis.
     pub radius_m: f64,
     /// Angle of the centre.
@@ -19,6 +21,19 @@ pub(crate) struct Guide {
     pub stiffness_n_per_m: f64,
     /// Damping of the whole pad.
     pub damping_n_s_per_m: f64,
+    /// How it lifts off; `None` of a linear pad.
+    pub lifting: Option<Lifting>,
+}
+
+/// A pad that touches the blade beyond a gap only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Lifting {
+    /// Gap on each side.
+    pub gap_m: f64,
+    /// Stiffness of the whole pad within the gap.
+    pub film_stiffness_n_per_m: f64,
+    /// Sides on which the pad stands.
+    pub side: GuideSide,
 }
 
 impl Guide {
@@ -35,11 +50,13 @@ impl Guide {
     }
 }
 
-/// Validates a pad; `key` is its JSON path.
-pub fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
-    let of = |name: &str| format!("{key}.{name}");
+/// Validates a pad; `index` is its position in the list of the scene.
+pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
+    let of = |name: &str| format!("guides[{index}].{name}");
     let size = (0.0, SPAN.1);
     let pad = Guide {
+        index,
+        lifting: lifting(&of, typed)?,
         radius_m: within(&of("radius_m"), typed.radius_m, size)?,
         angle_rad: within(&of("angle_deg"), typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
         radial_length_m: within(&of("radial_length_m"), typed.radial_length_m, size)?,
@@ -82,4 +99,112 @@ pub fn guide(key: &str, typed: &GuideFile, blade: &Blade) -> Result<Guide, Scene
         return Err(refuse(&of("radius_m"), pad.radius_m, allowed, remedy));
     }
     Ok(pad)
+}
+
+/// How a pad lifts off, if it does.
+fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lifting>, SceneError> {
+    if typed.contact == ContactLaw::Linear {
+        if typed.side != GuideSide::Both {
+            let side = if typed.side == GuideSide::Left {
+                "left"
+            } else {
+                "right"
+            };
+            let allowed = "\"both\" where the contact is linear";
+            let remedy = "a spring acts in both directions; give contact as \"one_sided\"";
+            return Err(RefusedValue::new(of("side"), side, allowed, remedy).into());
+        }
+        if typed.film_stiffness_n_per_m != 0.0 {
+            return Err(refuse(
+                &of("film_stiffness_n_per_m"),
+                typed.film_stiffness_n_per_m,
+                "0 where the contact is linear",
+                "a linear pad has one stiffness; give contact as \"one_sided\"",
+            ));
+        }
+        return Ok(None);
+    }
+    let Some(gap_m) = typed.gap_m else {
+        let allowed = "given where the contact is one_sided";
+        let remedy = "a pad that lifts off touches the blade beyond a gap; give it, such as 4e-5";
+        return Err(RefusedValue::missing(&of("gap_m"), allowed, remedy).into());
+    };
+    let stiffness = positive(&of("stiffness_n_per_m"), typed.stiffness_n_per_m)?;
+    let film = typed.film_stiffness_n_per_m;
+    if !(0.0..=stiffness).contains(&film) {
+        return Err(refuse(
+            &of("film_stiffness_n_per_m"),
+            film,
+            format!("from 0 to the stiffness of the pad ({})", shown(stiffness)),
+            "a film is softer than the pad that it stands before",
+        ));
+    }
+    Ok(Some(Lifting {
+        gap_m,
+        film_stiffness_n_per_m: film,
+        side: typed.side,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// A pad that lifts off with everything that it needs, and changes to it.
+    fn with(change: impl FnOnce(&mut GuideFile)) -> Result<Scene, SceneError> {
+        Scene::paper().edited(|file| {
+            let pad = &mut file.guides[0];
+            pad.contact = ContactLaw::OneSided;
+            pad.gap_m = Some(4e-5);
+            change(pad);
+        })
+    }
+
+    #[test]
+    fn a_pad_that_lifts_off_has_what_was_typed() {
+        let scene = with(|pad| {
+            pad.side = GuideSide::Left;
+            pad.film_stiffness_n_per_m = 1e5;
+        });
+        let expected = Lifting {
+            gap_m: 4e-5,
+            film_stiffness_n_per_m: 1e5,
+            side: GuideSide::Left,
+        };
+        assert_eq!(scene.unwrap().guides()[0].lifting, Some(expected));
+        assert_eq!(Scene::paper().guides()[0].lifting, None);
+    }
+
+    #[test]
+    fn what_does_not_fit_together_is_refused_by_its_key() {
+        type Change = fn(&mut GuideFile);
+        let cases: [(&str, Change); 7] = [
+            ("gap_m", |pad| pad.gap_m = None),
+            ("gap_m", |pad| pad.gap_m = Some(0.0)),
+            ("stiffness_n_per_m", |pad| pad.stiffness_n_per_m = 0.0),
+            ("film_stiffness_n_per_m", |pad| {
+                pad.film_stiffness_n_per_m = -1.0
+            }),
+            ("film_stiffness_n_per_m", |pad| {
+                pad.film_stiffness_n_per_m = 3e7
+            }),
+            ("film_stiffness_n_per_m", |pad| {
+                pad.contact = ContactLaw::Linear;
+                pad.film_stiffness_n_per_m = 1e5;
+            }),
+            ("side", |pad| {
+                pad.contact = ContactLaw::Linear;
+                pad.side = GuideSide::Right;
+            }),
+        ];
+        for (name, change) in cases {
+            match with(change) {
+                Err(SceneError::Value(refused)) => {
+                    assert_eq!(refused.key, format!("guides[0].{name}"));
+                }
+                other => panic!("{name}: {other:?}"),
+            }
+        }
+    }
 }

@@ -38,14 +38,14 @@ pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
-    Accuracy, BladeFile, DampingFile, GuideFile, InPlane, Material, Measured, MeasuredRow, Mount,
-    SceneFile, SweepFile,
+    Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideSide, InPlane, Material,
+    Measured, MeasuredRow, Mount, SceneFile, SweepFile,
 };
 #[doc(hidden)]
 pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
 pub(crate) use freed::{effective, scene_at};
-pub(crate) use guide::Guide;
+pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::Membrane;
 pub(crate) use membrane::RollBand;
 pub(crate) use membrane::Temperature;

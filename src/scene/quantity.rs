@@ -35,7 +35,7 @@ const fn q(
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 82] = [
+pub const QUANTITIES: [Quantity; 83] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -55,6 +55,7 @@ pub const QUANTITIES: [Quantity; 82] = [
     q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", 2.5e4, 1e10),
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6),
     q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3),
+    q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
     q("damping.air_n_s_per_m3", "air damping", "N·s/m³", 1e-3, 1e5),
     q("damping.air_rotation_share", "speed of the air over that of the blade", "", 0.0, 1.0),

@@ -30,7 +30,7 @@ impl TryFrom<SceneFile> for Scene {
             .guides
             .iter()
             .enumerate()
-            .map(|(index, pad)| guide(&format!("guides[{index}]"), pad, &blade))
+            .map(|(index, pad)| guide(index, pad, &blade))
             .collect::<Result<Vec<_>, _>>()?;
         check_measured(&file)?;
         Ok(Scene {

@@ -6,7 +6,7 @@ use faer::{Col, Scale, c64};
 use crate::scene::rpm;
 use crate::spectrum::{companion_eigenpairs, critical_speeds};
 
-use super::{StretchedBlade, StretchedError, angles, finite};
+use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
 
 /// An equilibrium of the blade.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,12 @@ impl StretchedBlade {
     /// Deflection of an equilibrium at a point of the blade.
     pub fn deflection_m(&self, equilibrium: &Equilibrium, radius_m: f64, angle_rad: f64) -> f64 {
         self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
+    }
+
+    /// Force of each pad that lifts off on the blade beyond its gap, in the order of the scene's guides.
+    pub fn pad_forces_n(&self, equilibrium: &Equilibrium) -> Vec<f64> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
     }
 
     /// Largest slope |∇w| of an equilibrium. The potential of stretching is valid up to about 0.1.
@@ -105,7 +111,7 @@ impl StretchedBlade {
     /// [`StretchedError::Spectrum`].
     pub fn small_motions(&self, equilibrium: &Equilibrium) -> Result<Vec<c64>, StretchedError> {
         let mut system = self.system.clone();
-        system.stiffness += self.stretching.hessian(&equilibrium.coordinates)?;
+        system.stiffness += self.added_stiffness(&equilibrium.coordinates)?;
         let pairs = companion_eigenpairs(&system, equilibrium.speed_rad_per_s)?;
         Ok(pairs.into_iter().map(|(lambda, _)| lambda).collect())
     }
@@ -162,8 +168,9 @@ impl StretchedBlade {
         speed_rad_per_s: f64,
     ) -> Result<Equilibrium, StretchedError> {
         let values = self.stiffnesses(&p, speed_rad_per_s)?;
+        let zero = -ROUNDING * values.last().copied().unwrap_or_default().abs();
         Ok(Equilibrium {
-            negative_eigenvalues: values.iter().filter(|value| **value < 0.0).count(),
+            negative_eigenvalues: values.iter().filter(|value| **value < zero).count(),
             coordinates: p,
             speed_rad_per_s,
         })

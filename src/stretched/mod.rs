@@ -12,6 +12,9 @@
 //! Otherwise gyroscopic forces may stabilize the undamped blade, but such damping destabilizes it (Thomson,
 //! Tait & Chetaev; see W. T. Thomson & P. G. Tait, *Treatise on Natural Philosophy*, 1879, §345).
 //!
+//! A pad that lifts off (`GapPotential`) is no part of K(Ω), but for its film: its potential joins V. Within the gaps of
+//! such pads a blade with a free bore has no stiffness against heave and tilt: only a side force says where it stands.
+//!
 //! Curves of equilibria are followed by pseudo-arclength continuation (H. B. Keller, in *Applications of
 //! Bifurcation Theory*, 1977, 359–384).
 
@@ -32,7 +35,7 @@ pub use sweep::Sweep;
 
 use faer::{Col, Mat, MatRef, Scale, Side};
 
-use crate::plate::{Plate, ReducedStretching, Stretching, StretchingError};
+use crate::plate::{GapPotential, Plate, ReducedStretching, Stretching, StretchingError};
 use crate::scene::rpm;
 use crate::spectrum::{
     SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
@@ -47,6 +50,19 @@ pub enum StretchedError {
         "nothing holds the blade laterally, so that it stands still nowhere in particular; add a guide, or clamp the bore"
     )]
     NotHeld,
+    /// Heave or tilt that nothing resists within the gaps of guides.
+    #[error(
+        "within the gaps of its guides nothing holds the blade laterally, so that it stands still nowhere in particular; give a side force, or one of the guides a film_stiffness_n_per_m"
+    )]
+    Loose,
+    /// A force that no guide resists.
+    #[error(
+        "at {rpm:.1} rpm the side force presses the blade away from every guide that could hold it: guides[].side leaves it free to go that way; give pads on both sides, or turn the force"
+    )]
+    Escapes {
+        /// Rotation speed.
+        rpm: f64,
+    },
     /// The blade is axisymmetric, so that deflected equilibria are not isolated.
     #[error(
         "the blade is the same at every angle, so that it leans in no direction in particular; add a guide, or a side force"
@@ -96,6 +112,8 @@ pub struct StretchedBlade {
     shapes: Mat<f64>,
     system: GyroscopicSystem,
     stretching: ReducedStretching,
+    /// Of pads that lift off.
+    gaps: Option<GapPotential>,
     /// Side force on the shapes, in N/√kg.
     force: Col<f64>,
 }
@@ -196,10 +214,28 @@ impl StretchedBlade {
         Ok((&found.coordinates - &guess).norm_l2() / found.coordinates.norm_l2())
     }
 
-    /// The blade in a basis of given orthonormal shapes.
+    /// The blade in a basis of given orthonormal shapes. If pads lift off, the lowest modes at rest inside their gaps are added.
     fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
         let stretching = Stretching::new(&plate)?;
-        Self::with(plate, &stretching, full, shapes)
+        let Some(released) = plate.released() else {
+            return Self::with(plate, &stretching, full, shapes);
+        };
+        let mut released = GyroscopicSystem::of_plate(&released);
+        let order = released.order();
+        let not_found = |_| SpectrumError::NoConvergence { order, rpm: 0.0 };
+        let modes = released.stiffness.self_adjoint_eigen(Side::Lower);
+        let modes = modes.map_err(not_found)?;
+        let count = LEAST_RELEASED.max(shapes.ncols() / 2).min(order);
+        let own = (0..shapes.ncols()).map(|k| shapes.col(k).to_owned());
+        let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
+        let all: Vec<Col<f64>> = own.chain(of_released).collect();
+        let shapes = orthonormal(order, &all, INDEPENDENT);
+        // What nothing holds within the gaps the pads do hold.
+        released.free_rigid.clear();
+        released.drift = None;
+        let gaps = GapPotential::new(&plate, shapes.as_ref());
+        let blade = Self::with(plate, &stretching, &released, shapes)?;
+        Ok(StretchedBlade { gaps, ..blade })
     }
 
     /// As [`StretchedBlade::on`], with a known potential.
@@ -213,6 +249,7 @@ impl StretchedBlade {
             system: full.project(shapes.as_ref()),
             force: Col::zeros(shapes.ncols()),
             stretching: ReducedStretching::new(stretching, shapes.as_ref())?,
+            gaps: None,
             shapes,
             plate,
         })
@@ -237,6 +274,16 @@ impl StretchedBlade {
     /// The potential of stretching in the basis.
     pub(crate) fn stretching(&self) -> &ReducedStretching {
         &self.stretching
+    }
+
+    /// Whether a pad lifts off.
+    pub(crate) fn lifts_off(&self) -> bool {
+        self.gaps.is_some()
+    }
+
+    /// The potential of pads that lift off.
+    pub(crate) fn gaps(&self) -> Option<&GapPotential> {
+        self.gaps.as_ref()
     }
 
     /// The side force in the basis, in N/√kg.
@@ -281,15 +328,41 @@ impl StretchedBlade {
         }
     }
 
+    /// Within the gaps of its pads a blade that nothing holds stands still everywhere, unless a force presses it.
+    fn not_loose(&self) -> Result<(), StretchedError> {
+        if self.gaps.is_none() || self.force.norm_max() > 0.0 {
+            return Ok(());
+        }
+        let flat = self.stiffnesses(&self.flat(), 0.0)?;
+        let largest = flat.last().copied().unwrap_or_default();
+        match flat.first().is_some_and(|least| *least <= LOOSE * largest) {
+            true => Err(StretchedError::Loose),
+            false => Ok(()),
+        }
+    }
+
     /// ∂V/∂p.
     fn residual(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Col<f64>, StretchedError> {
         let elastic = self.system.stiffness_at(speed_rad_per_s) * p;
-        Ok(elastic + self.stretching.gradient(p)? - &self.force)
+        let mut rest = elastic + self.stretching.gradient(p)? - &self.force;
+        if let Some(gaps) = &self.gaps {
+            rest += gaps.gradient(p);
+        }
+        Ok(rest)
     }
 
     /// ∂²V/∂p².
     fn hessian(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Mat<f64>, StretchedError> {
-        Ok(self.system.stiffness_at(speed_rad_per_s) + self.stretching.hessian(p)?)
+        Ok(self.system.stiffness_at(speed_rad_per_s) + self.added_stiffness(p)?)
+    }
+
+    /// What stretching and pads that lift off add to it.
+    fn added_stiffness(&self, p: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
+        let stretching = self.stretching.hessian(p)?;
+        Ok(match &self.gaps {
+            Some(gaps) => stretching + gaps.hessian(p),
+            None => stretching,
+        })
     }
 
     /// ∂²V/∂p∂Ω.
@@ -309,6 +382,14 @@ impl StretchedBlade {
         Ok(values.map_err(|_| failed())?)
     }
 }
+
+/// Fewest modes at rest within the gaps that join the shapes: heave, tilts, and the first of two and three diameters.
+const LEAST_RELEASED: usize = 8;
+/// Eigenvalues of ∂²V/∂p² from below zero to this share of the largest are zero: rounding leaves as much of the motions
+/// that nothing holds.
+const ROUNDING: f64 = 1e-12;
+/// The softest mode at rest of a blade that something holds is stiffer than this share of its stiffest.
+const LOOSE: f64 = 1e-11;
 
 /// Directions closer to the span of the others are omitted.
 const INDEPENDENT: f64 = 1e-7;
@@ -350,5 +431,7 @@ fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
     }
 }
 
+#[cfg(test)]
+mod gap_tests;
 #[cfg(test)]
 mod tests;

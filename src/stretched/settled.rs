@@ -18,7 +18,9 @@ const LAST: f64 = 1e-9;
 /// Rounding of V, relative to the energy of the deflection in the stiffest mode.
 const ROUNDING: f64 = 1e-15;
 /// Smaller stiffnesses, relative to the largest, are replaced by this value, so that steps are bounded.
-const SOFTEST: f64 = 1e-12;
+const SOFTEST: f64 = super::ROUNDING;
+/// A blade that has gone by so many thicknesses is held by nothing.
+const FAR: f64 = 100.0;
 
 impl StretchedBlade {
     /// The stable equilibrium that the blade reaches from a deflection by steps along which V decreases:
@@ -34,6 +36,7 @@ impl StretchedBlade {
         from: &Col<f64>,
     ) -> Result<Equilibrium, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
+        self.not_loose()?;
         let size = self.size();
         let mut p = from.clone();
         let mut energy = self.potential_j(&p, speed_rad_per_s)?;
@@ -52,7 +55,7 @@ impl StretchedBlade {
             let softest = SOFTEST * modes.S()[order - 1].abs();
             let shares = Col::from_fn(order, |k| along[k] / modes.S()[k].abs().max(softest));
             let mut step = Scale(-1.0) * (modes.U() * shares);
-            let is_minimum = modes.S()[0] >= 0.0;
+            let is_minimum = modes.S()[0] >= -SOFTEST * modes.S()[order - 1].abs();
             if step.norm_l2() <= LAST * p.norm_l2().max(size) {
                 if is_minimum {
                     self.directed(&p)?;
@@ -71,6 +74,11 @@ impl StretchedBlade {
             let length = step.norm_l2();
             if length > LONGEST * size {
                 step = Scale(LONGEST * size / length) * step;
+            }
+            if self.gaps.is_some() && p.norm_l2() > FAR * size {
+                return Err(StretchedError::Escapes {
+                    rpm: rpm(speed_rad_per_s),
+                });
             }
             let slope = rest.transpose() * &step;
             let mut share = 1.0;
@@ -96,6 +104,7 @@ impl StretchedBlade {
     /// V, in J.
     pub fn potential_j(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<f64, StretchedError> {
         let elastic = p.transpose() * (self.system.stiffness_at(speed_rad_per_s) * p);
-        Ok(0.5 * elastic + self.stretching.energy_j(p)? - self.force.transpose() * p)
+        let of_gaps = self.gaps.as_ref().map_or(0.0, |gaps| gaps.energy_j(p));
+        Ok(0.5 * elastic + self.stretching.energy_j(p)? + of_gaps - self.force.transpose() * p)
     }
 }

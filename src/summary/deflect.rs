@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
+use crate::scene::ContactLaw;
 use crate::stretched::TurnKind;
+use crate::text::shown_to;
 
 impl DeflectReport {
     /// The summary, 80 columns wide, with the verdict first.
@@ -31,6 +33,9 @@ fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
         }
     }
     table(text, report)?;
+    if let Some(pads) = pads(report) {
+        writeln!(text, "{}", wrapped(&pads))?;
+    }
     writeln!(text, "\n{}", wrapped(&accuracy(report)))?;
     writeln!(text, "{}", wrapped(MEANING))?;
     for warning in &report.warnings {
@@ -188,6 +193,34 @@ impl SlowSweepEntry {
             })
         })
     }
+}
+
+/// The largest force of each pad that lifts off while the speed rises.
+fn pads(report: &DeflectReport) -> Option<String> {
+    let guides = report.scene.guides.iter().enumerate();
+    let lifting = guides.filter(|(_, guide)| guide.contact == ContactLaw::OneSided);
+    let each: Vec<String> = lifting
+        .enumerate()
+        .filter_map(|(row, (index, _))| {
+            let arcs = report.up.arcs.iter();
+            let of_arc = |arc: &ArcEntry| {
+                let forces = arc.pad_forces_n.get(row).cloned().unwrap_or_default();
+                arc.rpm.clone().into_iter().zip(forces)
+            };
+            let all = arcs.flat_map(of_arc);
+            let (rpm, force) = all.max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()))?;
+            Some(format!(
+                "guides[{index}] {} N at {rpm:.0} rpm",
+                shown_to(3, force)
+            ))
+        })
+        .collect();
+    (!each.is_empty()).then(|| {
+        format!(
+            "Largest force of a pad beyond its gap while the speed rises: {}",
+            each.join(", ")
+        )
+    })
 }
 
 fn accuracy(report: &DeflectReport) -> String {

@@ -7,12 +7,13 @@
 //!
 //! The method is unconditionally stable, of second order, and has no numerical damping. The mean of a force
 //! along the straight line from q₀ to q₁ does exactly the work that its potential loses, so that the energy
-//! of an undamped, unloaded blade is conserved. Two Gauss points give this mean exactly for forces up to the
-//! third power of q.
+//! of an undamped, unloaded blade is conserved.
 //!
 //! References: N. M. Newmark, *A method of computation for structural dynamics*, J. Eng. Mech. Div. ASCE 85
 //! (1959), 67–94; G. R. W. Quispel & D. I. McLaren, *A new class of energy-preserving numerical integration
 //! methods*, J. Phys. A 41 (2008), 045206, for the mean along the line.
+
+use std::cell::RefCell;
 
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Col, Mat, Scale};
@@ -31,18 +32,20 @@ pub struct Newmark<'a> {
     factors: PartialPivLu<f64>,
     loads: &'a [Col<f64>],
     forces: &'a [&'a dyn Force],
+    /// Factors of the tangent where Newton's method was last needed: stiff forces change little from step to step.
+    tangent: RefCell<Option<PartialPivLu<f64>>>,
     speed_rad_per_s: f64,
     step_s: f64,
 }
 
-/// Gauss points on [0, 1], each of weight ½.
-const ON_LINE: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 /// Largest number of iterations of Newton's method; a step that resolves the motion takes two to four.
 const ITERATIONS: usize = 30;
 /// Relative size of the last correction with quadratic convergence: the next would be its square.
 const LAST: f64 = 1e-9;
 /// Relative size of the last correction with linear convergence.
 const CLOSEST: f64 = 1e-13;
+/// A share of a correction below which it is taken all the same: what is left is rounding.
+const SHORTEST: f64 = 0.01;
 /// If corrections decrease by less than this factor, Newton's method takes over.
 const QUICK: f64 = 0.3;
 
@@ -66,6 +69,7 @@ impl<'a> Newmark<'a> {
             effective,
             loads,
             forces: &[],
+            tangent: RefCell::new(None),
             speed_rad_per_s,
             step_s,
         }
@@ -76,58 +80,78 @@ impl<'a> Newmark<'a> {
         Newmark { forces, ..self }
     }
 
-    /// Solves E d = r + Σ f(q₀ + s d), where the sum is over the two Gauss points: with the factors of E as
-    /// long as this converges fast, which it does in steps that resolve the motion, otherwise by Newton's
+    /// Solves E d = r + 2 ∫f(q₀ + s d) ds: with the factors of E, or of the last tangent if E converged too slowly
+    /// before, as long as this converges fast, which it does in steps that resolve the motion; otherwise by Newton's
     /// method.
     fn balanced(&self, state: &State, right: &Col<f64>) -> Result<Col<f64>, TransientError> {
         let q = &state.displacement;
-        let mut change = Scale(self.step_s) * &state.velocity;
+        let begun = Scale(self.step_s) * &state.velocity;
+        let mut change = begun.clone();
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let mut force = right.clone();
-            for share in ON_LINE {
-                let on_line = q + Scale(share) * &change;
-                for acting in self.forces {
-                    acting.add_to(&on_line, &mut force);
-                }
-            }
-            let next = self.factors.solve(&force);
-            let correction = (&next - &change).norm_l2();
-            change = next;
-            if correction <= CLOSEST * (q.norm_l2() + change.norm_l2()) {
+            let correction = match &*self.tangent.borrow() {
+                Some(factors) => factors.solve(self.left(q, right, &change)),
+                None => self.factors.solve(right + self.twice_mean(q, &change)) - &change,
+            };
+            change += &correction;
+            let size = correction.norm_l2();
+            if size <= CLOSEST * (q.norm_l2() + change.norm_l2()) {
                 return Ok(change);
             }
-            if correction.is_nan() || correction >= QUICK * last {
+            if size.is_nan() || size >= QUICK * last {
                 break;
             }
-            last = correction;
+            last = size;
         }
         if !change.norm_l2().is_finite() {
-            change = Scale(self.step_s) * &state.velocity;
+            change = begun;
         }
         self.by_newton(q, right, change)
     }
 
+    /// What is left of the step's equation.
+    fn left(&self, q: &Col<f64>, right: &Col<f64>, change: &Col<f64>) -> Col<f64> {
+        right + self.twice_mean(q, change) - &self.effective * change
+    }
+
+    /// 2 ∫₀¹ f(q + s d) ds.
+    fn twice_mean(&self, q: &Col<f64>, change: &Col<f64>) -> Col<f64> {
+        let mut mean = Col::zeros(q.nrows());
+        for force in self.forces {
+            force.add_mean_to(q, change, &mut mean);
+        }
+        Scale(2.0) * mean
+    }
+
+    /// Each correction as long as, or a part of, that of Newton's method, so that what is left falls: where a pad
+    /// begins to touch, a whole one may go too far.
     fn by_newton(
         &self,
         q: &Col<f64>,
         right: &Col<f64>,
         mut change: Col<f64>,
     ) -> Result<Col<f64>, TransientError> {
+        let mut residual = self.left(q, right, &change);
         for _ in 0..ITERATIONS {
-            let mut residual = right - &self.effective * &change;
-            let mut tangent = self.effective.clone();
-            for share in ON_LINE {
-                let on_line = q + Scale(share) * &change;
-                let mut stiffness = Mat::zeros(q.nrows(), q.nrows());
-                for force in self.forces {
-                    force.add_to(&on_line, &mut residual);
-                    force.add_stiffness(&on_line, &mut stiffness);
-                }
-                tangent += Scale(share) * stiffness;
+            let mut stiffness = Mat::zeros(q.nrows(), q.nrows());
+            for force in self.forces {
+                force.add_mean_stiffness(q, &change, &mut stiffness);
             }
-            let correction = tangent.partial_piv_lu().solve(&residual);
-            change += &correction;
+            let tangent = &self.effective + Scale(2.0) * stiffness;
+            let factors = tangent.partial_piv_lu();
+            let correction = factors.solve(&residual);
+            *self.tangent.borrow_mut() = Some(factors);
+            let mut share = 1.0;
+            loop {
+                let next = &change + Scale(share) * &correction;
+                let after = self.left(q, right, &next);
+                let falls = after.norm_l2() <= (1.0 - 1e-4 * share) * residual.norm_l2();
+                if falls || share < SHORTEST {
+                    (change, residual) = (next, after);
+                    break;
+                }
+                share *= 0.5;
+            }
             let size = q.norm_l2() + change.norm_l2();
             if correction.norm_l2() <= LAST * size {
                 return Ok(change);

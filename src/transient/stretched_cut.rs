@@ -13,7 +13,8 @@ use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, longest_step_s};
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::{SawInCut, lateral_load};
 use super::stretched_probe::StretchedProbe;
-use super::{Force, Growth, Integrator, Newmark, State, TransientError};
+use super::stretching::{forces, system};
+use super::{Growth, Integrator, Newmark, State, TransientError};
 
 /// Results with stretching at one speed of a cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,13 +58,13 @@ fn with_modes(
     let (cut, run) = (saw.cut, saw.run);
     let reduced = basis(saw, modes);
     let blade = StretchedBlade::of_shapes(saw.plate, reduced.basis().to_owned())?;
-    let load = Scale(run.lateral_n) * reduced.vector(&lateral_load(saw.plate, cut, 0.0));
+    let shapes = blade.shapes();
+    let load = Scale(run.lateral_n) * (shapes.transpose() * lateral_load(saw.plate, cut, 0.0));
     let none = Col::zeros(load.nrows());
-    let idle = reduced.system(&saw.idle_system);
-    let cutting = reduced.system(&saw.cutting_system);
+    let [idle, cutting] = [saw.plate, &saw.cutting].map(|plate| system(plate, &blade));
     let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
     let sample_s = SAMPLE_S.max((2.0 * cut.idle_s + run.duration_s) / MAX_SAMPLES);
-    let mut state = State::rest(reduced.order());
+    let mut state = State::rest(load.nrows());
     let mut start_s = 0.0;
     for (system, growth, duration_s, load) in [
         (&idle, growths[0], cut.idle_s, &none),
@@ -164,7 +165,7 @@ impl<'a> Samples<'a> {
         let step_s = duration_s / count as f64;
         self.found.step_s = self.found.step_s.max(step_s);
         let stride = ((sample_s / step_s) as usize).max(1);
-        let forces: [&dyn Force; 1] = [self.blade.stretching()];
+        let forces = forces(self.blade);
         let loads = [phase.load.clone()];
         let newmark = Newmark::new(phase.system, (self.speed_rad_per_s, 0.0), &loads, step_s);
         let newmark = newmark.with_forces(&forces);

@@ -8,11 +8,11 @@ use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp};
 use crate::stretched::StretchedBlade;
-use crate::system::GyroscopicSystem;
 
 use super::runup::{MAX_SAMPLES, Moving, Steps};
 use super::stretched_probe::StretchedProbe;
-use super::{Force, RunUpHistory, State, TransientError};
+use super::stretching::{forces, system};
+use super::{RunUpHistory, State, TransientError};
 
 /// Results of a run-up with stretching.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,8 +68,8 @@ pub fn stretched_run_up(
     let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
     let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(runup.force_n, place)?;
     // The system includes the damping of the saw, which is not part of the potential.
-    let system = GyroscopicSystem::of_plate(plate).project(blade.shapes());
-    let forces: [&dyn Force; 1] = [blade.stretching()];
+    let system = system(plate, &blade);
+    let forces = forces(&blade);
     let moving = Moving {
         system: &system,
         load: blade.force().clone(),

@@ -1,10 +1,32 @@
-//! Stretching as a force in a time history: −∂U₄/∂q.
+//! Stretching and pads that lift off as forces in a time history: −∂U₄/∂q and −∂V/∂q.
 
 use faer::{Col, Mat};
 
-use crate::plate::ReducedStretching;
+use crate::plate::{GapPotential, Plate, ReducedStretching};
+use crate::stretched::StretchedBlade;
+use crate::system::GyroscopicSystem;
 
 use super::Force;
+
+/// The forces of a blade that depend on its deflection.
+pub(super) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
+    let gaps = blade.gaps().map(|gaps| gaps as &dyn Force);
+    std::iter::once(blade.stretching() as &dyn Force)
+        .chain(gaps)
+        .collect()
+}
+
+/// The linear terms of a plate on the shapes of the blade, its damping included, without the stiffness of pads beyond their gaps.
+pub(super) fn system(plate: &Plate, blade: &StretchedBlade) -> GyroscopicSystem {
+    let released = plate.released();
+    let mut system = GyroscopicSystem::of_plate(released.as_ref().unwrap_or(plate));
+    if released.is_some() {
+        // What nothing holds within the gaps the pads do hold.
+        system.free_rigid.clear();
+        system.drift = None;
+    }
+    system.project(blade.shapes())
+}
 
 impl Force for ReducedStretching {
     fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>) {
@@ -22,6 +44,30 @@ impl Force for ReducedStretching {
     }
 }
 
+impl Force for GapPotential {
+    fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>) {
+        *force -= self.gradient(displacement);
+    }
+
+    fn add_stiffness(&self, displacement: &Col<f64>, stiffness: &mut Mat<f64>) {
+        *stiffness += self.hessian(displacement);
+    }
+
+    /// Where a pad begins to touch Gauss points of the line would not give the mean exactly.
+    fn add_mean_to(&self, displacement: &Col<f64>, change: &Col<f64>, force: &mut Col<f64>) {
+        *force -= self.mean_gradient(displacement, change);
+    }
+
+    fn add_mean_stiffness(
+        &self,
+        displacement: &Col<f64>,
+        change: &Col<f64>,
+        stiffness: &mut Mat<f64>,
+    ) {
+        *stiffness += self.mean_stiffness(displacement, change);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
@@ -30,7 +76,7 @@ mod tests {
 
     use super::*;
     use crate::plate::{Plate, Resolution, Stretching};
-    use crate::scene::{Scene, rad_per_s};
+    use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene, rad_per_s};
     use crate::system::GyroscopicSystem;
     use crate::transient::{Integrator, Newmark, State};
 
@@ -115,5 +161,117 @@ mod tests {
         }
         let change = (energy(&state) - before) / stretched;
         assert!(change.abs() < 1e-10, "{change:e}");
+    }
+
+    /// The built-in saw with point pads in the place of its own.
+    fn on_points(change: impl FnOnce(&mut GuideFile)) -> Plate {
+        let scene = Scene::paper().edited(|saw| {
+            saw.cut = None;
+            let pad = &mut saw.guides[0];
+            (pad.radial_length_m, pad.tangential_length_m) = (0.0, 0.0);
+            (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(1e-3));
+            change(pad);
+        });
+        Plate::new(&scene.unwrap(), SMALL).conservative()
+    }
+
+    /// The blade as a rigid body of one degree of freedom: it heaves. Steps from the flat blade with a speed of
+    /// 0.3 m/s, until it has come through there upwards again; the time that this takes.
+    fn heaving_period_s(plate: &Plate, steps_in_s: f64) -> f64 {
+        let order = plate.degrees_of_freedom();
+        let heave = Mat::from_fn(order, 1, |i, _| if i == 0 { 1.0 } else { 0.0 });
+        let released = GyroscopicSystem::of_plate(&plate.released().unwrap());
+        let mut system = released.project(heave.as_ref());
+        system.free_rigid.clear();
+        system.drift = None;
+        let gaps = GapPotential::new(plate, heave.as_ref()).unwrap();
+        let forces: [&dyn Force; 1] = [&gaps];
+        let newmark = Newmark::new(&system, (0.0, 0.0), &[], steps_in_s).with_forces(&forces);
+        let speed = 0.3 * plate.blade.mass_kg().sqrt();
+        let mut state = State {
+            displacement: Col::zeros(1),
+            velocity: Col::full(1, speed),
+        };
+        let film = system.stiffness[(0, 0)];
+        let energy = |state: &State| {
+            let (q, v) = (state.displacement[0], state.velocity[0]);
+            0.5 * (v * v + film * q * q) + gaps.energy_j(&state.displacement)
+        };
+        let begun = energy(&state);
+        for step in 1.. {
+            let before = state.displacement[0];
+            state = newmark.step(&state, [&[], &[]]).unwrap();
+            let lost = energy(&state) / begun - 1.0;
+            assert!(lost.abs() < 1e-10, "{step}: {lost:e}");
+            let after = state.displacement[0];
+            if step > 1 && before < 0.0 && after >= 0.0 {
+                return steps_in_s * (f64::from(step) - after / (after - before));
+            }
+        }
+        f64::NAN
+    }
+
+    /// Between two stops: it crosses the gap four times at its speed v, and is for half a period of a spring on each:
+    /// T = 4g/v + 2π√(m/k).
+    #[test]
+    fn a_blade_between_stops_keeps_its_energy_and_its_period() {
+        let plate = on_points(|_| ());
+        let mass = plate.blade.mass_kg();
+        let expected = 4.0 * 1e-3 / 0.3 + TAU * (mass / 2e7).sqrt();
+        let error = |steps: f64| heaving_period_s(&plate, expected / steps) / expected - 1.0;
+        let (coarse, fine) = (error(500.0), error(4000.0));
+        assert!(fine.abs() < 1e-3, "{fine:e} {coarse:e}");
+        assert!(coarse.abs() < 2e-2, "{fine:e} {coarse:e}");
+    }
+
+    /// A pad on one side that begins to touch at once, before a film on both: the bilinear oscillator, of the period π√(m/k) +
+    /// π√(m/k_f) (S. W. Shaw & P. J. Holmes, *A periodically forced piecewise linear oscillator*, J. Sound Vib. 90 (1983),
+    /// 129–155).
+    #[test]
+    fn a_pad_on_one_side_makes_a_bilinear_oscillator() {
+        for side in [GuideSide::Left, GuideSide::Right] {
+            let plate = on_points(|pad| {
+                (pad.side, pad.gap_m) = (side, Some(1e-9));
+                pad.film_stiffness_n_per_m = 5e6;
+            });
+            let mass = plate.blade.mass_kg();
+            let expected = 0.5 * TAU * ((mass / 2e7).sqrt() + (mass / 5e6).sqrt());
+            let error = |steps: f64| heaving_period_s(&plate, expected / steps) / expected - 1.0;
+            let (coarse, fine) = (error(250.0), error(2000.0));
+            assert!(fine.abs() < 1e-5, "{fine:e} {coarse:e}");
+            assert!(coarse.abs() < 1e-3, "{fine:e} {coarse:e}");
+        }
+    }
+
+    /// A guided blade of many modes that rattles within its pad's gap at speed: what it has of energy it keeps.
+    #[test]
+    fn a_blade_that_rattles_keeps_its_energy() {
+        let scene = Scene::paper().edited(|saw| {
+            let pad = &mut saw.guides[0];
+            (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(5e-5));
+        });
+        let plate = Plate::new(&scene.unwrap(), SMALL).conservative();
+        let blade = StretchedBlade::new(&plate, 10).unwrap();
+        let system = system(&plate, &blade);
+        let forces = forces(&blade);
+        let speed = rad_per_s(1200.0);
+        let newmark = Newmark::new(&system, (speed, 0.0), &[], 1e-4).with_forces(&forces);
+        let energy = |state: &State| {
+            let moving = 0.5 * state.velocity.squared_norm_l2();
+            moving + blade.potential_j(&state.displacement, speed).unwrap()
+        };
+        let mut state = State::rest(blade.shapes().ncols());
+        for (k, v) in state.velocity.iter_mut().enumerate() {
+            *v = 0.1 / (1.0 + k as f64);
+        }
+        let begun = energy(&state);
+        let mut touched = 0;
+        for _ in 0..2000 {
+            state = newmark.step(&state, [&[], &[]]).unwrap();
+            let lost = energy(&state) / begun - 1.0;
+            assert!(lost.abs() < 1e-8, "{lost:e}");
+            touched += usize::from(blade.gaps().unwrap().energy_j(&state.displacement) > 0.0);
+        }
+        assert!((100..1900).contains(&touched), "{touched}");
     }
 }

@@ -3,6 +3,7 @@
 //! Source: `--help`, docs/how-to/deflect.md.
 
 use sawflutter::report::{CheckReport, DeflectReport, InstabilityEntry, Report};
+use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 
 use super::program::{names_in, out, run, text};
@@ -68,6 +69,38 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
         text(&output.stderr)
     );
     assert!(!folder.path().join("out").exists());
+}
+
+/// A pad that lifts off: its force balances the side force, text and JSON say what the linear chart takes it for, and without
+/// a side force nothing holds the blade.
+#[test]
+fn a_pad_that_lifts_off_is_followed_and_told() {
+    let folder = TempDir::new().unwrap();
+    let scene = Scene::paper().edited(|file| {
+        let pad = &mut file.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+        file.accuracy = Accuracy::Draft;
+    });
+    let json = serde_json::to_string(scene.unwrap().file()).unwrap();
+    let path = folder.path().join("saw.json");
+    std::fs::write(&path, json).unwrap();
+    let path = path.to_str().unwrap();
+    let asked = ["deflect", path, "--to-rpm", "600", "--force-n"];
+    let output = run(&[&asked[..], &["3"]].concat(), &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary = text(&output.stdout);
+    assert!(summary.contains("guides[0] -3 N at"), "{summary}");
+    let json = std::fs::read(folder.path().join("out/deflect.json")).unwrap();
+    let report: DeflectReport = serde_json::from_slice(&json).unwrap();
+    let forces = report.up.arcs.iter().flat_map(|arc| &arc.pad_forces_n[0]);
+    assert!(forces.clone().count() > 3);
+    assert!(forces.clone().all(|force| (force + 3.0).abs() < 1e-6));
+    let said = |warning: &String| warning.contains("guides[0] lifts off");
+    assert!(report.warnings.iter().any(said));
+    let output = run(&[&asked[..], &["0"]].concat(), &folder);
+    assert_eq!(output.status.code(), Some(2));
+    let refused = text(&output.stderr);
+    assert!(refused.contains("film_stiffness_n_per_m"), "{refused}");
 }
 
 /// How far flutter rises: the same number in JSON of `analyze` and of `check`, and the exit code for a limit above and below.

@@ -83,7 +83,7 @@ pub fn drawn_saw(index: u64) -> SceneFile {
                 tangential_length_m,
                 stiffness_n_per_m: draw.log_between(3e4, 3e8),
                 damping_n_s_per_m: 0.0,
-                gap_m: None,
+                ..GuideFile::default()
             }
         })
         .collect();

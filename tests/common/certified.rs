@@ -70,7 +70,7 @@ fn drawn_saw(draw: [f64; 9]) -> SceneFile {
         tangential_length_m: 0.02 + 0.12 * size,
         stiffness_n_per_m: 10_f64.powf(4.5 + 3.5 * stiffness),
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     };
     file.guides = vec![pad(draw[2], draw[3], draw[4], draw[5])];
     if draw[6] > 0.5 {

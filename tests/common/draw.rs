@@ -74,7 +74,7 @@ fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
         } else {
             0.0
         },
-        gap_m: None,
+        ..GuideFile::default()
     }
 }
 

@@ -49,7 +49,7 @@ prop_compose! {
             tangential_length_m: sides.1 * outer_radius_m,
             stiffness_n_per_m: 10_f64.powf(stiffness),
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         }
     }
 }

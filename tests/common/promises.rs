@@ -31,7 +31,7 @@ pub fn saws() -> Vec<Saw> {
                 tangential_length_m: rim_m * (0.1 + 0.4 * spread(0.61)),
                 stiffness_n_per_m,
                 damping_n_s_per_m: 0.0,
-                gap_m: None,
+                ..GuideFile::default()
             };
             file.blade.inner_diameter_m = bore * file.blade.outer_diameter_m;
             file.sweep = None;
@@ -75,7 +75,7 @@ pub fn drawn_saws(numbers: std::ops::Range<usize>) -> Vec<Saw> {
             tangential_length_m: rim_m * spread(19.0, 0.05, 0.6),
             stiffness_n_per_m,
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         };
         file.guides = (0..=k % 3).map(|turn| pad(turn as f64)).collect();
         Saw {

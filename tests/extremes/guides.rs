@@ -18,7 +18,7 @@ fn point(angle_deg: f64, stiffness_n_per_m: f64) -> GuideFile {
         tangential_length_m: 0.0,
         stiffness_n_per_m,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     }
 }
 
@@ -96,7 +96,7 @@ pub fn bed(stiffness_n_per_m: f64) -> GuideFile {
         tangential_length_m: 2.0,
         stiffness_n_per_m,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     }
 }
 

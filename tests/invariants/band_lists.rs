@@ -17,7 +17,7 @@ fn pad(radius_m: f64, angle_deg: f64, side_m: f64, stiffness_n_per_m: f64) -> Gu
         tangential_length_m: side_m,
         stiffness_n_per_m,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     }
 }
 

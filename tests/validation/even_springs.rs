@@ -32,7 +32,7 @@ fn blade_on(springs: EvenSprings) -> Scene {
         tangential_length_m: 0.0,
         stiffness_n_per_m: springs.stiffness_n_per_m,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     };
     let scene = collar().edited(|file| {
         file.sweep = None;

@@ -51,7 +51,7 @@ fn sprung(stiffness_n_per_m: f64) -> Plate {
             tangential_length_m: 0.0,
             stiffness_n_per_m,
             damping_n_s_per_m: 0.0,
-            gap_m: None,
+            ..GuideFile::default()
         }];
     });
     let resolution = Resolution {

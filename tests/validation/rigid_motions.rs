@@ -28,7 +28,7 @@ fn scene(springs: &[(f64, f64)]) -> Scene {
         tangential_length_m: 0.0,
         stiffness_n_per_m: 2e7,
         damping_n_s_per_m: 0.0,
-        gap_m: None,
+        ..GuideFile::default()
     };
     file.guides = springs.iter().map(spring).collect();
     Scene::try_from(file).unwrap()

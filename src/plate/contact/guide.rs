@@ -14,7 +14,8 @@ use super::{Contact, ContactTerms};
 /// K_g is the mean of φᵢφⱼ over the pad times its stiffness, C the mean times its damping.
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
-        let mut coupling = coupling(plate, self.angle_rad, circles(plate, self).into_iter());
+        let circles = circles(plate, self, sufficient_points(plate));
+        let mut coupling = coupling(plate, self.angle_rad, circles.into_iter());
         if self.damping_n_s_per_m > 0.0 {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
         }
@@ -26,8 +27,8 @@ impl Contact for Guide {
     }
 }
 
-/// The arcs of the pad on the circles of a radial quadrature rule.
-fn circles(plate: &Plate, pad: &Guide) -> Vec<Circle> {
+/// The arcs of the pad on the circles of a radial quadrature rule, of so many points on each smooth interval.
+pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> {
     if pad.is_point() {
         return vec![Circle {
             radius_m: pad.radius_m,
@@ -36,7 +37,6 @@ fn circles(plate: &Plate, pad: &Guide) -> Vec<Circle> {
         }];
     }
     let area = pad.radial_length_m * pad.tangential_length_m;
-    let points = sufficient_points(plate);
     let mut circles = Vec::new();
     for (low, high) in smooth_radii(&plate.blade, pad) {
         let rule = quadrature::root_ended(low, high, points);

@@ -2,9 +2,13 @@
 //!
 //! Every kind of contact is a type that implements [`Contact`], in its own file.
 
+mod gap;
 mod guide;
 mod patch;
 mod wood;
+
+pub use gap::GapPotential;
+pub(super) use gap::LiftingPads;
 
 use faer::{Mat, Scale};
 

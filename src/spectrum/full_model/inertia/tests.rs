@@ -55,7 +55,7 @@ fn drawn_saw(draw: &mut Draw, guides: usize) -> SceneFile {
                 tangential_length_m: side,
                 stiffness_n_per_m: 10_f64.powf(draw.between(4.0, 9.0)),
                 damping_n_s_per_m: 0.0,
-                gap_m: None,
+                ..GuideFile::default()
             }
         })
         .collect();
