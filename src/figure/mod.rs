@@ -33,6 +33,7 @@ mod heading;
 mod heat;
 mod in_cut;
 mod key;
+mod letters;
 mod meeting;
 mod membrane;
 mod modes;
@@ -75,9 +76,6 @@ fn is_damped(report: &Report) -> bool {
 /// Reason for which a figure could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// A font of the program did not load.
-    #[error("the built-in font {0} cannot be read")]
-    Font(&'static str),
     /// The drawing library refused a mark.
     #[error("a figure cannot be drawn")]
     Draw(#[source] Box<dyn std::error::Error + Send + Sync>),

@@ -6,7 +6,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::FigureError;
 use super::canvas::{Anchor, Lettering, Mark, Sheet, Stroke};
-use super::style::{self, PAPER};
+use super::letters::Written;
+use super::style::PAPER;
 
 /// plotters uses integer pixels. With this magnification lines of any slope are smooth: the PNG is averaged,
 /// the SVG has a view box.
@@ -102,7 +103,6 @@ where
     DB: DrawingBackend,
     DB::ErrorType: 'static,
 {
-    style::load_fonts()?;
     for mark in sheet.marks() {
         match mark {
             Mark::Line(points, stroke) => draw_stroke(area, points, *stroke, draw_line)?,
@@ -214,12 +214,16 @@ where
         false => (FontTransform::None, [x, y - above]),
         true => (FontTransform::Rotate270, [x - above, y]),
     };
-    let em = lettering.em * f64::from(FINE);
-    let style = TextStyle::from(style::font(em, lettering.weight).transform(font))
-        .color(&lettering.colour)
-        .pos(Pos::new(horizontal, VPos::Top));
-    area.draw_text(text, &style, fine_point(corner))
-        .map_err(refused)
+    let written = Written {
+        text,
+        at: fine_point(corner),
+        em: lettering.em * f64::from(FINE),
+        weight: lettering.weight,
+        colour: lettering.colour,
+        anchor: Pos::new(horizontal, VPos::Top),
+        transform: font,
+    };
+    area.draw(&written).map_err(refused)
 }
 
 /// Divides a line into dashes.

@@ -1,10 +1,8 @@
 //! Colours, sizes and fonts of all figures.
 
-use std::sync::OnceLock;
+use plotters::style::RGBColor;
 
-use plotters::style::{FontDesc, FontFamily, FontStyle, RGBColor, register_font};
-
-use super::FigureError;
+pub use super::letters::text_width;
 
 /// A colour of the palette.
 pub type Colour = RGBColor;
@@ -77,54 +75,10 @@ pub enum Weight {
     SemiBold,
 }
 
-/// Name under which the fonts are registered. It is written to the SVG and therefore lists fallbacks for
-/// systems without Inter.
-const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
-
-/// In plotters the size of a font is 1.24 em.
-const PLOTTERS_SIZE_PER_EM: f64 = 1.24;
-
 /// Mixes a colour with white; `share` is the share of the colour.
 pub fn tint(colour: Colour, share: f64) -> Colour {
     let mix = |channel: u8| (255.0 - share * (255.0 - f64::from(channel))).round() as u8;
     RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
-}
-
-/// Registers the built-in fonts with plotters.
-pub fn load_fonts() -> Result<(), FigureError> {
-    static LOADED: OnceLock<Result<(), &'static str>> = OnceLock::new();
-    LOADED
-        .get_or_init(register_fonts)
-        .map_err(FigureError::Font)
-}
-
-fn register_fonts() -> Result<(), &'static str> {
-    let regular = include_bytes!("../../assets/fonts/Inter-Regular.otf");
-    let semi_bold = include_bytes!("../../assets/fonts/Inter-SemiBold.otf");
-    register_font(FAMILY, FontStyle::Normal, regular).map_err(|_| "Inter Regular")?;
-    register_font(FAMILY, FontStyle::Bold, semi_bold).map_err(|_| "Inter SemiBold")
-}
-
-/// A font with the given em.
-pub fn font(em: f64, weight: Weight) -> FontDesc<'static> {
-    let style = match weight {
-        Weight::Regular => FontStyle::Normal,
-        Weight::SemiBold => FontStyle::Bold,
-    };
-    FontDesc::new(FontFamily::Name(FAMILY), em * PLOTTERS_SIZE_PER_EM, style)
-}
-
-/// Width of a line of text in figure units.
-pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
-    // plotters truncates widths to integers, so the text is measured magnified.
-    const MAGNIFIED: f64 = 16.0;
-    let measured = load_fonts()
-        .ok()
-        .and_then(|()| font(em * MAGNIFIED, weight).layout_box(text).ok());
-    match measured {
-        Some(((left, _), (right, _))) => f64::from(right - left) / MAGNIFIED,
-        None => 0.6 * em * text.chars().count() as f64,
-    }
 }
 
 /// The text on as many lines as necessary, broken at ordinary spaces.
