@@ -20,6 +20,7 @@ from ._report_types import Branch, CriticalSpeed, Instability, Mode, RestMode
 from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
+from .compared import CompareResults, compare
 from .designs import FitResults, PlaceResults, TradeoffResults
 from .errors import (
     AnalysisError,
@@ -47,6 +48,7 @@ __all__ = [
     "Branch",
     "CampbellResults",
     "CheckResults",
+    "CompareResults",
     "CriticalSpeed",
     "CutResults",
     "DeflectResults",
@@ -72,5 +74,6 @@ __all__ = [
     "StudyResults",
     "TradeoffResults",
     "WashboardResults",
+    "compare",
     "load",
 ]

@@ -11,6 +11,7 @@ __all__ = [
     "campbell_csv",
     "chart",
     "check",
+    "compare",
     "cut",
     "deflect",
     "fit",
@@ -57,6 +58,9 @@ def analyze(
     amplitude: bool = False,
     shapes_at_rpm: Sequence[float] | None = None,
     progress: _Progress = None,
+) -> str: ...
+def compare(
+    saws: Sequence[tuple[str, str, bool]], *, progress: _Progress = None
 ) -> str: ...
 def modes(scene: str, at_rpm: Sequence[float], *, progress: _Progress = None) -> str: ...
 def check(

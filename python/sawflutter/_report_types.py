@@ -980,6 +980,71 @@ class CheckReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Compared(Entry):
+    """A saw among others."""
+
+    label: str
+    """What it is called here: the name of its file, or what was changed in it."""
+
+    scene: SceneDict
+    """Its scene."""
+
+    critical_speeds: tuple[CriticalSpeed, ...]
+    """Critical speeds up to the end of its sweep, ascending."""
+
+    instabilities: tuple[Instability, ...]
+    """The bands of instability within its sweep."""
+
+    flutter_speed_rpm: float | None
+    """Lowest speed at which flutter counts."""
+
+    operating: Operating | None
+    """The operating speed, and whether it can run there."""
+
+    rim_stiffness_at_rest_n_per_m: float | None
+    """Lateral stiffness of a point of the rim at the middle of the cut, at rest; null where
+    nothing holds the blade, and of a report that was read."""
+
+    estimated_relative_error: float | None
+    """Estimated relative error of its critical speeds."""
+
+    campbell: Campbell
+    """Its branches over speed."""
+
+    warnings: tuple[str, ...]
+    """Numbers that no saw has, and remarks on the validity of its result."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Difference(Entry):
+    """A key that is not the same in all scenes."""
+
+    path: str
+    """JSON path of the key."""
+
+    values: tuple[str, ...]
+    """Its value in each scene, as in the file; empty where a scene has none."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CompareReport(Entry):
+    """compare.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The first scene, with which the others are compared."""
+
+    saws: tuple[Compared, ...]
+    """The saws."""
+
+    differences: tuple[Difference, ...]
+    """Keys of the scenes that are not the same in all of them; names, notes and measured
+    frequencies are not compared."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class CutCriterionEntry(Entry):
     """A criterion and what it says."""
 

@@ -7,8 +7,8 @@ use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::place::{Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
-    CheckReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport, RunUpReport,
-    SensitivityEntry, WashboardReport,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, ModeEntry,
+    PlaceReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
 };
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -63,6 +63,32 @@ pub fn analyze(
             report.sensitivities = SensitivityEntry::all(&analysis)?;
         }
         json(&report)
+    })
+}
+
+/// `compare.json` of saws by their labels: the text of a scene, or of a report where it is one.
+#[pyfunction]
+#[pyo3(signature = (saws, *, progress=None))]
+pub fn compare(
+    py: Python<'_>,
+    saws: Vec<(String, String, bool)>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scenes = saws.iter().filter(|(_, _, is_report)| !is_report);
+    let scenes = scenes.map(|(_, text, _)| arguments::scene(text));
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+    compute(py, progress, move |meter| {
+        let mut scenes = over_common_speeds(scenes)?.into_iter();
+        let mut compared = Vec::new();
+        for (done, (label, text, is_report)) in saws.iter().enumerate() {
+            meter.show_of("saws", done, saws.len());
+            let scene = if *is_report { None } else { scenes.next() };
+            compared.push(match scene {
+                Some(scene) => ComparedEntry::of_analysis(label.clone(), &Analysis::new(&scene)?),
+                None => ComparedEntry::of_report(label.clone(), &serde_json::from_str(text)?),
+            });
+        }
+        json(&CompareReport::new(compared))
     })
 }
 

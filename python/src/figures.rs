@@ -4,8 +4,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
-    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, Report, RunUpReport,
-    WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
+    RunUpReport, WashboardReport,
 };
 use sawflutter::study::StudyReport;
 use serde::de::DeserializeOwned;
@@ -22,6 +22,7 @@ pub fn picture(py: Python<'_>, name: &str, report: &str) -> PyResult<Option<Py<P
 fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
     let kinds = [
         of::<Report>,
+        of::<CompareReport>,
         of::<CutReport>,
         of::<RunUpReport>,
         of::<DeflectReport>,
@@ -64,6 +65,7 @@ macro_rules! read {
         }
         let read = match $command {
             "check" => of!(CheckReport),
+            "compare" => of!(CompareReport),
             "cut" => of!(CutReport),
             "runup" => of!(RunUpReport),
             "deflect" => of!(DeflectReport),

@@ -100,6 +100,43 @@ def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path
         assert done.stdout.decode().strip() == check.to_json()
 
 
+def test_the_report_of_a_comparison(
+    programs: list[str], scenes: Path, tmp_path: Path
+) -> None:
+    path = scenes / "paper.json"
+    saw = sf.Scene.load(path).with_accuracy("draft")
+    thin = saw.replace({"blade.thickness_m": "2.6 mm"})
+    found = sf.compare(saw, thin, labels=["paper", "thickness_m=2.6mm"])
+    options = ["--variant", "blade.thickness_m=2.6mm", "--accuracy", "draft"]
+    for program in programs:
+        done = ran(program, "compare", path, *options, "--out", tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.decode().startswith(found.summary())
+        same(tmp_path, "compare.json", found.to_json().encode())
+        for picture in found.figure_names:
+            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+    assert sf.load(tmp_path / "compare.json") == found
+    chart = saw.run_campbell()
+    by_charts = sf.compare(chart, thin.run_campbell())
+    assert by_charts.saws[1].critical_speeds[0].rpm == found.saws[1].critical_speeds[0].rpm
+    assert len(by_charts.chart().panels) == 2
+    with pytest.raises(ValueError, match="needs two saws"):
+        sf.compare(saw)
+
+
+def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", shapes=[1000])
+    assert found.shapes[-1].rpm == pytest.approx(1000)
+    (tmp_path / "own").mkdir()
+    found.save_vtk(tmp_path / "own")
+    for program in programs:
+        options = ["--accuracy", "draft", "--at-rpm", 1000, "--vtk", "--out", tmp_path]
+        assert ran(program, "analyze", scenes / "paper.json", *options).returncode == 0
+        assert (tmp_path / "modes.svg").read_bytes() == found.figure("modes.svg")
+        for path in (tmp_path / "own").iterdir():
+            assert (tmp_path / path.name).read_bytes() == path.read_bytes()
+
+
 def test_the_matrices(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     import numpy as np
 

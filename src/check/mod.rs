@@ -198,6 +198,13 @@ impl std::fmt::Display for Criterion {
     }
 }
 
+/// Lateral stiffness of a point of the rim at the middle of the cut, at rest; `None` if nothing holds the blade.
+pub(crate) fn rim_stiffness_at_rest_n_per_m(scene: &Scene) -> Option<f64> {
+    let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
+    let plate = Plate::new(scene, POINT_LOAD_BASIS);
+    Some(rim_stiffness_n_per_m(&plate, angle, 0.0)).filter(|stiffness| *stiffness != 0.0)
+}
+
 /// 1/(φᵀ K(Ω)⁻¹ φ) with the basis functions φ at the rim: force over deflection at a point fixed in space
 /// while the saw turns. Zero if rigid motions are free.
 fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {

@@ -134,6 +134,11 @@ pub fn say(text: &str) -> std::io::Result<()> {
 }
 
 impl Changes {
+    /// Whether anything is asked for.
+    pub fn is_any(&self) -> bool {
+        !self.set.is_empty() || self.accuracy.is_some() || self.tolerance.is_some()
+    }
+
     /// The scene with what is asked for.
     pub fn applied(&self, mut scene: Scene) -> anyhow::Result<Scene> {
         if !self.set.is_empty() {

@@ -4,6 +4,7 @@ mod analyze;
 mod assumed;
 mod check;
 mod common;
+mod compare;
 mod cut;
 mod deflect;
 #[cfg(feature = "explore")]
@@ -74,6 +75,9 @@ enum Command {
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
+    /// Compare saws: Campbell diagrams one over the other, a table; compare.json and a figure
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(compare::Arguments),
     /// Measure what digits cost: time against true error; tradeoff.json, a figure
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
@@ -158,6 +162,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),
         Some(Command::Place(arguments)) => return place::run(&arguments),

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use crate::report::{OperatingEntry, Report};
+use crate::report::Report;
 use crate::scene::Scene;
 use anyhow::bail;
 use serde::Serialize;
@@ -95,23 +95,11 @@ impl Row {
             flutter_speed_rpm: of.and_then(|r| r.flutter_speed_rpm),
             operating_rpm: operating.map(|o| o.rpm),
             of_lowest_critical: operating.and_then(|o| o.of_lowest_critical),
-            verdict: operating.map(verdict),
+            verdict: operating.map(|o| Answer::new(o).in_few_words()),
             instabilities: of.map_or(0, |r| r.instabilities.len()),
             warnings: of.map_or(0, |r| r.unusual_numbers.len() + r.warnings.len()),
             error,
         }
-    }
-}
-
-/// Whether a saw can run at its operating speed, as its summary says, in few words.
-fn verdict(operating: &OperatingEntry) -> &'static str {
-    match Answer::new(operating) {
-        Answer::Runs => "stable",
-        Answer::PastRule => "past the limit",
-        Answer::AtCritical => "at critical",
-        Answer::Divergence => "divergence",
-        Answer::Flutter => "flutter",
-        Answer::OutsideSweep => "outside sweep",
     }
 }
 

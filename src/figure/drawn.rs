@@ -4,12 +4,12 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, cut, cut_map, deflect, fit, in_cut, membrane, modes, place,
-    render, response_map, root_loci, runup, spline_orbit, study, washboard,
+    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, in_cut, membrane, modes,
+    place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, Report, RunUpReport,
-    WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
+    RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -197,6 +197,18 @@ impl Figures for CheckReport {
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(check::sheet(self))])
+    }
+}
+
+impl Figures for CompareReport {
+    const NAMES: &'static [[&'static str; 2]] = &[["compare.png", "compare.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(compare::sheet(self))])
+    }
+
+    fn chart(&self, name: &str) -> Option<ChartData> {
+        (name == "compare").then(|| compare::chart(self))
     }
 }
 

@@ -13,6 +13,7 @@ mod chart_data;
 mod check;
 mod clip;
 mod columns;
+mod compare;
 mod cut;
 mod cut_map;
 #[cfg(test)]

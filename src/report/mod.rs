@@ -10,6 +10,7 @@ mod build;
 mod certificate;
 mod chart;
 mod check;
+mod compare;
 mod csv;
 mod cut;
 mod deflect;
@@ -38,6 +39,7 @@ use serde::{Deserialize, Serialize};
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
+pub use self::compare::{CompareReport, ComparedEntry, DifferenceEntry, over_common_speeds};
 pub use self::cut::{
     ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
     CutVerdict, ToothPassingEntry, Verdict, VerdictMapEntry,

@@ -5,8 +5,8 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
 use super::{
-    CheckReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport, Report, RunUpReport,
-    WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport,
+    Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -17,6 +17,7 @@ pub fn json_schema() -> Value {
     json!({
         "analyze": of::<Report>(),
         "check": of::<CheckReport>(),
+        "compare": of::<CompareReport>(),
         "cut": of::<CutReport>(),
         "deflect": of::<DeflectReport>(),
         "fit": of::<FitReport>(),

@@ -39,6 +39,18 @@ impl Answer {
         }
     }
 
+    /// The answer in few words, for tables.
+    pub fn in_few_words(self) -> &'static str {
+        match self {
+            Answer::Runs => "stable",
+            Answer::PastRule => "past the limit",
+            Answer::AtCritical => "at critical",
+            Answer::Divergence => "divergence",
+            Answer::Flutter => "flutter",
+            Answer::OutsideSweep => "outside sweep",
+        }
+    }
+
     fn in_words(self) -> &'static str {
         match self {
             Answer::Runs => "YES",

@@ -6,6 +6,7 @@ mod amplitudes;
 mod answer;
 mod bands;
 mod check;
+mod compare;
 mod cut;
 mod deflect;
 mod excitation;

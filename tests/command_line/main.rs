@@ -10,6 +10,7 @@ mod pressed;
 
 mod analyze;
 mod changes;
+mod compare;
 mod cutting;
 mod deflect;
 mod design;

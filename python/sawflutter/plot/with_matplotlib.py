@@ -121,7 +121,8 @@ def _add(ax: Axes, item: Item) -> None:
         style = (0, (4, 2.5)) if item.dashed else "solid"
         width = 0.85 * item.width
         ax.plot(
-            item.x, item.y, color=item.colour, linewidth=width, linestyle=style, label=item.name
+            item.x, item.y, color=item.colour, linewidth=width, linestyle=style, label=item.name,
+            solid_capstyle="butt",
         )
 
 

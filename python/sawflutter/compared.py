@@ -1,0 +1,94 @@
+"""Saws side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from . import _native
+from ._progress import Progress, reporting
+from ._report_types import CompareReport
+from ._result import Result, pictures
+
+if TYPE_CHECKING:
+    from .results import CampbellResults
+    from .scene import Scene
+
+
+class CompareResults(Result, CompareReport):
+    """Several saws side by side: critical speeds, flutter, bands, stiffness at the rim, and what
+    differs in their scenes. Its chart shows their Campbell diagrams one over the other."""
+
+    command, table = "compare", "saws"
+    figure_names = pictures("compare")
+
+    def _warnings(self) -> tuple[str, ...]:
+        return tuple(f"{saw.label}: {text}" for saw in self.saws for text in saw.warnings)
+
+    def _facts(self) -> str:
+        def lowest(speeds: Iterable[float]) -> str:
+            return next((f"{rpm:.0f} rpm" for rpm in speeds), "none")
+
+        parts = []
+        for saw in self.saws:
+            critical = lowest(entry.rpm for entry in saw.critical_speeds)
+            flutter = saw.flutter_speed_rpm
+            from_rpm = "no flutter" if flutter is None else f"flutter from {flutter:.0f} rpm"
+            parts.append(f"{saw.label}: lowest critical speed {critical}, {from_rpm}")
+        return "; ".join(parts)
+
+
+def compare(
+    *saws: Scene | CampbellResults,
+    labels: Iterable[str] | None = None,
+    progress: Progress = None,
+) -> CompareResults:
+    """Compares saws with the first of them, as the program's ``compare`` does.
+
+    Parameters
+    ----------
+    *saws : Scene or CampbellResults
+        Two or more: scenes, which are charted, those without a sweep over the same speeds; or
+        charts.
+    labels : iterable of str, optional
+        What they are called; by default their names, numbered.
+    progress : bool or callable, optional
+        As of :meth:`Scene.run_campbell`.
+
+    Returns
+    -------
+    CompareResults
+
+    Raises
+    ------
+    ValueError
+        Where there are fewer than two saws, or not as many labels.
+    AnalysisError
+        Where a saw cannot be analysed.
+
+    Examples
+    --------
+    >>> import sawflutter as sf
+    >>> saw = sf.Scene.paper().with_accuracy("draft")
+    >>> thin = saw.replace({"blade.thickness_m": "2.6 mm"})
+    >>> found = sf.compare(saw, thin, labels=["saw", "thin"])
+    >>> [saw.label for saw in found.saws]
+    ['saw', 'thin']
+    >>> found.differences[0].path, found.differences[0].values
+    ('blade.thickness_m', ('0.0028', '0.0026'))
+    """
+    if len(saws) < 2:
+        raise ValueError(f"a comparison needs two saws, not {len(saws)}")
+    if labels is None:
+        named = [f"{number} {_name(saw)}" for number, saw in enumerate(saws, 1)]
+    else:
+        named = [str(label) for label in labels]
+    if len(named) != len(saws):
+        raise ValueError(f"there are {len(saws)} saws, but {len(named)} labels")
+    texts = [(label, saw.to_json(), isinstance(saw, Result)) for label, saw in zip(named, saws)]
+    with reporting(progress, "saws") as native:
+        return CompareResults.from_json(_native.compare(texts, progress=native))
+
+
+def _name(saw: Scene | CampbellResults) -> str:
+    return str(saw.raw["scene"]["name"]) if isinstance(saw, Result) else saw.name

@@ -1,0 +1,185 @@
+//! `sawflutter compare`.
+
+use std::path::{Path, PathBuf};
+
+use crate::report::{CompareReport, ComparedEntry, Report, over_common_speeds};
+use crate::scene::{Scene, Setting};
+use crate::stability::Analysis;
+use crate::text::{Kind, OtherEncodings};
+use anyhow::{Context, anyhow};
+use clap::Args;
+
+use super::common::{Changes, Output, is_standard_input, read_text, refused};
+use super::pictures::drawn;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter compare a.json b.json c.json
+  sawflutter compare my-saw.json --variant blade.thickness_m=2.6mm \\
+    --variant \"blade.thickness_m=2.6mm,guides[0].radius_m=250mm\"
+  sawflutter compare a-out/report.json b-out/report.json # computed before
+  sawflutter compare a.json b.json --json | jq '.saws[].flutter_speed_rpm'
+
+Scenes without a sweep are charted over the same speeds. The first saw is the
+one that the others are compared with.";
+
+#[derive(Args)]
+pub struct Arguments {
+    /// Scenes, or reports of `analyze`; without any, the built-in guided spline saw
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// A variant of the first scene, with other numbers: settings as of --set, separated by commas; may
+    /// be given more than once
+    #[arg(long, value_name = "PATH=VALUE")]
+    variant: Vec<String>,
+    #[command(flatten)]
+    changes: Changes,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// As for a report, with branches over speed.
+const REPORT: Kind = Kind {
+    limit: 1 << 28,
+    other_encodings: OtherEncodings::Refused,
+};
+
+/// A saw to compare.
+enum Saw {
+    Scene(Box<Scene>),
+    Report(Box<Report>),
+}
+
+/// Compares saws, writes the files and prints the table.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let saws = saws(arguments)?;
+    let folder = arguments.output.folder()?;
+    let report = watched(|progress| {
+        let mut compared = Vec::new();
+        let of = saws.len();
+        for (done, (label, saw)) in saws.into_iter().enumerate() {
+            progress.show("saws", done, of);
+            compared.push(match saw {
+                Saw::Report(report) => ComparedEntry::of_report(label, &report),
+                Saw::Scene(scene) => {
+                    let analysis = Analysis::new(&scene).with_context(|| label.clone())?;
+                    ComparedEntry::of_analysis(label, &analysis)
+                }
+            });
+        }
+        CompareReport::new(compared).ok_or_else(|| anyhow!("there is no saw to compare"))
+    })??;
+    let json = serde_json::to_string_pretty(&report)?;
+    let mut files = drawn(&report)?;
+    files.push(("compare.json", json.clone().into_bytes()));
+    let words = || report.summary();
+    arguments.output.print(&folder, &files, &[], &json, words)
+}
+
+/// The saws asked for, with their labels; scenes that name no sweep over common speeds.
+fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
+    let mut saws = Vec::new();
+    for path in &arguments.files {
+        let label = unused(label(path), &saws);
+        saws.push((label, read(path, &arguments.changes)?));
+    }
+    if saws.is_empty() {
+        let scene = arguments.changes.applied(Scene::paper())?;
+        saws.push(("built-in".to_owned(), Saw::Scene(Box::new(scene))));
+    }
+    for variant in &arguments.variant {
+        let Saw::Scene(first) = &saws[0].1 else {
+            return Err(anyhow!(
+                "--variant {variant} is given, but the first file is a report; give its scene instead"
+            ));
+        };
+        let scene = varied(first, variant)?;
+        let label = unused(in_short(variant), &saws);
+        saws.push((label, Saw::Scene(Box::new(scene))));
+    }
+    anyhow::ensure!(
+        saws.len() > 1,
+        "there is one saw, but a comparison needs two; name another file, or a --variant like blade.thickness_m=2.6mm"
+    );
+    with_common_speeds(saws)
+}
+
+fn with_common_speeds(saws: Vec<(String, Saw)>) -> anyhow::Result<Vec<(String, Saw)>> {
+    let scenes = saws.iter().filter_map(|(_, saw)| match saw {
+        Saw::Scene(scene) => Some(scene.as_ref().clone()),
+        Saw::Report(_) => None,
+    });
+    let mut swept = over_common_speeds(scenes.collect())?.into_iter();
+    let saws = saws.into_iter().map(|(label, saw)| match saw {
+        Saw::Scene(scene) => {
+            let scene = swept.next().map_or(scene, Box::new);
+            (label, Saw::Scene(scene))
+        }
+        report => (label, report),
+    });
+    Ok(saws.collect())
+}
+
+fn read(path: &Path, changes: &Changes) -> anyhow::Result<Saw> {
+    let text = read_text(path, REPORT)?;
+    // No scene has this key.
+    if text.contains("\"campbell\"") {
+        let report: Report = serde_json::from_str(&text).map_err(|error| {
+            refused(
+                path,
+                anyhow!(
+                    "it is no report of `analyze` that this version reads ({error}); give its scene"
+                ),
+            )
+        })?;
+        anyhow::ensure!(
+            !changes.is_any(),
+            "{} is a report, which options cannot change; give its scene instead",
+            path.display()
+        );
+        return Ok(Saw::Report(Box::new(report)));
+    }
+    let scene = Scene::from_json(&text).map_err(|error| refused(path, error.into()))?;
+    Ok(Saw::Scene(Box::new(changes.applied(scene)?)))
+}
+
+fn varied(scene: &Scene, variant: &str) -> anyhow::Result<Scene> {
+    let refused = || format!("--variant {variant} was refused");
+    let settings = variant.split(',').map(|text| text.parse());
+    let settings = settings.collect::<Result<Vec<Setting>, _>>();
+    let settings = settings.with_context(refused)?;
+    scene.file().set(&settings).with_context(refused)
+}
+
+/// The last keys of the settings of a variant, with their values.
+fn in_short(variant: &str) -> String {
+    let settings = variant.split(',').map(|setting| {
+        let (path, value) = setting.split_once('=').unwrap_or((setting, ""));
+        let key = path.rsplit('.').next().unwrap_or(path);
+        format!("{}={}", key.trim(), value.trim())
+    });
+    settings.collect::<Vec<_>>().join(", ")
+}
+
+/// What a file is called: of a report the name of its folder.
+fn label(path: &Path) -> String {
+    if is_standard_input(path) {
+        return "standard-input".to_owned();
+    }
+    let stem = path.file_stem().unwrap_or_default();
+    let folder = path.parent().and_then(Path::file_name);
+    let name = match folder {
+        Some(folder) if stem == "report" => folder,
+        _ => stem,
+    };
+    name.to_string_lossy().into_owned()
+}
+
+/// The label, numbered where another saw has it.
+fn unused(label: String, saws: &[(String, Saw)]) -> String {
+    let numbered = (2..).map(|k| format!("{label}-{k}"));
+    let mut names = std::iter::once(label.clone()).chain(numbered);
+    let free = names.find(|name| !saws.iter().any(|(taken, _)| taken == name));
+    free.unwrap_or(label)
+}

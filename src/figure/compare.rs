@@ -1,0 +1,282 @@
+//! Campbell diagrams of several saws, one over the other, and their critical speeds and bands below.
+
+use super::axis::{draw_horizontal, draw_named, draw_vertical, proper_range};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
+use super::heading;
+use super::key::Key;
+use super::paint::Ground;
+use super::palette::Hue;
+use super::style::{
+    BETWEEN_FACTS, CURVE, GRID, HAIRLINE, INK, LABEL_SIZE, QUIET, STRONG_CURVE, Weight, shorten,
+};
+use crate::report::{BranchEntry, CompareReport, ComparedEntry};
+
+const WIDTH: u32 = 1200;
+const FREQUENCIES: Frame = Frame {
+    left: 92.0,
+    top: 92.0,
+    right: 1160.0,
+    bottom: 560.0,
+};
+/// Space between the panels, height of a saw in the lower one, and space below.
+const BETWEEN: f64 = 46.0;
+const ROW: f64 = 44.0;
+const BELOW: f64 = 96.0;
+/// Colours of the saws. More curves of other colours cannot be told apart.
+const HUES: [Hue; 6] = [
+    Hue::Ink,
+    Hue::Forward,
+    Hue::Backward,
+    Hue::Flutter,
+    Hue::Divergence,
+    Hue::Standing,
+];
+/// The diagram ends above this many frequencies at the first speed, and above those of the bands.
+const SHOWN: usize = 6;
+const CRITICAL_SIZE: f64 = 7.0;
+/// Width of a band in the lower panel.
+const BAND: f64 = 9.0;
+/// Growth rates that are not rounding.
+const NEGLIGIBLE_PER_S: f64 = 1e-3;
+
+/// The saws that are drawn, with their colours.
+fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedEntry, Hue)> {
+    let saws = report.saws.iter().take(HUES.len()).enumerate();
+    saws.map(|(place, saw)| (place, saw, HUES[place]))
+        .collect::<Vec<_>>()
+        .into_iter()
+}
+
+pub fn sheet(report: &CompareReport) -> Sheet {
+    let data = chart(report);
+    let rows = drawn(report).count() as f64;
+    let speeds = Frame {
+        top: FREQUENCIES.bottom + BETWEEN,
+        bottom: FREQUENCIES.bottom + BETWEEN + ROW * rows,
+        ..FREQUENCIES
+    };
+    let mut sheet = Sheet::new(WIDTH, (speeds.bottom + BELOW) as u32);
+    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
+    let [upper, lower] = &data.panels[..] else {
+        return sheet;
+    };
+    let speed = upper.x.placed([FREQUENCIES.left, FREQUENCIES.right]);
+    let frequency = upper.y.placed([FREQUENCIES.bottom, FREQUENCIES.top]);
+    draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &upper.y.title());
+    let ground = Ground {
+        x: &speed,
+        y: &frequency,
+        frame: &FREQUENCIES,
+    };
+    ground.draw_lines(&mut sheet, &upper.items);
+    ground.draw_points(&mut sheet, &upper.items);
+    draw_horizontal(&mut sheet, &speed, FREQUENCIES.bottom, true);
+    let place = lower.y.placed([speeds.top, speeds.bottom]);
+    for (row, saw, hue) in drawn(report) {
+        let y = place.at(1.0 + row as f64);
+        sheet.line(
+            [[speeds.left, y], [speeds.right, y]],
+            Stroke::solid(GRID, HAIRLINE),
+        );
+        let letters = Lettering {
+            weight: Weight::SemiBold,
+            ..Lettering::regular(LABEL_SIZE, hue.colour(), Anchor::Start)
+        };
+        let room = speeds.right - speeds.left;
+        let label = shorten(&saw.label, LABEL_SIZE, Weight::SemiBold, room);
+        sheet.text([speeds.left, y - 10.0], letters, &label);
+    }
+    let ground = Ground {
+        x: &speed,
+        y: &place,
+        frame: &speeds,
+    };
+    ground.draw_lines(&mut sheet, &lower.items);
+    ground.draw_points(&mut sheet, &lower.items);
+    draw_named(&mut sheet, &speed, speeds.bottom, &lower.x.title());
+    draw_key(&mut sheet, speeds.bottom + BELOW - 22.0);
+    sheet
+}
+
+/// Frequencies over speed, and critical speeds and bands of each saw.
+pub fn chart(report: &CompareReport) -> ChartData {
+    let ends = drawn(report).map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
+    let ends = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], [a, b]| {
+        [from.min(a), to.max(b)]
+    });
+    let speed = AxisData::speed().within(proper_range(ends));
+    let hz = drawn(report).map(|(_, saw, _)| shown_hz(saw));
+    let [_, hz] = proper_range([0.0, hz.fold(0.0, f64::max)]);
+    // The first saw is drawn last, on top.
+    let frequencies = drawn(report)
+        .rev()
+        .flat_map(|(_, saw, hue)| curves(saw, hue));
+    let speeds = drawn(report).flat_map(|(row, saw, hue)| events(row, saw, hue));
+    let labels: Vec<String> = drawn(report).map(|(_, saw, _)| saw.label.clone()).collect();
+    let names = AxisData {
+        names: labels.clone(),
+        ..AxisData::new("", "")
+    };
+    let count = labels.len() as f64;
+    let mut facts =
+        vec!["critical speeds, bands and frequencies of".to_owned() + " " + &labels.join(", ")];
+    if labels.len() < report.saws.len() {
+        facts.push(format!(
+            "the first {} of {} saws",
+            labels.len(),
+            report.saws.len()
+        ));
+    }
+    ChartData {
+        title: report.scene.name.clone(),
+        facts,
+        panels: vec![
+            PanelData {
+                share: 3.0,
+                harmonics: true,
+                ..PanelData::new(
+                    speed.clone(),
+                    AxisData::new("Im λ / 2π", "Hz").within([0.0, hz]),
+                    frequencies.collect(),
+                )
+            },
+            PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect()),
+        ],
+    }
+}
+
+fn shown_hz(saw: &ComparedEntry) -> f64 {
+    let branches = saw.campbell.branches.iter();
+    let first = branches.filter_map(|branch| branch.frequency_hz.first());
+    let mut first: Vec<f64> = first.copied().collect();
+    first.sort_by(f64::total_cmp);
+    let top = first.get(SHOWN - 1).or(first.last()).copied();
+    let bands = saw.instabilities.iter().map(|band| band.frequency_hz);
+    1.1 * bands.fold(top.unwrap_or(1.0), f64::max)
+}
+
+/// The branches of a saw in its colour: thick where they grow, dashed where they are reflected.
+fn curves(saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
+    let mut items = Vec::new();
+    for branch in &saw.campbell.branches {
+        let samples = branch.rpm.len().min(branch.frequency_hz.len());
+        for ((grows, reflected), samples) in lines_by_look(samples, |i| Some(look(branch, i))) {
+            let at = |i: usize| [branch.rpm[i], branch.frequency_hz[i]];
+            let points = samples.into_iter().map(|i| i.map_or([f64::NAN; 2], at));
+            let name = format!("{}: {}", saw.label, branch.name);
+            items.push(Item::Line(Line {
+                width: if grows { STRONG_CURVE } else { CURVE },
+                dashed: reflected,
+                branch: Some(branch.branch),
+                ..Line::new(points, hue, &name)
+            }));
+        }
+    }
+    items
+}
+
+/// Whether a branch grows, or is reflected, from one of its samples to the next.
+fn look(branch: &BranchEntry, i: usize) -> (bool, bool) {
+    let ends = [i, i + 1];
+    let grows = ends.map(|k| {
+        branch
+            .growth_per_s
+            .get(k)
+            .is_some_and(|g| *g > NEGLIGIBLE_PER_S)
+    });
+    let reflected = ends.map(|k| branch.krein_sign.get(k) == Some(&-1));
+    let grows = grows.contains(&true);
+    (grows, !grows && reflected.contains(&true))
+}
+
+/// Bands of a saw as strips in the colour of their kind, its critical speeds as dots, and the speed at which it runs as a ring.
+fn events(row: usize, saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
+    let y = 1.0 + row as f64;
+    let strips = saw.instabilities.iter().map(|band| {
+        let [_, _, streak] = Hue::of_kind(band.kind);
+        let named = band.name.as_deref().unwrap_or_default();
+        let name = format!(
+            "{}: {:.0} to {:.0} rpm, up to {:.3} 1/s {named}",
+            saw.label, band.from_rpm, band.to_rpm, band.peak_growth_per_s
+        );
+        Item::Line(Line {
+            width: BAND,
+            ..Line::new([[band.from_rpm, y], [band.to_rpm, y]], streak, &name)
+        })
+    });
+    let critical = saw.critical_speeds.iter().map(|entry| [entry.rpm, y]);
+    let critical = Item::Points(Points {
+        said: (saw.critical_speeds.iter())
+            .map(|entry| format!("critical speed {:.1} rpm\n{}", entry.rpm, entry.name))
+            .collect(),
+        ..Points::new(
+            critical,
+            hue,
+            CRITICAL_SIZE,
+            &format!("{}: critical speeds", saw.label),
+        )
+    });
+    let operating = saw.operating.iter().map(|operating| {
+        let name = format!("{}: runs at {:.0} rpm", saw.label, operating.rpm);
+        Item::Points(Points {
+            hollow: true,
+            ..Points::new([[operating.rpm, y]], hue, 1.5 * CRITICAL_SIZE, &name)
+        })
+    });
+    strips.chain([critical]).chain(operating).collect()
+}
+
+fn draw_key(sheet: &mut Sheet, baseline: f64) {
+    let line = |stroke: Stroke| {
+        move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
+    };
+    let dashed = Stroke {
+        dash: Some(super::style::DASH),
+        ..Stroke::solid(QUIET, CURVE)
+    };
+    Key::new(sheet, FREQUENCIES.left, baseline)
+        .mark(24.0, line(Stroke::solid(QUIET, STRONG_CURVE)))
+        .word("grows")
+        .mark(24.0, line(dashed))
+        .word("reflected wave")
+        .mark(7.0, |sheet, [x, y]| sheet.disc([x + 3.5, y], 3.5, INK))
+        .word("critical speed")
+        .mark(11.0, |sheet, [x, y]| {
+            sheet.ring(
+                [x + 5.0, y],
+                5.0,
+                Stroke::solid(INK, 2.0),
+                super::style::PAPER,
+            );
+        })
+        .word("operating speed")
+        .shade(Hue::DivergenceStreak.colour())
+        .word("divergence")
+        .shade(Hue::FlutterStreak.colour())
+        .word("flutter");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::sample;
+    use crate::figure::tidy::{assert_tidy, texts};
+
+    #[test]
+    fn every_saw_has_its_row_and_nothing_is_cut_off() {
+        let report = sample::empty_report("A saw");
+        for count in [1, 2, 6, 9] {
+            let saws = (1..=count).map(|k| ComparedEntry::of_report(format!("saw {k}"), &report));
+            let compared = CompareReport::new(saws.collect()).unwrap();
+            let sheet = sheet(&compared);
+            assert_tidy(&sheet);
+            let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+            assert!(all.contains(&"saw 1"), "{all:?}");
+            let told = all
+                .iter()
+                .any(|text| text.contains("the first 6 of 9 saws"));
+            assert_eq!(told, count == 9);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! `compare.json`: saws side by side, the first being the one that the others are compared with.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, OperatingEntry, Report};
+use crate::check::rim_stiffness_at_rest_n_per_m;
+use crate::scene::{Scene, SceneError, SceneFile, SpeedRange};
+use crate::stability::{Analysis, AnalysisError, end_of_sweep};
+
+/// `compare.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CompareReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The first scene, with which the others are compared.
+    pub scene: SceneFile,
+    /// The saws.
+    pub saws: Vec<ComparedEntry>,
+    /// Keys of the scenes that are not the same in all of them; names, notes and measured frequencies are not compared.
+    pub differences: Vec<DifferenceEntry>,
+}
+
+/// A saw among others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComparedEntry {
+    /// What it is called here: the name of its file, or what was changed in it.
+    pub label: String,
+    /// Its scene.
+    pub scene: SceneFile,
+    /// Critical speeds up to the end of its sweep, ascending.
+    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    /// The bands of instability within its sweep.
+    pub instabilities: Vec<InstabilityEntry>,
+    /// Lowest speed at which flutter counts.
+    pub flutter_speed_rpm: Option<f64>,
+    /// The operating speed, and whether it can run there.
+    pub operating: Option<OperatingEntry>,
+    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; null where nothing holds the blade, and of a
+    /// report that was read.
+    pub rim_stiffness_at_rest_n_per_m: Option<f64>,
+    /// Estimated relative error of its critical speeds.
+    pub estimated_relative_error: Option<f64>,
+    /// Its branches over speed.
+    pub campbell: CampbellEntry,
+    /// Numbers that no saw has, and remarks on the validity of its result.
+    pub warnings: Vec<String>,
+}
+
+/// A key that is not the same in all scenes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DifferenceEntry {
+    /// JSON path of the key.
+    pub path: String,
+    /// Its value in each scene, as in the file; empty where a scene has none.
+    pub values: Vec<String>,
+}
+
+/// Keys that do not change what a saw does.
+const NOT_COMPARED: [&str; 3] = ["name", "notes", "measured"];
+
+impl ComparedEntry {
+    /// Of a report that was computed before.
+    pub fn of_report(label: String, report: &Report) -> Self {
+        let warnings = report.unusual_numbers.iter().chain(&report.warnings);
+        ComparedEntry {
+            label,
+            scene: report.scene.clone(),
+            critical_speeds: report.critical_speeds.clone(),
+            instabilities: report.instabilities.clone(),
+            flutter_speed_rpm: report.flutter_speed_rpm,
+            operating: report.operating.clone(),
+            rim_stiffness_at_rest_n_per_m: None,
+            estimated_relative_error: report.accuracy.estimated_relative_error,
+            campbell: report.campbell.clone(),
+            warnings: warnings.cloned().collect(),
+        }
+    }
+
+    /// Of an analysis.
+    pub fn of_analysis(label: String, analysis: &Analysis) -> Self {
+        ComparedEntry {
+            rim_stiffness_at_rest_n_per_m: rim_stiffness_at_rest_n_per_m(&analysis.scene),
+            ..Self::of_report(label, &analysis.report())
+        }
+    }
+}
+
+impl CompareReport {
+    /// Compares saws with the first of them; `None` where there is none.
+    pub fn new(saws: Vec<ComparedEntry>) -> Option<Self> {
+        let scene = saws.first()?.scene.clone();
+        let typed = saws.iter().map(|saw| keys(&saw.scene)).collect::<Vec<_>>();
+        let mut paths: Vec<&String> = Vec::new();
+        for (path, _) in typed.iter().flatten() {
+            if !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+        let value = |keys: &Vec<(String, String)>, path: &String| {
+            let own = keys.iter().find(|(own, _)| own == path);
+            own.map_or(String::new(), |(_, value)| value.clone())
+        };
+        let differences = paths.into_iter().map(|path| DifferenceEntry {
+            path: path.clone(),
+            values: typed.iter().map(|keys| value(keys, path)).collect(),
+        });
+        let differ =
+            |entry: &DifferenceEntry| entry.values.windows(2).any(|pair| pair[0] != pair[1]);
+        let differences = differences.filter(differ).collect();
+        Some(CompareReport {
+            sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+            scene,
+            saws,
+            differences,
+        })
+    }
+}
+
+/// The keys of a scene with their values, in its order.
+fn keys(scene: &SceneFile) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    if let Ok(Value::Object(json)) = serde_json::to_value(scene) {
+        for (key, value) in &json {
+            if !NOT_COMPARED.contains(&key.as_str()) {
+                below(value, key, &mut found);
+            }
+        }
+    }
+    found
+}
+
+fn below(value: &Value, path: &str, found: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(json) => {
+            for (key, inner) in json {
+                below(inner, &format!("{path}.{key}"), found);
+            }
+        }
+        Value::Array(list) => {
+            for (k, inner) in list.iter().enumerate() {
+                below(inner, &format!("{path}[{k}]"), found);
+            }
+        }
+        Value::String(text) => found.push((path.to_owned(), text.clone())),
+        other => found.push((path.to_owned(), other.to_string())),
+    }
+}
+
+/// The scenes over the same speeds where they name none: up to the largest speed that the program chooses for one of them.
+///
+/// # Errors
+/// [`AnalysisError`] where a scene has no critical speed to choose by, or does not allow these speeds.
+pub fn over_common_speeds(scenes: Vec<Scene>) -> Result<Vec<Scene>, AnalysisError> {
+    let mut last = 0.0_f64;
+    for scene in scenes.iter().filter(|scene| scene.sweep().is_none()) {
+        last = last.max(end_of_sweep(scene)?);
+    }
+    let swept = scenes.into_iter().map(|scene| match scene.sweep() {
+        Some(_) => Ok(scene),
+        None => scene.swept(SpeedRange::from((0.0, last))),
+    });
+    Ok(swept.collect::<Result<_, SceneError>>()?)
+}

@@ -1,0 +1,106 @@
+//! The summary of a comparison.
+
+use std::fmt::Write;
+
+use super::answer::Answer;
+use super::{ROWS, WIDTH, shortened, wrapped};
+use crate::report::{CompareReport, ComparedEntry};
+
+impl CompareReport {
+    /// The summary, 80 columns wide: a line for each saw, with what it differs by from the first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    writeln!(
+        text,
+        "\n                        critical   flutter  bands   rim stiff.\n\
+         saw                        [rpm]     [rpm]          [N/mm]      verdict"
+    )?;
+    for (place, saw) in report.saws.iter().enumerate() {
+        line(text, place + 1, saw)?;
+        if let (true, Some(first)) = (place > 0, report.saws.first()) {
+            changes(text, first, saw)?;
+        }
+    }
+    differences(text, report)?;
+    for saw in &report.saws {
+        for warning in &saw.warnings {
+            writeln!(text, "\n{}", wrapped(&format!("{}: {warning}", saw.label)))?;
+        }
+    }
+    Ok(())
+}
+
+fn line(text: &mut String, number_of_saw: usize, saw: &ComparedEntry) -> std::fmt::Result {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+    let stiffness = saw
+        .rim_stiffness_at_rest_n_per_m
+        .map(|n_per_m| 1e-3 * n_per_m);
+    let operating = saw.operating.as_ref();
+    let verdict = operating.map_or("-".to_owned(), |operating| {
+        format!(
+            "{}: {}",
+            operating.rpm.round(),
+            Answer::new(operating).in_few_words()
+        )
+    });
+    writeln!(
+        text,
+        "{:<22} {:>9} {:>9} {:>6} {:>9}    {verdict}",
+        shortened(&format!("{number_of_saw} {}", saw.label), 22),
+        number(lowest(saw)),
+        number(saw.flutter_speed_rpm),
+        saw.instabilities.len(),
+        stiffness.map_or("-".to_owned(), |value| format!("{value:.2}")),
+    )
+}
+
+fn lowest(saw: &ComparedEntry) -> Option<f64> {
+    saw.critical_speeds.first().map(|critical| critical.rpm)
+}
+
+/// What a saw differs by from the first.
+fn changes(text: &mut String, first: &ComparedEntry, saw: &ComparedEntry) -> std::fmt::Result {
+    let percent = |value: fn(&ComparedEntry) -> Option<f64>| {
+        let change = value(first)
+            .zip(value(saw))
+            .map(|(from, to)| to / from - 1.0);
+        change.map_or(String::new(), |change| format!("{:+.1} %", 1e2 * change))
+    };
+    let bands = saw.instabilities.len() as i64 - first.instabilities.len() as i64;
+    let line = format!(
+        "{:<22} {:>9} {:>9} {:>+6} {:>9}",
+        "",
+        percent(lowest),
+        percent(|saw| saw.flutter_speed_rpm),
+        bands,
+        percent(|saw| saw.rim_stiffness_at_rest_n_per_m),
+    );
+    writeln!(text, "{}", line.trim_end())
+}
+
+fn differences(text: &mut String, report: &CompareReport) -> std::fmt::Result {
+    if report.differences.is_empty() {
+        return writeln!(text, "\nThe scenes have the same numbers.");
+    }
+    writeln!(text, "\nWhat differs in the scenes")?;
+    for entry in report.differences.iter().take(ROWS) {
+        let values = entry.values.iter().map(|value| match value.as_str() {
+            "" => "none",
+            value => value,
+        });
+        let values = values.collect::<Vec<_>>().join(" | ");
+        writeln!(text, "{}", wrapped(&format!("  {}: {values}", entry.path)))?;
+    }
+    match report.differences.len().checked_sub(ROWS) {
+        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in compare.json"),
+        _ => Ok(()),
+    }
+}
