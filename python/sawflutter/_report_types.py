@@ -43,7 +43,7 @@ class Harmonic(Entry):
     """n."""
 
     share: float
-    """Between 0 and 1."""
+    """Share, between 0 and 1."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,18 +77,18 @@ class RestMode(RestModeMethods):
     """Nodal circles of the dominant harmonic."""
 
     name: str
-    """Name of its branch; the shares of its harmonics where none dominates: "0 (54 %) + 1 (45
+    """Name of its branch, or the shares of its harmonics if none dominates: "0 (54 %) + 1 (45
     %)"."""
 
     branch: int | None
-    """Number of the branch of the Campbell diagram that begins with it, if the sweep does at
-    rest."""
+    """Number of the branch of the Campbell diagram that begins with this mode, if the sweep
+    begins at rest."""
 
     damping_ratio: float | None
-    """ζ = −Re λ/|λ| of a damped scene."""
+    """ζ = −Re λ/|λ|; damped scenes only."""
 
     logarithmic_decrement: float | None
-    """−2π Re λ/|Im λ| of a damped scene."""
+    """−2π Re λ/|Im λ|; damped scenes only."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the frequency."""
@@ -97,7 +97,7 @@ class RestMode(RestModeMethods):
     """‖L(λ)q‖ relative to the size of its terms."""
 
     harmonics: tuple[Harmonic, ...]
-    """Share of each harmonic in the kinetic energy, largest first."""
+    """Share of each harmonic of the kinetic energy, largest first."""
 
     profiles: tuple[Shape, ...] = field(metadata={"key": "shape"})
     """Deflection, scaled to a largest value of one."""
@@ -111,11 +111,11 @@ class CriticalSpeed(Entry):
     """Rotation speed."""
 
     branch: int | None
-    """Number of the branch that stands still, where the chart shows which."""
+    """Number of the branch that stands still, if the diagram shows it."""
 
     name: str
-    """The wave that stands still: "2 diameters", or the shares of waves where none dominates,
-    "3 (52 %) + 2 (41 %)". The branch is named by its mode at rest, and otherwise."""
+    """The wave that stands still: "2 diameters", or the shares of waves if none dominates, "3
+    (52 %) + 2 (41 %)". The branch is named by its mode at rest, which may differ."""
 
     nodal_diameters: int
     """Nodal diameters of that wave, or of the one with the largest share."""
@@ -141,7 +141,7 @@ class Instability(Entry):
     """End, or the end of the sweep."""
 
     closed: bool
-    """False when the sweep begins or ends inside the band."""
+    """False if the sweep begins or ends inside the band."""
 
     peak_rpm: float
     """Speed of largest growth."""
@@ -153,71 +153,70 @@ class Instability(Entry):
     """Frequency at the peak."""
 
     name: str | None
-    """The waves that make it, at its own speed: "2 diameters" of a divergence, "4 reflected
-    with 2 forward" of flutter; null where no chart was drawn. The branches are named by their
-    modes at rest, and otherwise."""
+    """Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2
+    forward" for flutter; null without a diagram. The branches are named by their modes at rest,
+    which may differ."""
 
     branches: IntArray
-    """Numbers of the branches that become unstable; none where no chart was drawn."""
+    """Numbers of the branches that become unstable; empty without a diagram."""
 
     modes: tuple[str, ...]
-    """The same waves one by one, reflected ones first: "4 diameters, reflected"."""
+    """These waves one by one, reflected ones first: "4 diameters, reflected"."""
 
     counted_rpm: FloatArray
-    """Stretches [from, to] in which it counts as an instability of the saw: divergence as a
-    whole; flutter of an undamped blade as a whole when its largest growth reaches the
-    threshold, of a damped one where its growth does."""
+    """Intervals [from, to] in which the band counts as an instability: divergence as a whole;
+    flutter of an undamped blade as a whole if its largest growth reaches the threshold, of a
+    damped one where its growth does."""
 
     saturated_amplitude_m: float | None
-    """Largest deflection that flutter rises to from a small motion at the speed of largest
-    growth, where stretching turns it back, without damping; up to 1.41 times as large near one
-    edge of the band. Null where it was not asked for, of divergence, and where only damping
-    makes the blade flutter."""
+    """Amplitude to which flutter rises from a small motion at the speed of largest growth,
+    limited by stretching, without damping; up to 1.41 times as large near one edge of the band.
+    Null unless requested, for divergence, and if only damping makes the blade flutter."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the onset."""
 
     estimated_relative_growth_error: float | None
-    """Estimated relative error of the largest growth rate, a small difference of large numbers:
-    it may exceed the tolerance."""
+    """Estimated relative error of the largest growth rate. As a small difference of large
+    numbers it may exceed the tolerance."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Idling(Entry):
-    """The same saw without the forces of the cut."""
+    """The saw without the forces of the cut."""
 
     critical_speeds_rpm: FloatArray
     """Critical speeds within the sweep, ascending."""
 
     instabilities: tuple[Instability, ...]
-    """Bands of instability within the sweep, by onset; no chart names their branches."""
+    """Bands of instability within the sweep, by onset; their branches are not named."""
 
     flutter_speed_rpm: float | None
-    """Lowest speed at which flutter counts."""
+    """Flutter speed."""
 
     first_merge_rpm: float | None
-    """Onset of the first flutter band of all."""
+    """Onset of the first flutter band, including weak ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class InCut(Entry):
-    """The forces of the cut that bear on the chart."""
+    """The forces of the cut that a Campbell diagram includes."""
 
     rpm: float
-    """Speed of the cut whose forces these are; they are the same at every speed of the
-    chart."""
+    """Speed of the cut at which these forces occur; in the diagram they are the same at every
+    speed."""
 
     teeth: int
-    """Teeth in the cut."""
+    """Number of teeth in the cut."""
 
     tangential_n_per_tooth: float
-    """Force against the rotation on each."""
+    """Force against the rotation on each tooth."""
 
     radial_n_per_tooth: float
-    """Force towards the axis on each."""
+    """Force towards the axis on each tooth."""
 
     idling: Idling | None
-    """The saw without them; null in a sketch, a chart of few speeds."""
+    """The idling saw; null in a diagram with few speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -225,30 +224,30 @@ class ExcitationLine(Entry):
     """A frequency that is a multiple of the rotation speed."""
 
     order: int
-    """The multiple."""
+    """Ratio of the frequency to the rotation speed."""
 
     name: str
-    """"1×", "tooth passing, 42×"."""
+    """Name: "1×", "tooth passing, 42×"."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Crossing(Entry):
-    """A speed at which a natural frequency is a multiple of it."""
+    """A speed at which a natural frequency equals a multiple of the rotation speed."""
 
     order: int
-    """The multiple."""
+    """Ratio of the frequency to the rotation speed."""
 
     rpm: float
     """Rotation speed."""
 
     frequency_hz: float
-    """Frequency in space, the multiple of that speed."""
+    """Frequency in the space-fixed frame."""
 
     branch: int | None
     """Number of the branch."""
 
     mode: str
-    """Its name."""
+    """Name of the branch."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -259,19 +258,19 @@ class Excitation(Entry):
     """The lines, ascending."""
 
     crossings: tuple[Crossing, ...]
-    """Where they cross branches of the chart, by line and speed. Frequencies above
-    `campbell.complete_to_hz` are not looked at."""
+    """Crossings with branches of the diagram, by line and speed, for frequencies up to
+    `campbell.complete_to_hz`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Operating(Entry):
-    """The operating speed against the lowest critical speed."""
+    """Comparison of the operating speed with the lowest critical speed."""
 
     rpm: float
     """The scene's operating speed."""
 
     of_lowest_critical: float | None
-    """Operating speed over lowest critical speed."""
+    """Ratio of operating speed to lowest critical speed."""
 
     limit: float
     """Usual limit of that ratio, 0.85."""
@@ -286,24 +285,25 @@ class Operating(Entry):
     """Index into `instabilities` of the band that makes it unstable."""
 
     at_critical_rpm: float | None
-    """The critical speed that it is at, nearer than 5 %: there a constant side force bends the
-    wave that stands still ten times as far as at rest, or more. Null where none is so near."""
+    """Critical speed within 5 % of the operating speed: there a constant side force deflects
+    the blade, in the shape of the wave that stands still, at least ten times as far as at rest.
+    Null if there is none."""
 
     safe_window_rpm: FloatArray | None
-    """The window without instability: the speeds around it at which no instability counts,
-    within the sweep, and no nearer than 5 % to a critical speed; null where the saw is unstable
-    or at a critical speed."""
+    """The window without instability: speeds of the sweep around the operating speed at which
+    no instability counts, and which are at least 5 % from critical speeds; null if the saw is
+    unstable or at a critical speed."""
 
     growth_per_s: float | None
     """Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep."""
 
     frequency_hz: float | None
-    """Im λ/2π of the same mode."""
+    """Im λ/2π of this mode."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WhirlMode(Entry):
-    """A mode of a saw that turns."""
+    """A mode of a rotating saw."""
 
     frequency_hz: float
     """|Im λ|/2π in the space-fixed frame."""
@@ -315,19 +315,19 @@ class WhirlMode(Entry):
     """Nodal circles of the dominant harmonic."""
 
     direction: Direction
-    """How the dominant harmonic runs, seen from space."""
+    """Direction of the dominant harmonic, seen from space."""
 
     name: str
-    """In words."""
+    """Name."""
 
     growth_per_s: float
     """Re λ."""
 
     damping_ratio: float | None
-    """ζ = −Re λ/|λ| of a damped scene."""
+    """ζ = −Re λ/|λ|; damped scenes only."""
 
     logarithmic_decrement: float | None
-    """−2π Re λ/|Im λ| of a damped scene, where the mode oscillates."""
+    """−2π Re λ/|Im λ|; damped scenes only, if the mode oscillates."""
 
     krein_sign: int
     """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
@@ -335,7 +335,7 @@ class WhirlMode(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Whirl(Entry):
-    """The modes of one speed."""
+    """The modes at one speed."""
 
     rpm: float
     """Rotation speed."""
@@ -344,7 +344,7 @@ class Whirl(Entry):
     """Whether the saw can run at that speed."""
 
     at_critical_rpm: float | None
-    """The critical speed that it is at, nearer than 5 %; null where none is so near."""
+    """Critical speed within 5 % of this speed; null if there is none."""
 
     modes: tuple[WhirlMode, ...]
     """Modes, ascending in frequency."""
@@ -363,14 +363,14 @@ class Complex(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Wave(Entry):
-    """n nodal diameters of a mode."""
+    """The part of a mode with n nodal diameters."""
 
     nodal_diameters: int
     """n."""
 
     share: float
-    """Share between 0 and 1: in the kinetic energy of a mode, in the square of the deflection
-    of the shape of an event."""
+    """Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of
+    the shape at an event."""
 
     cosine: Complex
     """Coefficient of cos nθ at the radii."""
@@ -385,13 +385,13 @@ class EventShape(ModeMethods):
     e^{λt}. The largest deflection of all points is 1, at t = 0."""
 
     occasion: ShapeOccasion
-    """Why it is shown."""
+    """Occasion."""
 
     name: str
-    """The waves that make it, named as the event is."""
+    """Waves of the shape, named as the event is."""
 
     direction: Direction
-    """How the wave runs, seen from space."""
+    """Direction of the wave, seen from space."""
 
     rpm: float
     """Rotation speed."""
@@ -406,86 +406,88 @@ class EventShape(ModeMethods):
     """Radii of the profiles."""
 
     harmonics: tuple[Wave, ...]
-    """Harmonics with a visible share in the square of the deflection, largest first."""
+    """Harmonics whose share of the squared deflection is visible, the largest first."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AccuracyEntry(Entry):
-    """How fine the computation was."""
+    """Size of the basis and estimated errors."""
 
     name: Accuracy
-    """The name asked for."""
+    """Named accuracy of the scene."""
 
     max_diameters: int
     """Largest number of nodal diameters."""
 
     radial_functions: int
-    """Radial functions for each, those included that steps and bends of the thickness add."""
+    """Radial functions for each, including those that steps and kinks of the thickness add."""
 
     degrees_of_freedom: int
     """Size of the basis."""
 
     tolerance: float
-    """Relative error allowed of critical speeds, onsets and the lowest frequencies at rest."""
+    """Relative error allowed for critical speeds, onsets and the lowest frequencies at rest."""
 
     reached: bool
-    """Whether the estimate is within the tolerance: the largest basis may fall short of it."""
+    """Whether the estimate is within the tolerance, which the largest basis may not achieve."""
 
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds within the range, from what a larger
-    basis would change."""
+    """Estimated relative error of the critical speeds within the sweep, from the change with a
+    larger basis."""
 
     estimated_resting_error: float | None
     """Estimated relative error of the lowest frequencies at rest, measured on a larger
     basis."""
 
     estimated_drawn_error: float | None
-    """Estimated relative error of the frequencies that are drawn, each relative to the
+    """Estimated relative error of the frequencies in the diagram, each relative to the
     frequency of its wave on the blade."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Work(Entry):
-    """Eigenproblems solved, largest first."""
+    """Numbers of eigenproblems solved, the largest first."""
 
     full_solves: int
-    """Of the full model: Krylov iterations with a factorization each, or dense ones."""
+    """Eigenproblems of the full model: Krylov iterations with a factorization each, or dense
+    ones."""
 
     structured_solves: int
-    """Those among them that used the block structure of the blade and the few columns of its
-    guides, in a time linear in the number of functions; scenes with edge loads or dampers have
-    no such structure."""
+    """Those of `full_solves` that used the block structure of the blade and the few columns of
+    its guides, in a time linear in the number of functions; scenes with edge loads or dampers
+    have no such structure."""
 
     reduced_solves: int
-    """Dense, of the projected matrices."""
+    """Dense eigenproblems of the projected matrices."""
 
     local_solves: int
-    """Dense, of the Hamiltonian reduction between two speeds."""
+    """Dense eigenproblems of the Hamiltonian reduction between two speeds."""
 
     refined_pairs: int
-    """Pairs of modes, of a damped blade single modes, refined by inverse iteration with a few
+    """Pairs of modes (single modes of a damped blade) refined by inverse iteration with a few
     factorizations each."""
 
     heat_solves: int
-    """Symmetric, of the full model under other temperatures: limits of heat."""
+    """Symmetric eigenproblems of the full model at other temperatures, for limits of heat."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Miscount(Entry):
-    """Modes of a speed that a count on the full model does not find, or finds besides."""
+    """Modes at a speed that are missing or superfluous according to a count on the full
+    model."""
 
     rpm: float
     """The speed."""
 
     from_hz: float
-    """Between which frequencies."""
+    """Lower end of the range of frequencies."""
 
     to_hz: float
-    """The upper one."""
+    """Upper end of the range of frequencies."""
 
     missing: int
-    """Modes of Krein sign + that the spectrum lacks there, less those of sign −; negative where
-    it has too many."""
+    """Number of modes of Krein sign + that the spectrum lacks there, minus that of sign −;
+    negative if it has superfluous ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -499,108 +501,108 @@ class Mismatch(Entry):
     """Kind of the modes and bands compared."""
 
     unstable_modes: int
-    """Unstable modes of that kind found there; for divergence 1 or 0."""
+    """Number of unstable modes of that kind; for divergence 1 or 0."""
 
     bands: int
-    """Bands of that kind that cover the speed."""
+    """Number of bands of that kind that contain the speed."""
 
     growth_per_s: float
     """Growth of the fastest of these modes."""
 
     peak_per_s: float
-    """Largest growth that the bands list."""
+    """Largest growth of these bands."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Entry):
     """Checks of the list of bands against the spectrum, by the Krein index, by counts of
-    eigenvalues on the full model and by the growth found at single speeds; and how much of the
-    sweep is proven to have no other band. See [crate::stability]."""
+    eigenvalues on the full model and by the growth found at single speeds, and the share of the
+    sweep that is proven to have no other band. See [crate::stability]."""
 
     statement: str
-    """What was found, in a sentence."""
+    """The result in a sentence."""
 
     speeds_checked: int
     """Number of speeds at which the Krein index was compared; for damped scenes, which have
     none, of speeds at which the number of growing modes was compared with that of the bands."""
 
     krein_violations: int
-    """Number of speeds at which it did not match, not even on the full model; expected 0."""
+    """Number of speeds at which the comparison failed, also on the full model; 0 is
+    expected."""
 
     violating_rpm: FloatArray
     """These speeds."""
 
     full_basis_counts: int
-    """Number of counts of eigenvalues on the full model, independent of the reduced model, that
-    the modes were compared with."""
+    """Number of counts of eigenvalues on the full model, independent of the reduced model, with
+    which the modes were compared."""
 
     uncertain_counts: int
-    """Counts that were tried besides and were not certain, for an eigenvalue lies on their
+    """Number of further counts that were uncertain, because an eigenvalue lies on their
     path."""
 
     miscounted_modes: tuple[Miscount, ...]
-    """Modes that these counts say are missing, or too many; expected none."""
+    """Modes that, according to these counts, are missing or superfluous; none are expected."""
 
     searched_again: bool
     """Whether modes were missing at first, so that the bands were searched again on the full
     model."""
 
     mismatches: tuple[Mismatch, ...]
-    """Where the list of bands contradicts the eigenvalues that the search or the chart found;
-    expected none."""
+    """Speeds at which the list of bands contradicts the eigenvalues of the search or of the
+    diagram; none are expected."""
 
     gave_up: bool
     """Whether the search for bands ended at its limit of work, so that bands may be missing."""
 
     unproven_rpm: FloatArray
-    """The rest, which was searched and not proven: from and to."""
+    """The remaining intervals, which were searched but not proven: from and to."""
 
     unproven_counting_rpm: FloatArray
-    """Parts of the rest in which, by the same estimate, a band could hide that counts: from and
-    to."""
+    """Parts of the remaining intervals in which, by this estimate, the growth of an undetected
+    band could reach the threshold: from and to."""
 
     max_backward_error: float
-    """Largest backward error, on the full model, of any mode of the chart."""
+    """Largest backward error, on the full model, of any mode of the diagram."""
 
     proven_share: float | None = field(default=None)
-    """Share of the sweep that is proven to have no instability which is not listed, rounded
-    down to four digits; absent where no proof was tried."""
+    """Share of the sweep that is proven to have no unlisted instability, rounded down to four
+    digits; absent if no proof was tried."""
 
     unproven_growth_per_s: float | None = field(default=None)
-    """Estimate, not proof, of the largest growth that a band hidden in the rest could have;
-    absent where no proof was tried."""
+    """Estimate, not proof, of the largest growth of an undetected band in the remaining
+    intervals; absent if no proof was tried."""
 
     max_listed_backward_error: float | None = field(default=None)
-    """Largest backward error, on the full model, of the eigenvalues listed: those of the modes
+    """Largest backward error, on the full model, of the listed eigenvalues: those of the modes
     at rest, at the peaks of the bands and at the operating speed. At reference accuracy these
-    are refined on the full model; absent otherwise, and where one could not be, as with loads
-    at the rim."""
+    are refined on the full model. Absent otherwise, and if one of them could not be refined, as
+    with loads at the rim."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch(BranchMethods):
-    """One mode followed over speed. All lists have one entry a speed."""
+    """One mode followed over speed. All lists have one entry for each speed."""
 
     branch: int
-    """1, 2, 3 … in the order of the list."""
+    """Number: 1, 2, 3 … in the order of the list."""
 
     name: str
-    """Name of the branch in every output, by its mode at the first of its speeds: of a blade
-    without guides "2 diameters, backward"; of a guided one at rest "2 diameters", or shares of
-    harmonics where none dominates."""
+    """Name of the branch in every output, by its mode at its first speed: for a blade without
+    guides "2 diameters, backward"; for a guided one at rest "2 diameters", or shares of
+    harmonics if none dominates."""
 
     label: str
-    """Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45
-    %)"."""
+    """Number and short name, for the end of a line: "3: 0 (54 %) + 1 (45 %)"."""
 
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic at the first of its speeds."""
+    """Nodal diameters of the dominant harmonic at its first speed."""
 
     nodal_circles: int
     """Nodal circles of that harmonic."""
 
     direction: tuple[Direction, ...]
-    """How the wave runs on the blade at each speed: never `Reflected`."""
+    """Direction of the wave on the blade at each speed; never `Reflected`."""
 
     rpm: FloatArray
     """Rotation speeds, ascending."""
@@ -635,7 +637,7 @@ class Campbell(Entry):
     """Frequency up to which the branches are complete."""
 
     branches: tuple[Branch, ...]
-    """Tracked branches, by frequency at their lowest speed."""
+    """Branches, by frequency at their lowest speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -643,7 +645,7 @@ class RootPath(Entry):
     """One eigenvalue over the speeds of a [RootLociEntry]."""
 
     name: str
-    """The waves of this mode that make the band, in words."""
+    """Waves of this mode."""
 
     growth_per_s: FloatArray
     """Re λ."""
@@ -675,7 +677,7 @@ class RootLoci(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HeatLimit(Entry):
-    """A temperature rise at which the blade buckles, or its lowest critical speed falls to the
+    """A temperature rise at which the blade buckles, or its lowest critical speed equals the
     operating speed."""
 
     rise_k: float
@@ -683,7 +685,7 @@ class HeatLimit(Entry):
 
     name: str
     """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of
-    waves where none dominates."""
+    waves if none dominates."""
 
     nodal_diameters: int
     """Nodal diameters of that wave, or of the one with the largest share."""
@@ -697,7 +699,7 @@ class HeatCurve(Entry):
     """A critical speed over the peak of the temperature profile."""
 
     name: str
-    """The wave that stands still, of a guided blade at the last peak."""
+    """The wave that stands still; for a guided blade, that at the last peak."""
 
     nodal_diameters: int
     """Nodal diameters of that wave, or of the one with the largest share."""
@@ -717,30 +719,32 @@ class Heat(Entry):
     """The temperature profile of the scene, scaled to other peaks."""
 
     rise_k: float
-    """Peak of the profile in the scene: the rise of largest size, at the rim for a shape."""
+    """Peak of the profile in the scene: the rise of largest magnitude, at the rim for a
+    shape."""
 
     profile_k: FloatArray
     """Rises at the radii of the stress."""
 
     operating_limit: HeatLimit | None
-    """Peak at which the lowest critical speed has fallen to the operating speed; null without
-    an operating speed, or where the blade buckles before."""
+    """Peak at which the lowest critical speed equals the operating speed; null without an
+    operating speed, or if the blade buckles at a smaller one."""
 
     past_critical_when_cold: bool
-    """Whether the operating speed is past a critical speed of the cold blade already."""
+    """Whether the operating speed exceeds a critical speed of the cold blade."""
 
     buckling: HeatLimit | None
-    """Peak at which the blade buckles at rest; null where no heat of this shape does it."""
+    """Peak at which the blade buckles at rest; null if no peak of this profile causes
+    buckling."""
 
     flat_from: HeatLimit | None
-    """Peak from which on the blade is flat, where roll tension buckles it when cold."""
+    """Peak from which on the blade is flat, if roll tension buckles it when cold."""
 
     buckles_first: bool
-    """Whether it buckles at rest before its critical speed has fallen to the operating
-    speed."""
+    """Whether the blade buckles at rest at a smaller peak than that at which its critical speed
+    equals the operating speed."""
 
     critical_speeds: tuple[HeatCurve, ...]
-    """Lowest critical speeds over the peak, as far as the blade stays flat at rest."""
+    """Lowest critical speeds over the peak, while the blade is flat at rest."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -757,7 +761,7 @@ class Membrane(Entry):
     """σ_θθ at these radii."""
 
     heat: Heat | None
-    """How hot the blade may become, when the scene has a temperature."""
+    """Limits of temperature, if the scene has a temperature."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -771,24 +775,24 @@ class Sensitivity(Entry):
     """The change: "1 %" or "1 degree"."""
 
     critical_speeds_percent: FloatArray
-    """Change of each critical speed up to the end of the sweep, in percent; the double ones of
-    a free blade stand twice."""
+    """Change of each critical speed up to the end of the sweep, in percent; double ones of a
+    free blade are listed twice."""
 
     onsets_percent: FloatArray
-    """Change of the onset of each reported band, in percent; null where the sweep begins inside
+    """Change of the onset of each reported band, in percent; null if the sweep begins inside
     the band."""
 
     growth_per_s: FloatArray
-    """dλ/dp of each mode at the operating speed (at rest without one), times the change: growth
-    in 1/s."""
+    """dλ/dp of each mode at the operating speed (at rest without one), times the change: real
+    part, growth in 1/s."""
 
     frequency_hz: FloatArray
-    """The same: frequency in Hz."""
+    """Imaginary part of this change: frequency in Hz."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CampbellReport(Entry):
-    """report.json."""
+    """Report of an analysis (report.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -797,80 +801,78 @@ class CampbellReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     terms: tuple[str, ...]
     """Terms of the equation of motion that were assembled."""
 
     modes_at_rest: tuple[RestMode, ...]
-    """The lowest modes of the blade at rest that oscillate, ascending."""
+    """Lowest oscillating modes of the blade at rest, ascending."""
 
     overdamped_modes_at_rest: int
-    """Modes at rest that decay without oscillating (overdamped), no faster than 2π
-    `campbell.complete_to_hz`; they are counted here and not listed."""
+    """Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π
+    `campbell.complete_to_hz`; they are not listed."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Every critical speed up to the end of the sweep, ascending."""
 
     critical_speeds_without_damping: bool
-    """Whether `critical_speeds` are those of the saw without its damping: where damping turns
-    with the blade, no eigenvalue of the damped saw is zero at any speed."""
+    """Whether `critical_speeds` are those of the saw without its damping: with damping that
+    turns with the blade no eigenvalue of the damped saw is zero at any speed."""
 
     instabilities: tuple[Instability, ...]
-    """The bands of instability found within the sweep, by onset; `certificate` says how much of
-    the sweep is proven to have no other."""
+    """Bands of instability within the sweep, by onset; `certificate` gives the share of the
+    sweep that is proven to have no others."""
 
     flutter_speed_rpm: float | None
-    """Lowest speed at which flutter counts: see `counted_rpm` of the bands."""
+    """Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the bands."""
 
     first_merge_rpm: float | None
-    """Onset of the first flutter band, weak ones included."""
+    """Onset of the first flutter band, including weak ones."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which a band counts as flutter of the saw."""
+    """Growth rate from which on a band counts as flutter."""
 
     in_cut: InCut | None
-    """The forces of the cut on the chart, and the saw without them, when the scene asks for
-    it."""
+    """The forces of the cut in the diagram, and the idling saw, if the scene requests it."""
 
     excitation: Excitation | None
-    """Multiples of the rotation speed and where they meet natural frequencies, when the scene
-    asks for them."""
+    """Multiples of the rotation speed and their crossings with natural frequencies, if the
+    scene requests them."""
 
     operating: Operating | None
-    """The operating speed against the 85 % rule, when the scene gives one."""
+    """Comparison of the operating speed with the 85 % rule, if the scene has one."""
 
     whirl: Whirl | None
-    """The modes of one speed, when asked for."""
+    """Modes at one speed, on request."""
 
     shapes: tuple[EventShape, ...]
     """Shapes of the blade at every critical speed, at the peak of every band, at the operating
-    speed and at speeds asked for, when asked for."""
+    speed and at further speeds, on request."""
 
     accuracy: AccuracyEntry
-    """How fine the computation was, and how far it may be off."""
+    """Size of the basis and estimated errors."""
 
     work: Work
-    """Number of eigenproblems solved for the chart."""
+    """Number of eigenproblems solved."""
 
     certificate: Certificate
-    """What was checked of the list of bands: how much of the sweep is proven to have no
-    instability that is not listed, which part was searched without proof, and what did not
-    agree."""
+    """Checks of the list of bands: the share of the sweep that is proven to have no unlisted
+    instability, intervals that were searched without proof, and disagreements."""
 
     campbell: Campbell
     """Branches over speed."""
 
     root_loci: RootLoci | None
-    """Eigenvalues of the two modes that coalesce at the flutter speed, or at the onset of the
-    first flutter band where none counts, over the speeds around it."""
+    """Eigenvalues of the two modes that coalesce at the flutter speed, or else at the onset of
+    the first flutter band, over the speeds around it."""
 
     membrane: Membrane | None
-    """Stress of heat, roll tension and manufacture, when the scene names one."""
+    """Stress of heat, roll tension and manufacture, if the scene has any."""
 
     sensitivities: tuple[Sensitivity, ...]
-    """How critical speeds and onsets move with the saw, when asked for."""
+    """Derivatives of critical speeds and onsets by numbers of the scene, on request."""
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""
@@ -878,43 +880,43 @@ class CampbellReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Criterion(Entry):
-    """One limit and what was found."""
+    """One limit and its result."""
 
     key: str
     """Short name of the limit, for programs."""
 
     name: str
-    """What is asked, in words."""
+    """Requirement in words."""
 
     finding: str
-    """What the saw does, in words."""
+    """Result in words."""
 
     found_rpm: float | None
-    """What was found; none where there is no such speed within the sweep."""
+    """Speed found; null if it exceeds the sweep."""
 
     asked_rpm: float
-    """What was asked."""
+    """Speed required."""
 
     passed: bool
-    """Whether it is kept."""
+    """Whether the limit is kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RimStiffness(Entry):
-    """Lateral stiffness of a point of the rim over the speed: a force that stands in space, in
-    N, over the deflection under it."""
+    """Lateral stiffness of a point of the rim over the speed: a force fixed in space, in N,
+    over the deflection under it."""
 
     rpm: FloatArray
-    """Speeds from rest to just below the lowest critical one; none where nothing holds the
+    """Speeds from rest to just below the lowest critical one; empty if nothing holds the
     blade."""
 
     n_per_m: FloatArray
-    """Stiffness there."""
+    """Stiffness at these speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CheckReport(Entry):
-    """A saw held against limits."""
+    """A comparison of a saw with limits."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -923,26 +925,26 @@ class CheckReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     accept_unusual: bool
-    """Whether a saw with such numbers may pass."""
+    """Whether a saw with unusual numbers may pass."""
 
     passed: bool
-    """Whether every limit is kept, by a saw whose numbers saws have, or that are accepted."""
+    """Whether every limit is kept and unusual numbers are absent or accepted."""
 
     criteria: tuple[Criterion, ...]
     """Every limit."""
 
     operating_rpm: float
-    """Speed at which the saw is run."""
+    """Operating speed."""
 
     margin: float
-    """Largest share of the lowest critical speed that it may be."""
+    """Largest ratio of the operating speed to the lowest critical speed."""
 
     to_rpm: float
-    """Last speed of the sweep; nothing is known beyond it."""
+    """Last speed of the sweep; results are limited to it."""
 
     critical_speeds_rpm: FloatArray
     """Critical speeds within the sweep, ascending."""
@@ -951,26 +953,26 @@ class CheckReport(Entry):
     """Every band of instability within the sweep."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which a band counts."""
+    """Growth rate from which on a band counts."""
 
     rim_stiffness_at_rest_n_per_m: float
     """Lateral stiffness of a point of the rim at the middle of the cut, at rest."""
 
     rim_stiffness_n_per_m: float | None
-    """The same at the operating speed; null past the first critical speed, where a force that
-    stands still meets no stiffness."""
+    """This stiffness at the operating speed; null above the first critical speed, where it is
+    not defined."""
 
     rim_stiffness: RimStiffness
-    """The same over the speed."""
+    """This stiffness over the speed."""
 
     rim_speed_m_per_s: float
-    """Speed of the rim when operating."""
+    """Rim speed at the operating speed."""
 
     max_rim_m_per_s: float
-    """The most that it may be."""
+    """Limit of the rim speed."""
 
     max_amplitude_m: float | None
-    """The most that flutter may rise to, where it is limited."""
+    """Limit of the amplitude of flutter, if there is one."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds."""
@@ -1046,55 +1048,55 @@ class CompareReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutCriterionEntry(Entry):
-    """A criterion and what it says."""
+    """A criterion and its result."""
 
     criterion: CutCriterion
-    """Which one."""
+    """The criterion."""
 
     verdict: Verdict
-    """What it says."""
+    """Its verdict."""
 
     growth_per_s: float
-    """Largest growth by it."""
+    """Its largest growth."""
 
     frequency_hz: float | None
-    """Frequency of that motion where it is known and grows."""
+    """Frequency of that motion, if it is known and the motion grows."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutCertificate(Entry):
-    """How many modes grow in the cut and without its forces, and what counts on the full model
-    say of that."""
+    """Number of growing modes in the cut and without its forces, compared with counts on the
+    full model."""
 
     statement: str
-    """What was found, in a sentence."""
+    """The result in a sentence."""
 
     growing_modes: int
-    """Modes that grow in the cut; a pair of conjugate eigenvalues is one."""
+    """Number of modes that grow in the cut; a pair of conjugate eigenvalues counts as one."""
 
     idle_growing_modes: int
-    """Modes that grow without the forces."""
+    """Number of modes that grow without the forces."""
 
     full_basis_counts: int
-    """Counts on the full model that the modes were held against, in the cut and without the
-    forces."""
+    """Number of counts on the full model with which the modes were compared, in the cut and
+    without the forces."""
 
     krein_violations: int
-    """In how many of the two the Krein index of an undamped saw does not match; expected 0."""
+    """For how many of the two the Krein index of an undamped saw fails; 0 is expected."""
 
     miscounted_modes: tuple[Miscount, ...]
-    """Modes that the counts say are missing, or too many; expected none."""
+    """Modes that, according to the counts, are missing or superfluous; none are expected."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ByPower(Entry):
-    """A cut with the force that its power allows."""
+    """A cut with the force that follows from its power."""
 
     tangential_n_per_tooth: float
-    """P/(Ωb) shared by the teeth."""
+    """P/(Ωb) divided by the number of teeth in the cut."""
 
     verdict: Verdict
-    """By the eigenvalues."""
+    """Verdict by the eigenvalues."""
 
     growth_per_s: float
     """Largest Re λ."""
@@ -1102,43 +1104,43 @@ class ByPower(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ToothPassing(Entry):
-    """The effect of loads that move with the teeth, compared with loads that stand still."""
+    """The effect of loads that move with the teeth, compared with stationary loads."""
 
     tooth_frequency_hz: float
-    """Teeth passing a second."""
+    """Number of teeth that pass per second."""
 
     standing_growth_per_s: float
-    """Growth under loads that stand still."""
+    """Growth under stationary loads."""
 
     mean_growth_per_s: float
-    """Growth under the mean of the passing loads."""
+    """Growth under the mean of the moving loads."""
 
     passing_growth_per_s: float
-    """Growth under the passing loads, from Floquet multipliers."""
+    """Growth under the moving loads, from Floquet multipliers."""
 
     standing_deflection_m: float | None
-    """Largest deflection at the probe in the cut under loads that stand still; null where the
-    linear model ends before the cut."""
+    """Largest deflection at the probe in the cut under stationary loads; null if the linear
+    model ends before the cut."""
 
     passing_deflection_m: float | None
-    """The same under passing loads."""
+    """Largest deflection at the probe in the cut under moving loads."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutStretching(Entry):
-    """A cut of a blade that stretches."""
+    """A cut with stretching."""
 
     shapes: int
-    """Shapes of the basis that the deflection is made of."""
+    """Number of shapes of the reduced basis."""
 
     step_s: float
     """Longest step of the integration."""
 
     largest_slope: float
-    """Largest slope of the blade that was seen."""
+    """Largest slope of the blade."""
 
     valid_until_s: float | None
-    """When slopes exceed 0.1, where the record ends; null where they do not."""
+    """Time at which slopes exceed 0.1 and the record ends; null if they do not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1146,13 +1148,14 @@ class VerdictMap(Entry):
     """Growth rates over guide angle and load."""
 
     guide_angle_deg: FloatArray
-    """Angles of the first guide, all guides moving with it; empty without guides."""
+    """Angles of the first guide, with which all guides move; empty without guides."""
 
     load_level: FloatArray
-    """Multiples of the radial and tangential forces."""
+    """Factors of the radial and tangential forces."""
 
     growth_per_s: FloatArray
-    """One row a load level, one column an angle; one column without guides."""
+    """Growth rates, one row for each load level, one column for each angle; one column without
+    guides."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1160,10 +1163,10 @@ class Spline(Entry):
     """The cut with the reaction of the simulated spline teeth."""
 
     verdict: Verdict
-    """In the cut, by the eigenvalues with the simulated reaction."""
+    """Verdict in the cut, by the eigenvalues with the simulated reaction."""
 
     growth_per_s: float
-    """Largest Re λ with it."""
+    """Largest Re λ with this reaction."""
 
     frequency_hz: float | None
     """Frequency of the growing mode."""
@@ -1179,7 +1182,7 @@ class Spline(Entry):
     """Mean torque of the arbor on the blade."""
 
     clearance_m: float
-    """Gap between a flank and its mate when the blade is centred."""
+    """Gap between two flanks while the blade is centred."""
 
     teeth_in_contact: float
     """Mean number of spline teeth in contact."""
@@ -1188,13 +1191,13 @@ class Spline(Entry):
     """Largest normal force on a spline tooth."""
 
     deepest_m: float
-    """Deepest approach of any flank."""
+    """Largest approach of any flank."""
 
     imbalance: float
-    """Mean reaction plus load, relative to the load: what the averaging left over."""
+    """Mean reaction plus load, relative to the load: the remaining imbalance of the average."""
 
     unsteadiness: float
-    """How far from settled the motion is."""
+    """Measure of how far the motion is from being settled."""
 
     settled_from: int
     """Index in the orbit from which the reaction was averaged."""
@@ -1226,71 +1229,71 @@ class CutRun(Entry):
     """Force across the blade on each tooth."""
 
     verdict: CutVerdict
-    """The worst of the criteria; where none grows, whether the deflection stays within the
+    """The worst of the criteria; if no motion grows, whether the deflection stays within the
     model."""
 
     decided_by: CutCriterion
     """The criterion of fastest growth."""
 
     criteria: tuple[CutCriterionEntry, ...]
-    """What each criterion says."""
+    """The result of each criterion."""
 
     growth_per_s: float
     """Largest Re λ in the cut."""
 
     frequency_hz: float | None
-    """Frequency of the growing mode; of the largest oscillation where none grows."""
+    """Frequency of the growing mode; of the largest oscillation if none grows."""
 
     transient_verdict: Verdict | None
-    """In the cut, by the time history; null where no lateral force moves the blade."""
+    """Verdict in the cut by the time history; null if no lateral force excites the blade."""
 
     transient_growth_per_s: float | None
-    """Growth rate fitted on the deflection in the cut."""
+    """Growth rate fitted to the deflection in the cut."""
 
     transient_frequency_hz: float | None
-    """Frequency of the growth fitted on the deflection, where it is unstable."""
+    """Frequency of this growth, if it is unstable."""
 
     agree: bool | None
-    """Whether both verdicts are the same, and growth rates within 2 % where there is growth."""
+    """Whether both verdicts are equal and, if a motion grows, growth rates agree within 2 %."""
 
     dominant_frequency_hz: float | None
     """Frequency of the largest oscillation in the cut."""
 
     idle_verdict: Verdict
-    """Before and after the cut, by the eigenvalues."""
+    """Verdict before and after the cut, by the eigenvalues."""
 
     idle_growth_per_s: float
     """Largest Re λ without the forces."""
 
     certificate: CutCertificate
-    """Growing modes held against counts on the full model."""
+    """Comparison of the growing modes with counts on the full model."""
 
     by_power: ByPower | None
-    """The same cut with the tangential force that the power allows, when it is given."""
+    """The cut with the tangential force that follows from the power, if it is given."""
 
     tooth_passing: ToothPassing
-    """Loads that pass with the teeth against loads that stand still."""
+    """Comparison of moving and stationary tooth loads."""
 
     linear_until_s: float | None
-    """When the deflection at the probe leaves the linear model, where the record ends; null
-    when it does not, and with stretching."""
+    """Time at which the deflection at the probe exceeds the linear model and the record ends;
+    null if it does not, and with stretching."""
 
     largest_deflection_in_cut_m: float | None
-    """Largest deflection at the probe before the forces end; null where the model, linear or
-    with stretching, ends before them."""
+    """Largest deflection at the probe before the forces end; null if the model, linear or with
+    stretching, ends earlier."""
 
     largest_deflection_after_m: float | None
-    """Largest deflection at the probe after the forces ended; null where the model, linear or
-    with stretching, ends before the record should."""
+    """Largest deflection at the probe after the forces end; null if the model, linear or with
+    stretching, ends before the record."""
 
     forces_from_s: float
-    """When the forces set in."""
+    """Start of the forces."""
 
     forces_to_s: float
-    """When they end."""
+    """End of the forces."""
 
     stretching: CutStretching | None
-    """What stretching adds, where the scene asks for it."""
+    """Results with stretching, if the scene requests it."""
 
     time_s: FloatArray
     """Times of the record."""
@@ -1302,12 +1305,12 @@ class CutRun(Entry):
     """Verdict over guide angle and load."""
 
     spline: Spline | None
-    """The cut with the reaction of the simulated spline teeth, when the scene asks for it."""
+    """The cut with the reaction of the simulated spline teeth, if the scene requests it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutReport(Entry):
-    """cut.json."""
+    """Report of a cut (cut.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -1316,23 +1319,23 @@ class CutReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which a cut is called unstable."""
+    """Growth rate from which on a cut is called unstable."""
 
     linear_limit_m: float
-    """Largest deflection that is given: beyond it the linear model does not hold."""
+    """Largest deflection that is given; beyond it the linear model is not valid."""
 
     tooth_angles_deg: FloatArray
     """Angles of the teeth in the cut."""
 
     runs: tuple[CutRun, ...]
-    """One entry a speed."""
+    """One entry for each speed."""
 
     warnings: tuple[str, ...]
     """Remarks on the forces and on the validity of the result."""
@@ -1340,7 +1343,7 @@ class CutReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Arc(Entry):
-    """Stable equilibria. All lists have one entry a speed."""
+    """Stable equilibria. All lists have one entry for each speed."""
 
     rpm: FloatArray
     """Rotation speeds, rising or falling."""
@@ -1349,7 +1352,7 @@ class Arc(Entry):
     """Deflection at the probe."""
 
     largest_deflection_m: FloatArray
-    """Largest deflection of any place of the blade, without its sign."""
+    """Largest magnitude of the deflection over the blade."""
 
     largest_slope: FloatArray
     """Largest slope of the blade."""
@@ -1365,42 +1368,41 @@ class Arc(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Jump(Entry):
-    """A place at which the blade leaves an equilibrium that ceases to be stable."""
+    """A jump from an equilibrium that ceases to be stable to another one."""
 
     kind: TurnKind
-    """A fold, at which the equilibrium ceases to exist, or a bifurcation, at which another one
+    """Fold, at which the equilibrium ceases to exist, or bifurcation, at which another one
     crosses it."""
 
     rpm: float
     """Rotation speed."""
 
     from_m: float
-    """Deflection at the probe before it."""
+    """Deflection at the probe before the jump."""
 
     to_m: float
-    """Deflection at the probe after it."""
+    """Deflection at the probe after the jump."""
 
     largest_from_m: float
-    """Largest deflection of any place before it."""
+    """Largest deflection over the blade before the jump."""
 
     largest_to_m: float
-    """Largest deflection of any place after it."""
+    """Largest deflection over the blade after the jump."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SlowSweep(Entry):
-    """Stable equilibria over a speed that rises, or falls, so slowly that the blade stands
-    still."""
+    """Stable equilibria for slowly rising or falling speed."""
 
     arcs: tuple[Arc, ...]
-    """Stretches from one jump to the next, in the order of the sweep."""
+    """Arcs between jumps, in the order of the sweep."""
 
     jumps: tuple[Jump, ...]
-    """What ends each stretch but the last."""
+    """Jumps at the ends of all arcs but the last."""
 
     valid_until_rpm: float | None
-    """Speed from which on slopes of the blade exceed 0.1 and the model does not hold; nothing
-    beyond it is given. Null where they do not."""
+    """Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there
+    are no results beyond it. Null if they do not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1408,7 +1410,7 @@ class Turn(Entry):
     """A fold or a bifurcation."""
 
     kind: TurnKind
-    """Which of the two."""
+    """Kind."""
 
     rpm: float
     """Rotation speed."""
@@ -1419,28 +1421,29 @@ class Turn(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class EquilibriumCurve(Entry):
-    """A curve of equilibria. All lists have one entry an equilibrium, in the order of the
+    """A curve of equilibria. All lists have one entry for each equilibrium, in the order of the
     curve."""
 
     rpm: FloatArray
-    """Rotation speeds; they need not ascend."""
+    """Rotation speeds, not necessarily ascending."""
 
     deflection_m: FloatArray
     """Deflection at the probe."""
 
     largest_deflection_m: FloatArray
-    """Largest deflection of any place of the blade, without its sign."""
+    """Largest magnitude of the deflection over the blade."""
 
     negative_eigenvalues: IntArray
-    """Directions in which the potential energy falls: 0 where the equilibrium is stable."""
+    """Number of directions in which the potential energy decreases; 0 for a stable
+    equilibrium."""
 
     turns: tuple[Turn, ...]
-    """Where the curve turns back in speed, or another one crosses it."""
+    """Folds and bifurcations of the curve."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DeflectReport(Entry):
-    """deflect.json."""
+    """Report of the equilibria over speed (deflect.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -1449,18 +1452,18 @@ class DeflectReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
 
     shapes: int
-    """Shapes of that basis that the deflection is made of."""
+    """Number of shapes of the reduced basis."""
 
     estimated_relative_error: float | None
-    """Relative change of the deflection with half as many modes more, at most; null where the
-    blade stays flat."""
+    """Largest relative change of the deflection with half as many modes more; null if the blade
+    remains flat."""
 
     from_rpm: float
     """First speed."""
@@ -1469,10 +1472,10 @@ class DeflectReport(Entry):
     """Last speed."""
 
     force_n: float
-    """Force across the blade at its rim, fixed in space."""
+    """Lateral force at the rim, fixed in space."""
 
     force_angle_deg: float
-    """Its angle, positive with the rotation."""
+    """Angle of the force, positive in the direction of rotation."""
 
     probe_radius_m: float
     """Distance of the probe from the axis."""
@@ -1481,18 +1484,18 @@ class DeflectReport(Entry):
     """Angle of the probe."""
 
     beyond_thickness_rpm: float | None
-    """Speed, while it rises, up to which no place of the blade is deflected by more than its
-    thickness; null where none is at any speed."""
+    """Rising speed up to which the deflection stays within the thickness everywhere; null if it
+    does at all speeds."""
 
     up: SlowSweep
-    """Stable equilibria while the speed rises."""
+    """Stable equilibria for rising speed."""
 
     down: SlowSweep
-    """Stable equilibria while the speed falls."""
+    """Stable equilibria for falling speed."""
 
     curves: tuple[EquilibriumCurve, ...]
-    """Curves of equilibria that were found, unstable ones included. That there is no other one
-    is not proven."""
+    """Curves of equilibria, including unstable ones. It is not proven that there are no
+    others."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Critical speeds of the flat blade, up to the last speed."""
@@ -1509,7 +1512,7 @@ class DeflectReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Parameter(Entry):
-    """A number found."""
+    """A fitted number."""
 
     path: str
     """JSON path in the scene."""
@@ -1518,132 +1521,132 @@ class Parameter(Entry):
     """Value before."""
 
     value: float
-    """Value that fits best."""
+    """Fitted value."""
 
     interval_from: float | None
-    """Least value of the interval; none at a bound, and where the data do not determine this
-    number: they do not tell it from others, or leave it an interval wider than the distance
-    between its bounds."""
+    """Lower end of the interval. Null at a bound, and if the data do not determine this number:
+    they do not distinguish it from others, or the interval is wider than the distance between
+    its bounds."""
 
     interval_to: float | None
-    """Largest value of the interval."""
+    """Upper end of the interval."""
 
     bound_from: float
-    """Least value allowed."""
+    """Lower bound."""
 
     bound_to: float
-    """Largest value allowed."""
+    """Upper bound."""
 
     at_bound: bool
-    """Whether it rests on one of them."""
+    """Whether the value is a bound."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Residual(Entry):
-    """A measured frequency and the computed one that it is held against."""
+    """A measured frequency and the corresponding computed one."""
 
     rpm: float
     """Rotation speed."""
 
     place: int
-    """Place among the computed frequencies of this speed, from 1, ascending."""
+    """Rank of the computed frequency at this speed, from 1, ascending."""
 
     measured_hz: float
-    """Measured."""
+    """Measured frequency."""
 
     before_hz: float
-    """Computed with the numbers before the fit."""
+    """Frequency computed before the fit."""
 
     fitted_hz: float
-    """Computed with the numbers found."""
+    """Frequency computed with the fitted numbers."""
 
     fitted: bool
-    """False for a speed that was left out of the fit."""
+    """False for a speed that was excluded from the fit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Curves(Entry):
-    """Lowest frequencies in ascending order, one row a speed."""
+    """Lowest frequencies, ascending, one row for each speed."""
 
     rpm: FloatArray
     """Speeds."""
 
     before_hz: FloatArray
-    """Before."""
+    """Frequencies before the fit."""
 
     fitted_hz: FloatArray
-    """After."""
+    """Frequencies after the fit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Start(Entry):
-    """A start and where it led."""
+    """A start and its result."""
 
     from_: FloatArray = field(metadata={"key": "from"})
-    """Values it began with."""
+    """Initial values."""
 
     to: FloatArray | None
-    """Values it reached; none for a start that is no saw."""
+    """Final values; null for a start that is not a valid saw."""
 
     rms_hz: float | None
-    """Root mean square there."""
+    """Root mean square of the residuals at the final values."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FitReport(Entry):
-    """fit.json."""
+    """Report of a fit (fit.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
 
     scene: SceneDict
-    """The scene with the numbers found."""
+    """The fitted scene."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     source: str
-    """Who measured the frequencies."""
+    """Source of the measured frequencies."""
 
     confidence: float
-    """Probability with which the intervals cover the truth."""
+    """Probability that an interval contains the true value."""
 
     parameters: tuple[Parameter, ...]
-    """Numbers found."""
+    """Fitted numbers."""
 
     without_effect: tuple[str, ...]
-    """Freed numbers that move no measured frequency; they stay as they were."""
+    """Freed numbers without effect on the measured frequencies; they keep their values."""
 
     correlation: FloatArray
     """Correlation of the parameters, in their order."""
 
     measured_frequencies: int
-    """Frequencies that were fitted."""
+    """Number of fitted frequencies."""
 
     degrees_of_freedom: int
-    """Measured frequencies less free numbers."""
+    """Number of measured frequencies minus number of free numbers."""
 
     rms_hz: float
     """Root mean square of computed minus measured frequencies."""
 
     rms_before_hz: float
-    """The same of the scene before the fit."""
+    """This value for the scene before the fit."""
 
     residuals: tuple[Residual, ...]
-    """Measured and computed frequencies, pair by pair."""
+    """Measured and computed frequencies in pairs."""
 
     curves: Curves
     """Lowest frequencies over speed, before and after."""
 
     starts: tuple[Start, ...]
-    """Every start and where it led, on a coarser basis."""
+    """All starts and their results, on a coarser basis."""
 
     max_diameters: int
     """Largest number of nodal diameters of the basis."""
 
     radial_functions: int
-    """Polynomials over the radius of each."""
+    """Polynomials over the radius for each."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds on this basis."""
@@ -1657,10 +1660,10 @@ class Mode(ModeMethods):
     """w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 
     name: str
-    """Its harmonics in words, with shares where none dominates."""
+    """Its harmonics, with shares if none dominates."""
 
     direction: Direction
-    """How the wave runs, seen from space."""
+    """Direction of the wave, seen from space."""
 
     rpm: float
     """Rotation speed."""
@@ -1681,12 +1684,12 @@ class Mode(ModeMethods):
     """Radii of the profiles."""
 
     harmonics: tuple[Wave, ...]
-    """Harmonics with a share in the energy large enough to be visible, largest first."""
+    """Harmonics whose share of the energy is visible, the largest first."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Placed(Entry):
-    """A number found."""
+    """A free number and its best value."""
 
     path: str
     """JSON path in the scene."""
@@ -1698,192 +1701,192 @@ class Placed(Entry):
     """Best value."""
 
     bound_from: float
-    """Least value allowed."""
+    """Lower bound."""
 
     bound_to: float
-    """Largest value allowed."""
+    """Upper bound."""
 
     at_bound: bool
-    """Whether it rests on one of them."""
+    """Whether the value is a bound."""
 
     offset: float
-    """Its tolerance of production: it is off by so much for the next two."""
+    """Tolerance of production, the deviation for the next two values."""
 
     less_rpm: float | None
-    """The goal with so much less of it; none where there is no such saw or it could not be
-    computed."""
+    """Goal if the number is smaller by this amount; null if there is no such saw or it could
+    not be computed."""
 
     more_rpm: float | None
-    """The goal with so much more of it."""
+    """Goal if the number is larger by this amount."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outcome(Entry):
-    """The goal of one saw, and the speeds that decide it."""
+    """Goal of one saw, and the speeds that determine it."""
 
     goal_rpm: float
-    """What is made large: the flutter speed, the end of the sweep where there is none, or the
+    """Value of the goal: the flutter speed, or the end of the sweep if there is none, or the
     width of the window."""
 
     flutter_rpm: float | None
-    """Onset of the first flutter band that reaches the threshold; none within the sweep."""
+    """Flutter speed; null if it exceeds the sweep."""
 
     critical_rpm: float | None
     """Lowest critical speed."""
 
     window_rpm: FloatArray | None
-    """Stable speeds around the operating speed, if they are the goal."""
+    """Window without instability around the operating speed, if it is the goal."""
 
     kept: bool
-    """Whether the limit on the critical speed is kept."""
+    """Whether the limit of the critical speed is kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Neighbour(Entry):
-    """A saw off another one by the tolerances."""
+    """A saw whose numbers deviate from another one by the tolerances."""
 
     values: FloatArray
     """Values of the numbers, in their order."""
 
     outcome: Outcome | None
-    """Its goal; none where it could not be computed."""
+    """Its result; null if it could not be computed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlaceCertificate(Entry):
-    """What the bands of the best saw were held against."""
+    """Certificate of the bands of the best saw."""
 
     statement: str
-    """What was found, in a sentence."""
+    """The result in a sentence."""
 
     is_clean: bool
     """Whether every check agrees."""
 
     speeds_checked: int
-    """Number of speeds at which the Krein index was compared with the modes, or of a damped saw
-    the number of growing modes with that of the bands."""
+    """Number of speeds at which the Krein index was compared with the modes or, for a damped
+    saw, the number of growing modes with that of the bands."""
 
     full_basis_counts: int
-    """Number of counts of eigenvalues on the full model that the modes were compared with."""
+    """Number of counts of eigenvalues on the full model with which the modes were compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FragileOptimum(Entry):
-    """A saw beside a jump of the goal."""
+    """A saw next to a jump of the goal."""
 
     saw: Neighbour
     """Values of the numbers, in their order, and the goal."""
 
     worst: Neighbour
-    """The worst of the saws off it by the tolerances."""
+    """Worst neighbour of this saw within the tolerances."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Map(Entry):
-    """The goal over two numbers, the others as they were best."""
+    """The goal over two numbers; the others have their best values."""
 
     x_path: str
     """JSON path of the number along x."""
 
     x: FloatArray
-    """Its values."""
+    """Values along x."""
 
     y_path: str | None
-    """JSON path of the number along y; none where only one is free."""
+    """JSON path of the number along y; null if only one is free."""
 
     y: FloatArray
-    """Its values."""
+    """Values along y."""
 
     goal_rpm: FloatArray
-    """The goal, one row for each value of y; none where there is no such saw."""
+    """The goal, one row for each value of y; null if there is no such saw."""
 
     kept: BoolArray
-    """Whether the limit on the critical speed is kept."""
+    """Whether the limit of the critical speed is kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlaceReport(Entry):
-    """place.json."""
+    """Report of a placement (place.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
 
     scene: SceneDict
-    """The scene with the numbers found."""
+    """The scene with the best numbers."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     goal: Goal
-    """What was made large."""
+    """The quantity that was maximized."""
 
     min_critical_rpm: float | None
-    """Lower limit of the first critical speed, if one was asked for."""
+    """Lower limit of the first critical speed, if there is one."""
 
     kept: bool
-    """Whether the best saw keeps it, even at the worst of its tolerances."""
+    """Whether the best saw keeps the limit in the worst case of its tolerances."""
 
     improved: bool
-    """Whether the best saw is better than the scene as it was, both at the worst of their
-    tolerances. Where none between the bounds is, `scene`, `best` and the numbers are those of
-    the scene as it was, unless that one lies outside the bounds."""
+    """Whether the best saw is better than the original scene, both in the worst case of their
+    tolerances. If no saw between the bounds is, `scene`, `best` and the numbers are those of
+    the original scene, unless that lies outside the bounds."""
 
     from_rpm: float
     """First speed of the sweep, the same for every saw."""
 
     to_rpm: float
-    """Last speed of the sweep; flutter beyond it is not known."""
+    """Last speed of the sweep; flutter beyond it is unknown."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which a band counts as flutter of the saw."""
+    """Growth rate from which on a band counts as flutter."""
 
     parameters: tuple[Placed, ...]
-    """Numbers found."""
+    """Free numbers and their best values."""
 
     without_effect: tuple[str, ...]
-    """Freed numbers that move nothing, or nothing that the others do not move as well."""
+    """Freed numbers without effect, or whose effect other free numbers have as well."""
 
     before: Outcome
-    """The scene as it was."""
+    """Result of the original scene."""
 
     worst_before: Neighbour
-    """The worst of the saws off it by the tolerances, itself included."""
+    """Worst neighbour of the original scene within its tolerances, itself included."""
 
     best: Outcome
-    """The best saw: that of the best goal at the worst of its tolerances."""
+    """The best saw: that of the best goal in the worst case of its tolerances."""
 
     bands: tuple[Instability, ...]
     """Bands of the best saw."""
 
     certificate: PlaceCertificate
-    """What these bands were held against."""
+    """Certificate of these bands."""
 
     fragile: bool
-    """Whether the best saw loses more than a twentieth of the goal within its tolerances."""
+    """Whether the best saw loses more than 5 % of the goal within its tolerances."""
 
     worst_neighbour: Neighbour | None
-    """The worst of the saws off the best one by the tolerances, itself included: what the
-    search makes best."""
+    """Worst neighbour of the best saw within its tolerances, itself included; the search
+    maximizes its goal."""
 
     worst_neighbour_share: float
     """Its goal divided by that of the best saw."""
 
     fragile_optimum: FragileOptimum | None
-    """The saw of the best goal by itself, where that is better than the best saw and worse
-    within its tolerances; null where there is none."""
+    """The saw with the best nominal goal, if it is better than the best saw and worse within
+    its tolerances; null otherwise."""
 
     almost: tuple[Instability, ...]
-    """Bands that nearly reach the threshold and begin before the flutter speed."""
+    """Bands that nearly reach the threshold and begin below the flutter speed."""
 
     map: Map | None
     """The goal over two numbers, on the coarse basis of the search."""
 
     saws: int
-    """Saws analysed."""
+    """Number of saws analysed."""
 
     failed_saws: int
-    """Those among them that could not be computed: they count as the worst."""
+    """Number of those that could not be computed; they count as the worst."""
 
     max_diameters: int
     """Largest number of nodal diameters of the best saw's basis."""
@@ -1903,31 +1906,30 @@ class RunUpBand(Entry):
     """The band."""
 
     time_s: float
-    """Time that the run-up spends in it."""
+    """Time that the run-up spends in the band."""
 
     growth_exponent: float
-    """Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows
-    by e to this power."""
+    """Re λ of the band's eigenvalue integrated over that time: a motion in its mode grows by e
+    to this power."""
 
     seen_amplification: float | None
-    """Largest deflection at the probe within the band over that in as many speeds before; null
-    where the linear model ends before the band does. Every mode that rings contributes to it:
-    beside a small exponent it says how other modes beat, not that the band makes a motion
-    grow."""
+    """Ratio of the largest deflection at the probe within the band to that in an interval of
+    equal length before it; null if the linear model ends before the band does. All vibrating
+    modes contribute: with a small exponent it shows beating of other modes, not growth."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Stretching(Entry):
-    """A run-up of a blade that stretches."""
+    """A run-up with stretching."""
 
     shapes: int
-    """Shapes of the basis that the deflection is made of."""
+    """Number of shapes of the reduced basis."""
 
     largest_slope: float
-    """Largest slope of the blade that was seen."""
+    """Largest slope of the blade."""
 
     valid_until_rpm: float | None
-    """Speed from which on slopes exceed 0.1, where the record ends; null where they do not."""
+    """Speed from which on slopes exceed 0.1 and the record ends; null if they do not."""
 
     rpm: FloatArray
     """Speeds of the spectrum."""
@@ -1936,7 +1938,8 @@ class Stretching(Entry):
     """Frequencies of the spectrum."""
 
     amplitude_m: FloatArray
-    """Amplitude at the probe about a straight line, under Hann's window, one row a speed."""
+    """Amplitude at the probe about a straight line, with Hann's window, one row for each
+    speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1950,12 +1953,12 @@ class Response(Entry):
     """Frequencies of the force."""
 
     receptance_m_per_n: FloatArray
-    """Deflection at the probe per newton, one row a speed."""
+    """Deflection at the probe per newton, one row for each speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RunUpReport(Entry):
-    """runup.json."""
+    """Report of a run-up (runup.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -1964,8 +1967,8 @@ class RunUpReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -1980,14 +1983,14 @@ class RunUpReport(Entry):
     """Rate of the run-up."""
 
     step_s: float
-    """Step of the integration."""
+    """Time step."""
 
     linear_limit_m: float
-    """Largest deflection that is given: beyond it the linear model does not hold."""
+    """Largest deflection that is given; beyond it the linear model is not valid."""
 
     linear_until_rpm: float | None
-    """Speed at which it is exceeded at the probe, where the record ends; null when it is
-    not."""
+    """Speed at which the deflection at the probe exceeds it and the record ends; null if it
+    does not."""
 
     rpm: FloatArray
     """Speeds of the record."""
@@ -1999,14 +2002,14 @@ class RunUpReport(Entry):
     """Critical speeds up to the end of the run-up."""
 
     bands: tuple[RunUpBand, ...]
-    """Bands of instability and what they do to the run-up."""
+    """Bands of instability and their effect on the run-up."""
 
     first_doubling_rpm: float | None
-    """Onset of the first band that more than doubles a motion at this rate, e to the power of
-    its exponent; null where none does."""
+    """Onset of the first band that more than doubles a motion at this rate; null if none
+    does."""
 
     stretching: Stretching | None
-    """What stretching adds, where the scene asks for it."""
+    """Results with stretching, if the scene requests it."""
 
     campbell: Campbell
     """Branches over the speeds of the run-up."""
@@ -2045,58 +2048,58 @@ class Histogram(Entry):
     """Counts of saws in bars of equal width."""
 
     from_rpm: float
-    """Least speed."""
+    """Lowest speed."""
 
     to_rpm: float
-    """Greatest speed."""
+    """Highest speed."""
 
     counts: IntArray
-    """Saws in each bar."""
+    """Number of saws in each bar."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Speed(Entry):
-    """How a speed is distributed."""
+    """Distribution of a speed."""
 
     saws: int
-    """Saws with such a speed."""
+    """Number of saws with such a speed."""
 
     beyond: int
-    """Saws without one: it lies beyond the speeds of the study, if anywhere."""
+    """Number of saws without one within the speeds of the study."""
 
     median_rpm: float | None
-    """Half of the saws lie below; null where it lies beyond the speeds of the study."""
+    """Median; null if it exceeds the speeds of the study."""
 
     quantiles: tuple[Quantile, ...]
     """Speeds below which given shares of the saws lie."""
 
     histogram: Histogram | None
-    """Counts; none without saws."""
+    """Histogram; null without saws."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StudyCriterion(Entry):
-    """How many saws keep one limit."""
+    """Number of saws that keep one limit."""
 
     key: str
-    """In a word, as in the columns of the table."""
+    """Short name, as in the columns of the table."""
 
     name: str
-    """What is compared, in words."""
+    """The limit in words."""
 
     asked_rpm: float
-    """The speed asked for."""
+    """Speed required."""
 
     passed: int
-    """Saws that keep it."""
+    """Number of saws that keep it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Passing(Entry):
-    """How many saws keep all limits. A saw that was refused or failed keeps none."""
+    """Share of saws that keep all limits. A saw that was refused or failed keeps none."""
 
     passed: int
-    """Saws that keep every limit."""
+    """Number of saws that keep every limit."""
 
     probability: float
     """Their share of all."""
@@ -2105,38 +2108,38 @@ class Passing(Entry):
     """Confidence of the interval."""
 
     interval: FloatArray | None
-    """Interval of the probability (Clopper and Pearson's, for as many independent saws;
-    scrambled Sobol points are spread more evenly than these). Null for a grid, of which the
-    share is exact, and for all of several groups, which share their deviations."""
+    """Interval of the probability (by Clopper and Pearson for independent saws; scrambled Sobol
+    points are more even). Null for a grid, whose share is exact, and for all of several groups,
+    which have the same deviations."""
 
     criteria: tuple[StudyCriterion, ...]
-    """Saws that keep each limit."""
+    """Number of saws that keep each limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Group(Entry):
-    """Saws that belong together."""
+    """A group of saws."""
 
     grid: tuple[Grid, ...]
-    """Where in the grid; empty for all saws."""
+    """Point of the grid; empty for all saws."""
 
     saws: int
     """Number of saws."""
 
     refused: int
-    """Of these, saws with numbers that no saw can have."""
+    """Number of saws with impossible values."""
 
     failed: int
-    """Of these, saws that could not be analysed."""
+    """Number of saws that could not be analysed."""
 
     lowest_critical: Speed
-    """Lowest critical speed of those analysed."""
+    """Lowest critical speed of the analysed saws."""
 
     flutter: Speed
-    """Flutter speed of those analysed."""
+    """Flutter speed of the analysed saws."""
 
     passing: Passing | None
-    """How many keep the limits, where the study has any."""
+    """Share of saws that keep the limits, if the study has any."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2144,15 +2147,15 @@ class Refusal(Entry):
     """A saw that was not analysed."""
 
     saw: int
-    """Its number."""
+    """Its number in the study."""
 
     reason: str
-    """Why."""
+    """Reason."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReliabilityPoint(Entry):
-    """The share of the saws that can be run at a speed."""
+    """Share of the saws that can run at a speed."""
 
     operating_rpm: float
     """The speed."""
@@ -2163,20 +2166,20 @@ class ReliabilityPoint(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reliability(Entry):
-    """How many saws can be run, by the speed at which they are: up to that speed they keep the
-    margin to their lowest critical speed, and do not flutter. A saw that was refused or failed
-    cannot."""
+    """Share of saws that can run, over the operating speed: at that speed they keep the margin
+    to their lowest critical speed and do not flutter. A saw that was refused or failed cannot
+    run."""
 
     margin: float
-    """Largest share of the lowest critical speed that the operating speed may be: that of the
-    limits, or the usual one."""
+    """Largest ratio of the operating speed to the lowest critical speed: that of the limits, or
+    the usual one."""
 
     fastest: tuple[Quantile, ...]
-    """The highest speeds at which given shares of the saws can be run; null where it lies
-    beyond the speeds of the study, or fewer saws were analysed."""
+    """Highest operating speeds for given shares of the saws; null if it exceeds the speeds of
+    the study, or fewer saws were analysed."""
 
     curve: tuple[ReliabilityPoint, ...]
-    """Shares of the saws that can be run at even speeds."""
+    """Shares of the saws that can run at evenly spaced speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2184,18 +2187,18 @@ class WorstSaw(Entry):
     """A saw with a low speed."""
 
     saw: int
-    """Its number."""
+    """Its number in the study."""
 
     rpm: float
-    """Its speed."""
+    """Its lowest speed."""
 
     values: FloatArray
-    """The numbers that vary, in the order of the study."""
+    """Values of the varying numbers, in the order of the study."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StudyReport(Entry):
-    """Quantiles and probabilities of a study, and what it was asked."""
+    """Quantiles and probabilities of a study, and its inputs."""
 
     sawflutter: str
     """Version of the program."""
@@ -2204,34 +2207,34 @@ class StudyReport(Entry):
     """The saw without deviations."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     study: StudyDict
     """The study."""
 
     swept_to_rpm: float
-    """Last speed looked at."""
+    """Last speed of the sweep."""
 
     largest_estimated_relative_error: float
     """Largest estimated relative error of the critical speeds of any saw."""
 
     saws_with_krein_violations: int
-    """Saws with a speed at which the Krein index did not match; expected 0."""
+    """Number of saws with a speed at which the Krein index disagrees; 0 is expected."""
 
     all: Group
     """All saws together."""
 
     groups: tuple[Group, ...]
-    """The saws drawn in each point of the grid, where there are both, and no more than 10 000
+    """Saws of each point of the grid, if there are random saws too and at most 10 000
     points."""
 
     not_analysed: tuple[Refusal, ...]
     """The first saws that were not analysed."""
 
     reliability: Reliability | None
-    """How many saws can be run, by the speed at which they are; null where no saw has a
-    critical or a flutter speed."""
+    """Share of saws that can run, over the operating speed; null if no saw has a critical or a
+    flutter speed."""
 
     worst_lowest_critical: tuple[WorstSaw, ...]
     """The saws with the lowest first critical speed, ascending."""
@@ -2240,8 +2243,8 @@ class StudyReport(Entry):
     """The saws with the lowest flutter speed, ascending."""
 
     processors: tuple[str, ...]
-    """Kinds of processors that have computed the saws, where there are several: the last digits
-    of a speed may differ between them."""
+    """Kinds of processors that have computed the saws, if there are several: the last digits of
+    a speed may differ between them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2279,10 +2282,10 @@ class WashboardMode(Entry):
     """A mode with the delayed force."""
 
     name: str
-    """Its harmonics in words, with shares where none dominates."""
+    """Its harmonics, with shares if none dominates."""
 
     direction: Direction
-    """How the wave runs, seen from space."""
+    """Direction of the wave, seen from space."""
 
     frequency_hz: float
     """Im λ/2π in space."""
@@ -2291,20 +2294,21 @@ class WashboardMode(Entry):
     """Re λ."""
 
     growth_without_per_s: float | None
-    """Re λ of the mode without the delayed force; null for one that only the delay makes."""
+    """Re λ of the mode without the delayed force; null for a mode that exists only because of
+    the delay."""
 
     frequency_without_hz: float | None
     """Im λ/2π of the mode without the delayed force."""
 
     tooth_passing_multiple: int | None
-    """The multiple of the tooth passing frequency next to its frequency; null for teeth that
-    are not evenly spaced."""
+    """Multiple of the tooth passing frequency that is nearest to its frequency; null for
+    unevenly spaced teeth."""
 
     beside_tooth_passing_hz: float | None
-    """Its frequency less that multiple."""
+    """Difference between its frequency and this multiple."""
 
     pattern_pitch_m: float | None
-    """Length of a wave of its pattern on the board, along the feed; null without a feed."""
+    """Wavelength of its pattern on the board, along the feed; null without a feed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2315,19 +2319,19 @@ class Lobes(Entry):
     """Rotation speeds."""
 
     critical_stiffness_n_per_m: FloatArray
-    """Least cutting stiffness at which a motion grows; null where there is none up to
-    `ceiling_n_per_m`, zero where one grows without the delayed force."""
+    """Smallest cutting stiffness at which a motion grows; null if it exceeds `ceiling_n_per_m`,
+    zero if a motion grows without the delayed force."""
 
     frequency_hz: FloatArray
-    """Frequency at which it begins to."""
+    """Frequency of this motion."""
 
     confirmed: BoolArray
-    """Whether the argument principle says that nothing grows right below it."""
+    """Whether the argument principle confirms that nothing grows just below it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WashboardReport(Entry):
-    """washboard.json."""
+    """Report of a washboarding analysis (washboard.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -2336,8 +2340,8 @@ class WashboardReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     rpm: float
     """Rotation speed of the verdict."""
@@ -2346,45 +2350,46 @@ class WashboardReport(Entry):
     """Whether a motion grows at that speed."""
 
     tooth_passing_hz: float
-    """Teeth that pass in a second."""
+    """Number of teeth that pass per second."""
 
     delays_s: FloatArray
-    """Times from tooth to tooth: one of even teeth, else each of those that repeat."""
+    """Times between successive teeth: one for even teeth, otherwise one for each pitch that
+    repeats."""
 
     stiffness_n_per_m: float
     """Lateral cutting stiffness of all teeth in the cut together."""
 
     overlap: float
-    """Share of a tooth's cut on the surface left by the tooth before."""
+    """Share of a tooth's cut on the surface left by the preceding tooth."""
 
     arc_deg: float
     """Arc of the rim on which the force acts."""
 
     feed_m_per_s: float | None
-    """Speed at which the wood is fed, if it is given."""
+    """Feed speed of the wood, if given."""
 
     critical_stiffness_n_per_m: float | None
-    """Least cutting stiffness at which a motion grows at that speed; null where there is none
-    up to `ceiling_n_per_m`, zero where one grows without the delayed force."""
+    """Smallest cutting stiffness at which a motion grows at that speed; null if it exceeds
+    `ceiling_n_per_m`, zero if a motion grows without the delayed force."""
 
     critical_frequency_hz: float | None
-    """Frequency at which it then begins to."""
+    """Frequency of this motion."""
 
     growing_eigenvalues: int | None
-    """Eigenvalues in the right half plane, counted by the argument principle, two for each
-    oscillation; null where one lies on the imaginary axis."""
+    """Number of eigenvalues in the right half plane by the argument principle, two for each
+    oscillation; null if one lies on the imaginary axis."""
 
     growing_eigenvalues_without: int
-    """The same without the delayed force."""
+    """This number without the delayed force."""
 
     modes: tuple[WashboardMode, ...]
-    """Modes at that speed, the fastest growing or slowest decaying first."""
+    """Modes at that speed, in descending order of growth."""
 
     lobes: Lobes
-    """Least cutting stiffness at which a motion grows, over the speed."""
+    """Smallest cutting stiffness at which a motion grows, over the speed."""
 
     ceiling_n_per_m: float
-    """Cutting stiffness up to which it was looked for."""
+    """Largest cutting stiffness of the search."""
 
     complete_to_hz: float
     """Frequency up to which the modes are complete."""

@@ -36,21 +36,21 @@ class ThicknessRowDict(TypedDict):
     """Distance from the axis."""
 
     thickness_m: float
-    """Thickness of the plate there."""
+    """Thickness of the plate at this radius."""
 
 
 class _RimDict(TypedDict):
-    """Mass of teeth or of carbide tips, taken as spread evenly along a circle."""
+    """Mass of teeth or of carbide tips, distributed evenly along a circle."""
 
     mass_per_tooth_kg: float
-    """Mass of one tooth, or of one tip; blade.teeth says how many there are."""
+    """Mass of one tooth or of one tip; blade.teeth is their number."""
 
 
 class RimDict(_RimDict, total=False):
-    """Mass of teeth or of carbide tips, taken as spread evenly along a circle."""
+    """Mass of teeth or of carbide tips, distributed evenly along a circle."""
 
     radius_m: float | None
-    """Distance of its centre from the axis; by default that of the rim."""
+    """Distance of its centre from the axis; by default the radius of the rim."""
 
 
 class _BladeDict(TypedDict):
@@ -63,7 +63,7 @@ class _BladeDict(TypedDict):
     """Diameter of the bore."""
 
     thickness_m: float
-    """Thickness of the plate; with a profile, from the bore to the first row of it."""
+    """Thickness of the plate; with a profile, from the bore to its first row."""
 
     material: MaterialDict
     """Linear elastic, isotropic."""
@@ -73,12 +73,13 @@ class BladeDict(_BladeDict, total=False):
     """An annular blade."""
 
     profile: list[ThicknessRowDict]
-    """Thickness at ascending radii, straight between the rows and constant beyond the last; two
-    rows of one radius make a step, and so does a first row of another thickness. By default the
-    blade has one thickness."""
+    """Thickness at ascending radii, linear between the rows and constant beyond the last. Two
+    rows at one radius are a step, and so is a first row of another thickness. By default the
+    thickness is uniform."""
 
     teeth: int | None
-    """Number of teeth; they carry no stiffness in the model, and mass where `rim` gives it."""
+    """Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives
+    it."""
 
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
@@ -108,61 +109,62 @@ MountDict: TypeAlias = MountSplineDict | MountCollarDict
 
 
 class _GuideDict(TypedDict):
-    """A rectangular guide pad, its sides along and across the radius at its centre. Without
+    """A rectangular guide pad with sides along and across the radius at its centre. With zero
     size it is a point spring."""
 
     radius_m: float
     """Distance of the pad's centre from the axis."""
 
     angle_deg: float
-    """Angle of the pad's centre, from the cut (θ = 0), positive with the rotation."""
+    """Angle of the pad's centre, from the cut (θ = 0), positive in the direction of
+    rotation."""
 
     radial_length_m: float
-    """Side along the radius."""
+    """Length along the radius."""
 
     tangential_length_m: float
-    """Side across the radius."""
+    """Length across the radius."""
 
     stiffness_n_per_m: float
     """Lateral stiffness of the whole pad, both faces together."""
 
 
 class GuideDict(_GuideDict, total=False):
-    """A rectangular guide pad, its sides along and across the radius at its centre. Without
+    """A rectangular guide pad with sides along and across the radius at its centre. With zero
     size it is a point spring."""
 
     damping_n_s_per_m: float
     """Lateral viscous damping of the whole pad, fixed in space."""
 
     gap_m: float | None
-    """Gap between the pad and a face of the blade, such as its film of water: `check` holds the
-    static deflection in the cut against it. A linear pad acts within it all the same. Not
-    looked at by default."""
+    """Gap between the pad and a face of the blade, such as its film of water; `check` compares
+    it with the static deflection in the cut. A linear pad acts as if it had no gap. Not checked
+    by default."""
 
     contact: ContactLaw
     """Whether the pad acts at any deflection, which is the default, or only beyond the gap."""
 
     side: GuideSide
-    """Sides of the blade on which a one-sided pad stands; both by default."""
+    """Sides of the blade on which a one-sided pad is; both by default."""
 
     film_stiffness_n_per_m: float
-    """Lateral stiffness of the whole pad inside the gap if it is one-sided, such as that of a
-    film of water. Zero by default."""
+    """Lateral stiffness of the whole one-sided pad inside the gap, such as that of a film of
+    water. Zero by default."""
 
 
 class DampingDict(TypedDict, total=False):
-    """Damping of the blade. Each number states the frame it lives in."""
+    """Damping of the blade. Each number belongs to one frame."""
 
     material_retardation_time_s: float
-    """Kelvin–Voigt retardation time η of the material (turns with the blade)."""
+    """Kelvin–Voigt retardation time η of the material, which turns with the blade."""
 
     air_n_s_per_m3: float
-    """Viscous resistance of the surrounding air per area (at rest in space, unless it
-    turns)."""
+    """Viscous resistance per area of the surrounding air, which is at rest in space unless it
+    turns."""
 
     air_rotation_share: float
-    """Share of the blade's speed with which this air turns: 0 for air at rest, by default; 1
-    for air that goes with the blade."""
+    """Ratio of the rotation speed of this air to that of the blade: 0, by default, for air at
+    rest; 1 for air that turns with the blade."""
 
 
 class TemperatureRowDict(TypedDict):
@@ -176,19 +178,19 @@ class TemperatureRowDict(TypedDict):
 
 
 class _TemperatureDict(TypedDict):
-    """Temperature over the radius, above that of the unstressed blade (which is that of a
-    collar that holds it in its plane): either a rise at the rim with its shape, or a table."""
+    """Temperature over the radius, relative to that of the unstressed blade (for a fixed
+    collar, that of the collar): either a rise at the rim with its shape, or a table."""
 
     expansion_per_k: float
     """Coefficient of linear thermal expansion; steel: 1.2e-5."""
 
 
 class TemperatureDict(_TemperatureDict, total=False):
-    """Temperature over the radius, above that of the unstressed blade (which is that of a
-    collar that holds it in its plane): either a rise at the rim with its shape, or a table."""
+    """Temperature over the radius, relative to that of the unstressed blade (for a fixed
+    collar, that of the collar): either a rise at the rim with its shape, or a table."""
 
     rim_rise_k: float | None
-    """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p from r₀ on, zero within."""
+    """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside."""
 
     from_radius_m: float | None
     """r₀; by default the bore, or the edge of the collar."""
@@ -197,22 +199,22 @@ class TemperatureDict(_TemperatureDict, total=False):
     """p; by default 1."""
 
     table: list[TemperatureRowDict]
-    """Rises at ascending radii, straight between the rows and constant beyond them."""
+    """Rises at ascending radii, linear between the rows and constant beyond them."""
 
 
 class RollBandDict(TypedDict):
-    """A band that a roller has gone over. Squeezed in its thickness, it would spread in its
-    plane; the metal around holds it, and is stretched along the rim."""
+    """A rolled band. Rolling reduces its thickness, so that it would expand in its plane; the
+    surrounding metal restrains it and is stretched along the rim."""
 
     radius_m: float
     """Radius of its middle."""
 
     width_m: float
-    """Its width along the radius."""
+    """Width along the radius."""
 
     eigenstrain: float
-    """Strain by which it would spread in its plane if it were free, the same in all directions;
-    positive for rolling."""
+    """In-plane strain that the band would have if it were free, isotropic; positive for
+    rolling."""
 
 
 class _ResidualStressRowDict(TypedDict):
@@ -222,81 +224,81 @@ class _ResidualStressRowDict(TypedDict):
     """Distance from the axis."""
 
     hoop_pa: float
-    """Stress along the rim, tension positive. The radial stress follows from it."""
+    """Stress along the circumference, positive in tension. The radial stress follows from
+    it."""
 
 
 class ResidualStressRowDict(_ResidualStressRowDict, total=False):
     """Residual stress at one radius."""
 
     radial_pa: float | None
-    """Stress along the radius, if measured too: refused where the hoop stress contradicts
-    it."""
+    """Stress along the radius, if measured too; refused if it contradicts the hoop stress."""
 
 
 class MembraneDict(TypedDict, total=False):
-    """Stress in the plane of the blade, the same all around. What is not named is not there."""
+    """Axisymmetric stress in the plane of the blade. Missing parts are zero."""
 
     temperature: TemperatureDict | None
     """Heat of the cut and of guides."""
 
     roll_tension: list[RollBandDict]
-    """Bands that a roller has spread."""
+    """Bands that were rolled."""
 
     residual_stress: list[ResidualStressRowDict]
-    """Residual stress as measured, at ascending radii: straight between the rows, constant
-    beyond them."""
+    """Measured residual stress at ascending radii: linear between the rows, constant beyond
+    them."""
 
 
 class _SplineDict(TypedDict):
-    """Contact between the splined bore and the arbor; with it the motion of the blade in its
-    own plane is simulated. The paper states the clearance. It gives neither the number of
-    spline teeth nor their shape, and for the contact two numbers whose units do not fit its
-    formula F = K x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Taken in metres,
-    2.2e5 N/m^{3/2} lets the weight of the paper's blade alone sink millimetres into a tooth. In
-    millimetres, the usual unit of the program the paper used, they are 6.96e9 N/m^{3/2} and
-    4.74e3 N/(m/s)^{3/2}. So neither has a default here."""
+    """Contact between the splined bore and the arbor; with it the in-plane motion of the blade
+    is simulated. The paper states the clearance. It gives neither the number of spline teeth
+    nor their shape, and for the contact two numbers whose units do not fit its formula F = K
+    x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Interpreted in metres, with 2.2e5
+    N/m^{3/2} the weight of the paper's blade alone would cause an approach of millimetres. In
+    millimetres, the usual unit of the program used in the paper, they are 6.96e9 N/m^{3/2} and
+    4.74e3 N/(m/s)^{3/2}. Therefore neither has a default."""
 
     teeth: int
     """Number of spline teeth."""
 
     pressure_angle_deg: float
-    """Angle of a flank to the radius through it: 0 for straight-sided teeth, 30 for the usual
-    involute spline."""
+    """Angle between a flank and the radius through it: 0 for straight-sided teeth, 30 for the
+    usual involute spline."""
 
     contact_stiffness_n_per_m_3_2: float
-    """K of the contact force K x^{3/2} at a flank that is pressed in by x."""
+    """K of the contact force K x^{3/2} at the approach x of a flank."""
 
     contact_damping_n_s_3_2_per_m_3_2: float
-    """C of the contact force C ẋ^{3/2} at a flank that is pressed in at the speed ẋ."""
+    """C of the contact force C ẋ^{3/2} at the speed of approach ẋ of a flank."""
 
 
 class SplineDict(_SplineDict, total=False):
-    """Contact between the splined bore and the arbor; with it the motion of the blade in its
-    own plane is simulated. The paper states the clearance. It gives neither the number of
-    spline teeth nor their shape, and for the contact two numbers whose units do not fit its
-    formula F = K x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Taken in metres,
-    2.2e5 N/m^{3/2} lets the weight of the paper's blade alone sink millimetres into a tooth. In
-    millimetres, the usual unit of the program the paper used, they are 6.96e9 N/m^{3/2} and
-    4.74e3 N/(m/s)^{3/2}. So neither has a default here."""
+    """Contact between the splined bore and the arbor; with it the in-plane motion of the blade
+    is simulated. The paper states the clearance. It gives neither the number of spline teeth
+    nor their shape, and for the contact two numbers whose units do not fit its formula F = K
+    x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Interpreted in metres, with 2.2e5
+    N/m^{3/2} the weight of the paper's blade alone would cause an approach of millimetres. In
+    millimetres, the usual unit of the program used in the paper, they are 6.96e9 N/m^{3/2} and
+    4.74e3 N/(m/s)^{3/2}. Therefore neither has a default."""
 
     clearance_m: float
-    """Gap between a flank and its mate when the blade is centred."""
+    """Gap between two flanks while the blade is centred."""
 
     pitch_radius_m: float | None
-    """Where the flanks touch; by default at the bore."""
+    """Radius of the contact; by default that of the bore."""
 
     weight_angle_deg: float | None
-    """Direction in which the blade's weight acts, from the cut (θ = 0), positive with the
+    """Direction of the weight of the blade, from the cut (θ = 0), positive in the direction of
     rotation. Without it the weight does not act in the plane of the blade."""
 
 
 class ExcitationDict(TypedDict, total=False):
-    """Lines of the Campbell diagram at multiples of the rotation speed, and where they cross
-    the natural frequencies."""
+    """Lines of the Campbell diagram at multiples of the rotation speed, and their crossings
+    with the natural frequencies."""
 
     orders: int
-    """Lines 1×, 2×, … up to this multiple of the rotation speed: a warp or an unbalance of the
-    blade as the guides see it. None by default."""
+    """Lines 1×, 2×, … up to this multiple of the rotation speed: frequencies at which a warped
+    or unbalanced blade excites itself at the guides. None by default."""
 
     tooth_passing: int
     """Lines at the tooth passing frequency, which is the number of teeth times the rotation
@@ -318,8 +320,7 @@ class SweepDict(_SweepDict, total=False):
 
 
 class WoodDict(TypedDict, total=False):
-    """Wood in the kerf, a spring and a damper that stand in space around the middle of the
-    cut."""
+    """Wood in the kerf, a spring and a damper fixed in space around the middle of the cut."""
 
     stiffness_n_per_m: float
     """Lateral stiffness of the whole contact, both faces of the blade together."""
@@ -328,7 +329,7 @@ class WoodDict(TypedDict, total=False):
     """Lateral viscous damping of the whole contact."""
 
     depth_m: float
-    """How far the contact reaches from the rim towards the axis; by default it is an arc of the
+    """Extent of the contact from the rim towards the axis; by default it is an arc of the
     rim."""
 
     arc_deg: float | None
@@ -337,39 +338,39 @@ class WoodDict(TypedDict, total=False):
 
 class _WashboardingDict(TypedDict):
     """The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the
-    surface that the tooth before it has left at the same place in space, one tooth period τ
-    ago."""
+    surface that the preceding tooth left at the same point in space, one tooth period τ
+    earlier."""
 
     stiffness_n_per_m: float
-    """Lateral cutting stiffness k of all teeth in the cut together: the force across the blade
-    for each metre that the teeth cut beside the surface left by those before."""
+    """Lateral cutting stiffness k of all teeth in the cut together: lateral force per metre of
+    lateral distance between the teeth and the surface left by the preceding ones."""
 
 
 class WashboardingDict(_WashboardingDict, total=False):
     """The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the
-    surface that the tooth before it has left at the same place in space, one tooth period τ
-    ago."""
+    surface that the preceding tooth left at the same point in space, one tooth period τ
+    earlier."""
 
     overlap: float
-    """Share μ of a tooth's cut that lies on the surface left by the tooth before, 0 to 1."""
+    """Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1."""
 
     arc_deg: float | None
     """Arc of the rim on which the force acts; by default that of the teeth in the cut."""
 
     pitches_deg: list[float]
-    """Angles from tooth to tooth, repeated around the blade, of teeth that are not evenly
+    """Angles between successive teeth, repeated around the blade, if teeth are unevenly
     spaced."""
 
 
 class _CutSpeedDict(TypedDict):
-    """A speed at which the saw cuts. What is not given is that of the cut."""
+    """A speed of the cut. Missing values are those of the cut."""
 
     rpm: float
     """Rotation speed."""
 
 
 class CutSpeedDict(_CutSpeedDict, total=False):
-    """A speed at which the saw cuts. What is not given is that of the cut."""
+    """A speed of the cut. Missing values are those of the cut."""
 
     tangential_n_per_tooth: float | None
     """Force against the rotation on each tooth."""
@@ -384,24 +385,25 @@ class CutSpeedDict(_CutSpeedDict, total=False):
     """Power of the cut."""
 
     feed_m_per_s: float | None
-    """Speed at which the wood is fed."""
+    """Feed speed of the wood."""
 
 
 class CutDict(TypedDict, total=False):
-    """Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth, or
-    the depth of cut; the tangential force, or the power."""
+    """Forces of the wood on the teeth in the cut, fixed in space. Give the number of teeth or
+    the depth of cut, and the tangential force or the power."""
 
     angle_deg: float
-    """Angle of the middle of the cut, positive with the rotation."""
+    """Angle of the middle of the cut, positive in the direction of rotation."""
 
     depth_m: float | None
-    """Depth of cut; over the pitch of the teeth it gives their number."""
+    """Depth of cut; divided by the pitch of the teeth it gives the number of teeth in the
+    cut."""
 
     teeth_in_cut: int | None
-    """Number of teeth in the cut at a time; wins over the depth."""
+    """Number of teeth that cut at the same time; it has precedence over the depth."""
 
     tangential_n_per_tooth: float | None
-    """Force against the rotation on each tooth; wins over the power."""
+    """Force on each tooth against the rotation; it has precedence over the power."""
 
     radial_n_per_tooth: float | None
     """Force towards the axis on each tooth."""
@@ -413,8 +415,8 @@ class CutDict(TypedDict, total=False):
     """Power of the cut."""
 
     feed_m_per_s: float | None
-    """Speed at which the wood is fed; with the length of the board it tells how long the cut
-    takes."""
+    """Feed speed of the wood; with the length of the board it determines the duration of the
+    cut."""
 
     board_length_m: float | None
     """Length of the board. Without it, or without the feed, the cut takes one second."""
@@ -423,23 +425,23 @@ class CutDict(TypedDict, total=False):
     """Time shown before and after the cut."""
 
     chart_rpm: float | None
-    """Speed of the cut whose forces bear on the saw in `analyze`, `check`, `fit`, `place` and
-    `study`, whatever the speed there: a dead load. By default they look at the idling saw."""
+    """Speed of the cut whose forces act on the saw in `analyze`, `check`, `fit`, `place` and
+    `study`, as dead loads at every speed. By default these commands compute the idling saw."""
 
     wood: WoodDict | None
-    """The wood that leans against the blade in the kerf. None by default."""
+    """Contact of the blade with the wood in the kerf. None by default."""
 
     washboarding: WashboardingDict | None
-    """The force on a tooth that cuts the surface left by the one before, for `sawflutter
+    """Force on a tooth that cuts the surface left by the preceding one, for `sawflutter
     washboard`. None by default."""
 
     stretching: bool
-    """Whether the blade stretches where it bends by more than a part of its thickness: then the
-    record does not end at five thicknesses, but where slopes exceed 0.1. What says whether a
-    motion grows stays linear. It takes longer."""
+    """Whether the model includes stretching of the middle surface at large deflections: then
+    the record ends where slopes exceed 0.1, and not at five thicknesses. The criteria of growth
+    remain linear. It takes longer."""
 
     speeds: list[CutSpeedDict]
-    """Speeds at which the saw cuts, and what differs there. By default the operating speed."""
+    """Speeds of the cut, with the values that differ. By default the operating speed."""
 
 
 class _RunUpDict(TypedDict):
@@ -449,7 +451,7 @@ class _RunUpDict(TypedDict):
     """Last speed."""
 
     duration_s: float
-    """Time it takes."""
+    """Duration."""
 
     force_n: float
     """Lateral force at the rim."""
@@ -462,22 +464,22 @@ class RunUpDict(_RunUpDict, total=False):
     """First speed."""
 
     angle_deg: float
-    """Angle of the force, positive with the rotation."""
+    """Angle of the force, positive in the direction of rotation."""
 
     stretching: bool
-    """Whether the blade stretches where it bends by more than a part of its thickness: then the
-    record does not end at five thicknesses, but where slopes exceed 0.1. It takes longer."""
+    """Whether the model includes stretching of the middle surface at large deflections: then
+    the record ends where slopes exceed 0.1, and not at five thicknesses. It takes longer."""
 
 
 class _ProbeDict(TypedDict):
-    """Where the deflection is read."""
+    """Point at which the deflection is read."""
 
     angle_deg: float
-    """Angle, positive with the rotation."""
+    """Angle, positive in the direction of rotation."""
 
 
 class ProbeDict(_ProbeDict, total=False):
-    """Where the deflection is read."""
+    """Point at which the deflection is read."""
 
     radius_m: float | None
     """Distance from the axis; the rim by default."""
@@ -490,22 +492,21 @@ class MeasuredRowDict(TypedDict):
     """Rotation speed."""
 
     frequencies_hz: list[float | None]
-    """Frequencies in the space-fixed frame, lowest first; null in the place of one that was not
-    seen."""
+    """Frequencies in the space-fixed frame, ascending; null for one that was not measured."""
 
 
 class MeasuredDict(TypedDict):
-    """Frequencies from elsewhere, drawn over the chart."""
+    """Frequencies from another source, shown in the Campbell diagram."""
 
     source: str
-    """Who measured or published them."""
+    """Source of the frequencies."""
 
     rows: list[MeasuredRowDict]
-    """One row a speed."""
+    """One row for each speed."""
 
 
 class _SceneDict(TypedDict):
-    """A saw and what to find out about it, as written in a scene file."""
+    """A saw and the analysis, as written in a scene file."""
 
     name: str
     """Title of reports and figures."""
@@ -514,14 +515,14 @@ class _SceneDict(TypedDict):
     """The blade."""
 
     mount: MountDict
-    """How the bore is held."""
+    """Support of the bore."""
 
 
 class SceneDict(_SceneDict, total=False):
-    """A saw and what to find out about it, as written in a scene file."""
+    """A saw and the analysis, as written in a scene file."""
 
     notes: list[str]
-    """Where the numbers come from: measured, assumed, calibrated."""
+    """Origin of the numbers: measured, assumed, calibrated."""
 
     guides: list[GuideDict]
     """Guide pads, fixed in space. None by default."""
@@ -530,13 +531,13 @@ class SceneDict(_SceneDict, total=False):
     """Damping. None by default, as in the classical analysis."""
 
     membrane: MembraneDict | None
-    """Membrane stress from heat, roll tension or as measured. None by default."""
+    """Membrane stress from heat, roll tension or measurement. None by default."""
 
     spline: SplineDict | None
     """Contact between bore and splined arbor. Not simulated by default."""
 
     operating_rpm: float | None
-    """Speed at which the saw is run, held against the 85 % rule."""
+    """Operating speed, to which the 85 % rule applies."""
 
     excitation: ExcitationDict | None
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
@@ -545,13 +546,13 @@ class SceneDict(_SceneDict, total=False):
     """Range of speeds; by default from rest to twice the lowest critical speed."""
 
     accuracy: Accuracy
-    """Speed for accuracy."""
+    """Accuracy by name; a lower one is faster."""
 
     tolerance: float | None
-    """Relative error allowed of critical speeds and onsets, instead of a named accuracy."""
+    """Relative error allowed for critical speeds and onsets, in place of a named accuracy."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which an oscillatory band counts as flutter of the saw."""
+    """Growth rate from which on an oscillatory band counts as flutter."""
 
     cut: CutDict | None
     """Forces of the wood on the teeth, for `sawflutter cut`."""
@@ -560,14 +561,15 @@ class SceneDict(_SceneDict, total=False):
     """Run-up under a lateral force, for `sawflutter runup`."""
 
     probe: ProbeDict | None
-    """Where the deflection is read; by default at the rim, 90° past the cut."""
+    """Point at which the deflection is read; by default at the rim, 90° downstream of the
+    cut."""
 
     measured: MeasuredDict | None
     """Measured or published frequencies to show beside the computed ones."""
 
 
 class DistributionToleranceDict(TypedDict):
-    """Evenly about the scene's value."""
+    """Uniform about the scene's value."""
 
     kind: Literal["tolerance"]
     """Which kind it is."""
@@ -576,7 +578,7 @@ class DistributionToleranceDict(TypedDict):
     """Largest deviation to either side."""
 
 
-# Evenly between two values.
+# Uniform between two values.
 DistributionUniformDict = TypedDict("DistributionUniformDict", {
     "kind": Literal["uniform"],
     "from": float,
@@ -585,27 +587,27 @@ DistributionUniformDict = TypedDict("DistributionUniformDict", {
 
 
 class _DistributionNormalDict(TypedDict):
-    """Normally, cut off on both sides: nobody sells what is far outside."""
+    """Normal, truncated on both sides, because saws far outside are not sold."""
 
     kind: Literal["normal"]
     """Which kind it is."""
 
     standard_deviation: float
-    """Standard deviation, before the cut."""
+    """Standard deviation before truncation."""
 
 
 class DistributionNormalDict(_DistributionNormalDict, total=False):
-    """Normally, cut off on both sides: nobody sells what is far outside."""
+    """Normal, truncated on both sides, because saws far outside are not sold."""
 
     mean: float | None
     """Mean; the scene's value by default."""
 
     truncated_at_deviations: float
-    """Where it is cut, in standard deviations from the mean."""
+    """Truncation, in standard deviations from the mean."""
 
 
 class DistributionGridDict(TypedDict):
-    """Each of these values, with every combination of the others."""
+    """Every value of a list, combined with all values of the others."""
 
     kind: Literal["grid"]
     """Which kind it is."""
@@ -624,28 +626,28 @@ class ParameterDict(TypedDict):
     """Its JSON path in the scene, like `guides[0].radius_m`."""
 
     distribution: DistributionDict
-    """How it varies, in its own unit."""
+    """Distribution, in the unit of the number."""
 
 
 class LimitsDict(TypedDict, total=False):
-    """What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a
+    """Limits of a saw, as options of `sawflutter check` and in the block `limits` of a
     study."""
 
     operating_rpm: float | None
-    """Speed at which it is run; the scene's by default."""
+    """Operating speed; by default that of the scene."""
 
     margin: float
-    """Largest share of the lowest critical speed that the operating speed may be."""
+    """Largest ratio of the operating speed to the lowest critical speed."""
 
     min_flutter_rpm: float | None
-    """Least flutter speed."""
+    """Lower limit of the flutter speed."""
 
     min_critical_rpm: float | None
-    """Least first critical speed."""
+    """Lower limit of the first critical speed."""
 
 
 class _StudyDict(TypedDict):
-    """Which numbers of a scene vary, how, and what the saws have to keep."""
+    """Numbers of a scene that vary, their distributions, and limits of the saws."""
 
     name: str
     """Title of reports and figures."""
@@ -655,26 +657,26 @@ class _StudyDict(TypedDict):
 
 
 class StudyDict(_StudyDict, total=False):
-    """Which numbers of a scene vary, how, and what the saws have to keep."""
+    """Numbers of a scene that vary, their distributions, and limits of the saws."""
 
     notes: list[str]
-    """Where the numbers come from: measured, assumed."""
+    """Origin of the numbers: measured, assumed."""
 
     saws: int | None
-    """Saws drawn from the distributions, in every point of the grid; left out where all
-    parameters are grids. Powers of two fill the ranges most evenly."""
+    """Number of random saws, in every point of the grid; omit it if all parameters are grids.
+    Powers of two are most evenly distributed."""
 
     seed: int
-    """Another seed draws other saws."""
+    """Seed of the random saws."""
 
     to_rpm: float | None
-    """Last speed looked at; by default the end of the scene's sweep. Limits extend it."""
+    """Last speed of the sweep; by default the end of the scene's sweep. Limits extend it."""
 
     limits: LimitsDict | None
-    """What each saw is held against, as by `sawflutter check`."""
+    """Limits of each saw, as for `sawflutter check`."""
 
     quantiles: list[float]
-    """Shares of the saws whose speeds are reported."""
+    """Shares of the saws for which quantiles of the speeds are reported."""
 
     confidence: float
     """Confidence of the interval around the probability of passing."""

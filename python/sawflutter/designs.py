@@ -46,7 +46,7 @@ class PlaceResults(Result, PlaceReport):
         robust = "fragile" if self.fragile else "robust"
         kept = "" if self.kept else ", but the lower limit of the first critical speed is NOT kept"
         goal = f"{self.best.goal_rpm:.0f} rpm, before {self.before.goal_rpm:.0f}"
-        worst = f"{1e2 * self.worst_neighbour_share:.0f} % at the worst of its tolerances"
+        worst = f"{1e2 * self.worst_neighbour_share:.0f} % in the worst case of its tolerances"
         return f"{found}; {goal}, {robust}: {worst}{kept}"
 
 

@@ -45,7 +45,7 @@ impl Limits {
         let asked = operating / margin;
         let finding = match lowest_critical {
             None => format!(
-                "no critical speed to hold {} rpm against was found",
+                "no critical speed was found to compare {} rpm with",
                 typed_rpm(operating)
             ),
             Some(critical) => {
@@ -133,11 +133,11 @@ impl Limits {
         });
         let finding = match first {
             None => format!(
-                "no flutter rises further up to {:.0} rpm, where the search ends",
+                "no flutter rises above the limit up to {:.0} rpm, where the search ends",
                 rpm(analysis.range_rad_per_s.1)
             ),
             Some((band, None)) => format!(
-                "not known of flutter from {:.0} rpm on, which only damping causes",
+                "not known for flutter from {:.0} rpm on, which only damping causes",
                 rpm(band.from_rad_per_s)
             ),
             Some((band, Some(found))) => format!(
@@ -232,8 +232,8 @@ pub(super) fn of_gaps(
                 key: "gap",
                 name: format!("gap of guide {} ({:.0} µm)", index + 1, 1e6 * gap_m),
                 finding: match found {
-                    Some(speed) => format!("filled in the cut from {:.0} rpm on", rpm(speed)),
-                    None => "not filled in the cut below the first critical speed".to_owned(),
+                    Some(speed) => format!("closes in the cut from {:.0} rpm on", rpm(speed)),
+                    None => "remains open in the cut below the first critical speed".to_owned(),
                 },
                 found,
                 asked: operating,

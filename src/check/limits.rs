@@ -7,20 +7,20 @@ use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s, unusual_number};
 use crate::stability::OPERATING_LIMIT;
 use crate::text::shown;
 
-/// What a saw has to keep, as the options of `sawflutter check` and the block `limits` of a study.
+/// Limits of a saw, as options of `sawflutter check` and in the block `limits` of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsFile {
-    /// Speed at which it is run; the scene's by default.
+    /// Operating speed; by default that of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
-    /// Largest share of the lowest critical speed that the operating speed may be.
+    /// Largest ratio of the operating speed to the lowest critical speed.
     #[serde(default = "default_margin")]
     pub margin: f64,
-    /// Least flutter speed.
+    /// Lower limit of the flutter speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_flutter_rpm: Option<f64>,
-    /// Least first critical speed.
+    /// Lower limit of the first critical speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_critical_rpm: Option<f64>,
 }
@@ -97,7 +97,7 @@ impl Limits {
             });
         }
         let allowed = format!("above 0 and at most {}", shown(MAX_RIM_M_PER_S));
-        let remedy = "saws for wood are run with at most 100";
+        let remedy = "saws for wood run at 100 or less";
         let key = "max_rim_m_per_s";
         Err(RefusedValue::new(key, max_rim_m_per_s, allowed, remedy))
     }
@@ -147,12 +147,12 @@ impl Limits {
                 is_asked.then_some(operating_rpm),
             ),
             (
-                "the least flutter speed",
+                "the lower limit of the flutter speed",
                 "sweep.to_rpm",
                 self.min_flutter_rad_per_s.map(rpm),
             ),
             (
-                "the least critical speed",
+                "the lower limit of the first critical speed",
                 "sweep.to_rpm",
                 self.min_critical_rad_per_s.map(rpm),
             ),

@@ -142,7 +142,7 @@ pub struct Band {
     pub colour: Hue,
     /// Label.
     pub label: String,
-    /// Description.
+    /// Description, shown at the pointer.
     pub name: String,
     /// Largest growth rate. If there is no room for all labels, those of largest growth are written.
     pub peak_growth_per_s: f64,
@@ -173,7 +173,7 @@ pub struct Upright {
     pub dashed: bool,
     /// Label at the upper end.
     pub label: String,
-    /// Description.
+    /// Description, shown at the pointer.
     pub name: String,
 }
 
@@ -192,7 +192,7 @@ pub struct Line {
     pub width: f64,
     /// Whether it is dashed.
     pub dashed: bool,
-    /// Description.
+    /// Description, shown at the pointer.
     pub name: String,
     /// Description of each point, with line breaks; empty unless requested.
     pub said: Vec<String>,
@@ -236,7 +236,7 @@ pub struct Points {
     pub size: f64,
     /// Whether they are rings.
     pub hollow: bool,
-    /// Description.
+    /// Description, shown at the pointer.
     pub name: String,
     /// Description of each point; empty unless requested.
     pub said: Vec<String>,

@@ -172,7 +172,7 @@ fn draw_stiffness(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, frame: 
     let largest = curve.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
     let said = match largest > 0.0 {
         true => format!(
-            "up to {:.1} N/mm, none at the critical speed",
+            "up to {:.1} N/mm, zero at the critical speed",
             1e-3 * largest
         ),
         false => "none: nothing holds the blade".to_owned(),
@@ -205,9 +205,9 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
         .mark(4.0, limit)
         .word("limit")
         .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, PASS))
-        .word("found, with what there is to spare")
+        .word("result, with margin")
         .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, ALARM))
-        .word("found, with what is wanting");
+        .word("result, with shortfall");
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! Letters of the built-in fonts: how wide a text is, and how plotters writes it.
+//! Width and drawing of text in the built-in fonts.
 //!
-//! In a browser plotters measures a text by the page and writes none into a picture. The same letters everywhere keep
-//! a figure the same, to the byte, wherever it is drawn.
+//! In a browser plotters measures text by the page and draws none into a picture. With these fonts a figure
+//! is the same, to the byte, wherever it is drawn.
 
 use std::sync::OnceLock;
 
@@ -22,7 +22,7 @@ const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
 /// In plotters the size of a font is 1.24 em.
 const SIZE_PER_EM: f64 = 1.24;
 
-/// The built-in fonts. `None` where they cannot be read.
+/// The built-in fonts; `None` if they cannot be read.
 fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
     static FONTS: OnceLock<[Option<FontRef<'static>>; 2]> = OnceLock::new();
     let [regular, semi_bold] = FONTS.get_or_init(|| {
@@ -38,7 +38,7 @@ fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
     }
 }
 
-/// A built-in font cannot be read.
+/// A built-in font could not be read.
 #[derive(Debug, thiserror::Error)]
 #[error("a built-in font cannot be read")]
 pub struct UnreadableFont;
@@ -64,7 +64,7 @@ fn advance(text: &str, em: f64, weight: Weight) -> Option<f32> {
 
 /// Width of a line of text in the unit of `em`.
 pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
-    // Widths are whole sixteenths, so that the last bit of a sum moves nothing.
+    // Widths are multiples of a sixteenth, so that rounding of the sum has no effect.
     const FINE: f64 = 16.0;
     match advance(text, em * FINE, weight) {
         Some(width) => f64::from(width).trunc() / FINE,

@@ -9,14 +9,14 @@ use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorte
 use crate::report::{EventShapeEntry, Report, ShapeOccasion};
 use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
 
-/// Panels side by side.
+/// Number of panels side by side.
 const COLUMNS: usize = 4;
-/// Panels of a figure: more are too many to look at.
+/// Largest number of panels of a figure.
 const MOST: usize = 16;
 const PANEL: [f64; 2] = [266.0, 336.0];
 const TOP: f64 = 86.0;
 const BELOW: f64 = 56.0;
-/// Harmonics named below a shape.
+/// Number of harmonics named below a shape.
 const NAMED: usize = 3;
 /// A harmonic with a smaller share is not named.
 const LEAST_NAMED: f64 = 0.01;
@@ -40,7 +40,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The shapes that fit: those at single speeds, which were asked for, before those of further events.
+/// The shapes that fit: requested speeds take precedence over other events.
 fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
     let is_event = |shape: &&EventShapeEntry| {
         !matches!(
@@ -88,7 +88,7 @@ fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &Even
     write(below, LABEL_SIZE, QUIET, Weight::Regular, &motion(shape));
 }
 
-/// "1531 rpm, critical", "2261 rpm, flutter".
+/// Heading: "1531 rpm, critical", "2261 rpm, flutter".
 fn heading_of(shape: &EventShapeEntry) -> String {
     let what = match shape.occasion {
         ShapeOccasion::CriticalSpeed => "critical",
@@ -100,7 +100,7 @@ fn heading_of(shape: &EventShapeEntry) -> String {
     format!("{:.0} rpm, {what}", shape.rpm)
 }
 
-/// "6.0 Hz, +0.49 1/s"; nothing of a wave that stands still.
+/// Frequency and growth: "6.0 Hz, +0.49 1/s"; empty for a wave that stands still.
 fn motion(shape: &EventShapeEntry) -> String {
     let mut parts = Vec::new();
     if shape.frequency_hz > 0.0 {
@@ -113,7 +113,7 @@ fn motion(shape: &EventShapeEntry) -> String {
     parts.join(", ")
 }
 
-/// "n = 2: 78 %, 0: 15 %".
+/// Shares of harmonics: "n = 2: 78 %, 0: 15 %".
 fn shares(shape: &EventShapeEntry) -> String {
     let seen = shape.harmonics.iter().filter(|h| h.share >= LEAST_NAMED);
     let shares = seen

@@ -93,7 +93,7 @@ fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
 fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
     let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
     key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
-        .word("best at the worst of its tolerances")
+        .word("best in the worst case of its tolerances")
         .mark(10.0, |sheet, [x, y]| {
             sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
         })
@@ -101,7 +101,7 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
         .word("colours: coarse model");
     if report.fragile_optimum.is_some() {
         key.mark(12.0, |sheet, [x, y]| draw_fragile(sheet, [x + 6.0, y]))
-            .word("better by itself, fragile");
+            .word("better nominally, fragile");
     }
     if map.kept.iter().flatten().any(|kept| !kept) {
         let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {

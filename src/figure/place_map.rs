@@ -75,7 +75,7 @@ pub fn empty() -> Sheet {
 
 pub fn title(goal: GoalEntry) -> &'static str {
     match goal {
-        GoalEntry::FlutterSpeed => "Flutter speed over the place of the guide",
+        GoalEntry::FlutterSpeed => "Flutter speed over the position of the guide",
         GoalEntry::StableWindow => "Stable window around the operating speed",
     }
 }

@@ -84,7 +84,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let notes = [
         "dots: computed eigenvalues",
         "(+) and (−): Krein signs",
-        "where Re λ = 0 the dots stand beside the axis, not on each other",
+        "where Re λ = 0 dots are drawn beside the axis to keep them apart",
     ];
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let at = [PLANE.left, f64::from(HEIGHT) - 16.0];

@@ -225,7 +225,7 @@ fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
     };
     Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0)
         .shade(FLUTTER_SHADE)
-        .word("above the least stiffness at which a motion grows")
+        .word("above the smallest stiffness at which a motion grows")
         .mark(12.0, |sheet, [x, y]| {
             sheet.ring([x + 6.0, y], 6.0, Stroke::solid(colour, 2.5), PAPER);
         })

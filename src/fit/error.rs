@@ -33,11 +33,11 @@ pub enum FitError {
     },
     /// No free number has an effect.
     #[error(
-        "no number is free that moves a measured frequency; free another one, like guides[0].radius_m"
+        "no free number changes a measured frequency; free another one, like guides[0].radius_m"
     )]
     NothingFree,
     /// Every start was refused.
-    #[error("none of {starts} starts between the bounds is a saw; narrow the bounds")]
+    #[error("none of {starts} starts between the bounds is a valid saw; narrow the bounds")]
     NoStart {
         /// Number of starts.
         starts: usize,

@@ -61,7 +61,7 @@ use settle::{Choice, Weighed, basis_of_all, settle};
 pub enum PlaceError {
     /// No free number has an effect.
     #[error(
-        "no number is free that moves a critical speed or a band; free another one, like guides[0].radius_m"
+        "no free number changes a critical speed or a band; free another one, like guides[0].radius_m"
     )]
     NothingFree,
     /// The scene itself, or every saw tried, cannot be analysed.

@@ -105,7 +105,7 @@ pub struct Plate {
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of contacts: guides, and those that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
-    /// Pads that lift off, which are linear ones in `contact`.
+    /// Pads that lift off; `contact` contains them as linear ones.
     lifting: Option<LiftingPads>,
     /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
     pub edge_stiffness: Option<Mat<f64>>,
@@ -181,8 +181,8 @@ impl Plate {
         plate
     }
 
-    /// The same plate with its pads that lift off within their gaps, where they have the stiffness of their films only; `None`
-    /// where no pad lifts off.
+    /// The plate with the pads that lift off inside their gaps, where they have only the stiffness of their
+    /// films; `None` if no pad lifts off.
     pub(crate) fn released(&self) -> Option<Self> {
         let lifting = self.lifting.as_ref()?;
         Some(Plate {

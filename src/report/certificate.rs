@@ -8,68 +8,69 @@ use serde::{Deserialize, Serialize};
 use crate::scene::rpm;
 use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, StabilityChart};
 
-/// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on
-/// the full model and by the growth found at single speeds; and how much of the sweep is proven to
-/// have no other band. See [`crate::stability`].
+/// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on the full
+/// model and by the growth found at single speeds, and the share of the sweep that is proven to have no other
+/// band. See [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateEntry {
-    /// What was found, in a sentence.
+    /// The result in a sentence.
     pub statement: String,
-    /// Number of speeds at which the Krein index was compared; for damped scenes, which have none,
-    /// of speeds at which the number of growing modes was compared with that of the bands.
+    /// Number of speeds at which the Krein index was compared; for damped scenes, which have none, of speeds
+    /// at which the number of growing modes was compared with that of the bands.
     pub speeds_checked: usize,
-    /// Number of speeds at which it did not match, not even on the full model; expected 0.
+    /// Number of speeds at which the comparison failed, also on the full model; 0 is expected.
     pub krein_violations: usize,
     /// These speeds.
     pub violating_rpm: Vec<f64>,
-    /// Number of counts of eigenvalues on the full model, independent of the reduced model, that
-    /// the modes were compared with.
+    /// Number of counts of eigenvalues on the full model, independent of the reduced model, with which the
+    /// modes were compared.
     pub full_basis_counts: usize,
-    /// Counts that were tried besides and were not certain, for an eigenvalue lies on their path.
+    /// Number of further counts that were uncertain, because an eigenvalue lies on their path.
     pub uncertain_counts: usize,
-    /// Modes that these counts say are missing, or too many; expected none.
+    /// Modes that, according to these counts, are missing or superfluous; none are expected.
     pub miscounted_modes: Vec<MiscountEntry>,
     /// Whether modes were missing at first, so that the bands were searched again on the full model.
     pub searched_again: bool,
-    /// Where the list of bands contradicts the eigenvalues that the search or the chart found;
-    /// expected none.
+    /// Speeds at which the list of bands contradicts the eigenvalues of the search or of the diagram; none
+    /// are expected.
     pub mismatches: Vec<MismatchEntry>,
     /// Whether the search for bands ended at its limit of work, so that bands may be missing.
     pub gave_up: bool,
-    /// Share of the sweep that is proven to have no instability which is not listed, rounded down
-    /// to four digits; absent where no proof was tried.
+    /// Share of the sweep that is proven to have no unlisted instability, rounded down to four digits; absent
+    /// if no proof was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proven_share: Option<f64>,
-    /// The rest, which was searched and not proven: from and to.
+    /// The remaining intervals, which were searched but not proven: from and to.
     pub unproven_rpm: Vec<[f64; 2]>,
-    /// Estimate, not proof, of the largest growth that a band hidden in the rest could have; absent
-    /// where no proof was tried.
+    /// Estimate, not proof, of the largest growth of an undetected band in the remaining intervals; absent if
+    /// no proof was tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unproven_growth_per_s: Option<f64>,
-    /// Parts of the rest in which, by the same estimate, a band could hide that counts: from and to.
+    /// Parts of the remaining intervals in which, by this estimate, the growth of an undetected band could
+    /// reach the threshold: from and to.
     pub unproven_counting_rpm: Vec<[f64; 2]>,
-    /// Largest backward error, on the full model, of any mode of the chart.
+    /// Largest backward error, on the full model, of any mode of the diagram.
     pub max_backward_error: f64,
-    /// Largest backward error, on the full model, of the eigenvalues listed: those of the modes at rest, at the peaks
-    /// of the bands and at the operating speed. At reference accuracy these are refined on the full model; absent
-    /// otherwise, and where one could not be, as with loads at the rim.
+    /// Largest backward error, on the full model, of the listed eigenvalues: those of the modes at rest, at
+    /// the peaks of the bands and at the operating speed. At reference accuracy these are refined on the full
+    /// model. Absent otherwise, and if one of them could not be refined, as with loads at the rim.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_listed_backward_error: Option<f64>,
 }
 
-/// Modes of a speed that a count on the full model does not find, or finds besides.
+/// Modes at a speed that are missing or superfluous according to a count on the full model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MiscountEntry {
     /// The speed.
     pub rpm: f64,
-    /// Between which frequencies.
+    /// Lower end of the range of frequencies.
     pub from_hz: f64,
-    /// The upper one.
+    /// Upper end of the range of frequencies.
     pub to_hz: f64,
-    /// Modes of Krein sign + that the spectrum lacks there, less those of sign −; negative where it
-    /// has too many.
+    /// Number of modes of Krein sign + that the spectrum lacks there, minus that of sign −; negative if it
+    /// has superfluous ones.
     pub missing: i64,
 }
 
@@ -81,13 +82,13 @@ pub struct MismatchEntry {
     pub rpm: f64,
     /// Kind of the modes and bands compared.
     pub kind: InstabilityKind,
-    /// Unstable modes of that kind found there; for divergence 1 or 0.
+    /// Number of unstable modes of that kind; for divergence 1 or 0.
     pub unstable_modes: usize,
-    /// Bands of that kind that cover the speed.
+    /// Number of bands of that kind that contain the speed.
     pub bands: usize,
     /// Growth of the fastest of these modes.
     pub growth_per_s: f64,
-    /// Largest growth that the bands list.
+    /// Largest growth of these bands.
     pub peak_per_s: f64,
 }
 

@@ -15,27 +15,27 @@ pub struct CampbellEntry {
     pub to_rpm: f64,
     /// Frequency up to which the branches are complete.
     pub complete_to_hz: f64,
-    /// Tracked branches, by frequency at their lowest speed.
+    /// Branches, by frequency at their lowest speed.
     pub branches: Vec<BranchEntry>,
 }
 
-/// One mode followed over speed. All lists have one entry a speed.
+/// One mode followed over speed. All lists have one entry for each speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchEntry {
-    /// 1, 2, 3 … in the order of the list.
+    /// Number: 1, 2, 3 … in the order of the list.
     pub branch: usize,
-    /// Name of the branch in every output, by its mode at the first of its speeds: of
-    /// a blade without guides "2 diameters, backward"; of a guided one at rest "2 diameters",
-    /// or shares of harmonics where none dominates.
+    /// Name of the branch in every output, by its mode at its first speed: for a blade without guides "2
+    /// diameters, backward"; for a guided one at rest "2 diameters", or shares of harmonics if none
+    /// dominates.
     pub name: String,
-    /// Number and name as short as they can be, for the end of a line: "3: 0 (54 %) + 1 (45 %)".
+    /// Number and short name, for the end of a line: "3: 0 (54 %) + 1 (45 %)".
     pub label: String,
-    /// Nodal diameters of the dominant harmonic at the first of its speeds.
+    /// Nodal diameters of the dominant harmonic at its first speed.
     pub nodal_diameters: usize,
     /// Nodal circles of that harmonic.
     pub nodal_circles: usize,
-    /// How the wave runs on the blade at each speed: never `Reflected`.
+    /// Direction of the wave on the blade at each speed; never `Reflected`.
     pub direction: Vec<Direction>,
     /// Rotation speeds, ascending.
     pub rpm: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct RootLociEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RootPathEntry {
-    /// The waves of this mode that make the band, in words.
+    /// Waves of this mode.
     pub name: String,
     /// Re λ.
     pub growth_per_s: Vec<f64>,

@@ -10,7 +10,7 @@ use super::saturated::add_amplitudes;
 use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm};
 
-/// A saw held against limits.
+/// A comparison of a saw with limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckReport {
@@ -18,41 +18,40 @@ pub struct CheckReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
-    /// Whether a saw with such numbers may pass.
+    /// Whether a saw with unusual numbers may pass.
     #[serde(default)]
     pub accept_unusual: bool,
-    /// Whether every limit is kept, by a saw whose numbers saws have, or that are accepted.
+    /// Whether every limit is kept and unusual numbers are absent or accepted.
     pub passed: bool,
     /// Every limit.
     pub criteria: Vec<CriterionEntry>,
-    /// Speed at which the saw is run.
+    /// Operating speed.
     pub operating_rpm: f64,
-    /// Largest share of the lowest critical speed that it may be.
+    /// Largest ratio of the operating speed to the lowest critical speed.
     pub margin: f64,
-    /// Last speed of the sweep; nothing is known beyond it.
+    /// Last speed of the sweep; results are limited to it.
     pub to_rpm: f64,
     /// Critical speeds within the sweep, ascending.
     pub critical_speeds_rpm: Vec<f64>,
     /// Every band of instability within the sweep.
     pub instabilities: Vec<InstabilityEntry>,
-    /// Growth rate from which a band counts.
+    /// Growth rate from which on a band counts.
     pub flutter_threshold_per_s: f64,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// The same at the operating speed; null past the first critical speed, where a force that
-    /// stands still meets no stiffness.
+    /// This stiffness at the operating speed; null above the first critical speed, where it is not defined.
     pub rim_stiffness_n_per_m: Option<f64>,
-    /// The same over the speed.
+    /// This stiffness over the speed.
     pub rim_stiffness: RimStiffnessEntry,
-    /// Speed of the rim when operating.
+    /// Rim speed at the operating speed.
     pub rim_speed_m_per_s: f64,
-    /// The most that it may be.
+    /// Limit of the rim speed.
     pub max_rim_m_per_s: f64,
-    /// The most that flutter may rise to, where it is limited.
+    /// Limit of the amplitude of flutter, if there is one.
     #[serde(default)]
     pub max_amplitude_m: Option<f64>,
     /// Estimated relative error of the critical speeds.
@@ -61,32 +60,32 @@ pub struct CheckReport {
     pub warnings: Vec<String>,
 }
 
-/// Lateral stiffness of a point of the rim over the speed: a force that stands in space, in N, over
-/// the deflection under it.
+/// Lateral stiffness of a point of the rim over the speed: a force fixed in space, in N, over the deflection
+/// under it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RimStiffnessEntry {
-    /// Speeds from rest to just below the lowest critical one; none where nothing holds the blade.
+    /// Speeds from rest to just below the lowest critical one; empty if nothing holds the blade.
     pub rpm: Vec<f64>,
-    /// Stiffness there.
+    /// Stiffness at these speeds.
     pub n_per_m: Vec<f64>,
 }
 
-/// One limit and what was found.
+/// One limit and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionEntry {
     /// Short name of the limit, for programs.
     pub key: String,
-    /// What is asked, in words.
+    /// Requirement in words.
     pub name: String,
-    /// What the saw does, in words.
+    /// Result in words.
     pub finding: String,
-    /// What was found; none where there is no such speed within the sweep.
+    /// Speed found; null if it exceeds the sweep.
     pub found_rpm: Option<f64>,
-    /// What was asked.
+    /// Speed required.
     pub asked_rpm: f64,
-    /// Whether it is kept.
+    /// Whether the limit is kept.
     pub passed: bool,
 }
 
@@ -139,16 +138,14 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = check.analysis.critical_rpm_at(operating) {
         warnings.push(format!(
-            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm, where a constant side \
-             force bends the blade ten times as far as at rest, or more"
+            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm, where a constant side force deflects the blade at least ten times as far as at rest"
         ));
     }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
     let told = check.all_criteria().filter(|c| c.key == "gap");
     if gaps.count() > told.count() {
         warnings.push(
-            "a guide has a gap_m, but the scene no lateral force to hold against it \
-             (cut.lateral_n_per_tooth), or nothing holds the blade"
+            "a guide has a gap_m, but the scene has no lateral force that could close it (cut.lateral_n_per_tooth), or nothing holds the blade"
                 .to_owned(),
         );
     }
@@ -162,7 +159,7 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
     {
         let gap = check.all_criteria().any(|c| c.key == "gap");
         warnings.extend(gap.then(|| {
-            "past the first critical speed a static deflection says nothing of the gaps of guides".to_owned()
+            "above the first critical speed a static deflection does not show whether the gaps of guides close".to_owned()
         }));
     }
     warnings
@@ -177,7 +174,7 @@ impl CheckReport {
         let at_rest = 1e-3 * self.rim_stiffness_at_rest_n_per_m;
         let operating = match self.rim_stiffness_n_per_m {
             Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),
-            None => "none past the first critical speed".to_owned(),
+            None => "none above the first critical speed".to_owned(),
         };
         format!("rim stiffness at a point {at_rest:.1} N/mm at rest, {operating}")
     }

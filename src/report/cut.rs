@@ -18,7 +18,7 @@ use super::remarks::lifting_off;
 use crate::scene::{Scene, SceneFile, unusual_number};
 use crate::transient::{CutHistory, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m};
 
-/// `cut.json`.
+/// Report of a cut (`cut.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutReport {
@@ -26,19 +26,19 @@ pub struct CutReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Growth rate from which a cut is called unstable.
+    /// Growth rate from which on a cut is called unstable.
     pub flutter_threshold_per_s: f64,
-    /// Largest deflection that is given: beyond it the linear model does not hold.
+    /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,
     /// Angles of the teeth in the cut.
     pub tooth_angles_deg: Vec<f64>,
-    /// One entry a speed.
+    /// One entry for each speed.
     pub runs: Vec<CutRunEntry>,
     /// Remarks on the forces and on the validity of the result.
     pub warnings: Vec<String>,
@@ -56,51 +56,50 @@ pub struct CutRunEntry {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// The worst of the criteria; where none grows, whether the deflection stays within the model.
+    /// The worst of the criteria; if no motion grows, whether the deflection stays within the model.
     pub verdict: CutVerdict,
     /// The criterion of fastest growth.
     pub decided_by: CutCriterion,
-    /// What each criterion says.
+    /// The result of each criterion.
     pub criteria: Vec<CutCriterionEntry>,
     /// Largest Re λ in the cut.
     pub growth_per_s: f64,
-    /// Frequency of the growing mode; of the largest oscillation where none grows.
+    /// Frequency of the growing mode; of the largest oscillation if none grows.
     pub frequency_hz: Option<f64>,
-    /// In the cut, by the time history; null where no lateral force moves the blade.
+    /// Verdict in the cut by the time history; null if no lateral force excites the blade.
     pub transient_verdict: Option<Verdict>,
-    /// Growth rate fitted on the deflection in the cut.
+    /// Growth rate fitted to the deflection in the cut.
     pub transient_growth_per_s: Option<f64>,
-    /// Frequency of the growth fitted on the deflection, where it is unstable.
+    /// Frequency of this growth, if it is unstable.
     pub transient_frequency_hz: Option<f64>,
-    /// Whether both verdicts are the same, and growth rates within 2 % where there is
-    /// growth.
+    /// Whether both verdicts are equal and, if a motion grows, growth rates agree within 2 %.
     pub agree: Option<bool>,
     /// Frequency of the largest oscillation in the cut.
     pub dominant_frequency_hz: Option<f64>,
-    /// Before and after the cut, by the eigenvalues.
+    /// Verdict before and after the cut, by the eigenvalues.
     pub idle_verdict: Verdict,
     /// Largest Re λ without the forces.
     pub idle_growth_per_s: f64,
-    /// Growing modes held against counts on the full model.
+    /// Comparison of the growing modes with counts on the full model.
     pub certificate: CutCertificateEntry,
-    /// The same cut with the tangential force that the power allows, when it is given.
+    /// The cut with the tangential force that follows from the power, if it is given.
     pub by_power: Option<ByPowerEntry>,
-    /// Loads that pass with the teeth against loads that stand still.
+    /// Comparison of moving and stationary tooth loads.
     pub tooth_passing: ToothPassingEntry,
-    /// When the deflection at the probe leaves the linear model, where the record ends; null
-    /// when it does not, and with stretching.
+    /// Time at which the deflection at the probe exceeds the linear model and the record ends; null if it
+    /// does not, and with stretching.
     pub linear_until_s: Option<f64>,
-    /// Largest deflection at the probe before the forces end; null where the model, linear or with
-    /// stretching, ends before them.
+    /// Largest deflection at the probe before the forces end; null if the model, linear or with stretching,
+    /// ends earlier.
     pub largest_deflection_in_cut_m: Option<f64>,
-    /// Largest deflection at the probe after the forces ended; null where the model, linear or with
-    /// stretching, ends before the record should.
+    /// Largest deflection at the probe after the forces end; null if the model, linear or with stretching,
+    /// ends before the record.
     pub largest_deflection_after_m: Option<f64>,
-    /// When the forces set in.
+    /// Start of the forces.
     pub forces_from_s: f64,
-    /// When they end.
+    /// End of the forces.
     pub forces_to_s: f64,
-    /// What stretching adds, where the scene asks for it.
+    /// Results with stretching, if the scene requests it.
     #[serde(default)]
     pub stretching: Option<CutStretchingEntry>,
     /// Times of the record.
@@ -109,52 +108,52 @@ pub struct CutRunEntry {
     pub deflection_m: Vec<f64>,
     /// Verdict over guide angle and load.
     pub map: VerdictMapEntry,
-    /// The cut with the reaction of the simulated spline teeth, when the scene asks for it.
+    /// The cut with the reaction of the simulated spline teeth, if the scene requests it.
     pub spline: Option<SplineEntry>,
 }
 
-/// A cut of a blade that stretches.
+/// A cut with stretching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutStretchingEntry {
-    /// Shapes of the basis that the deflection is made of.
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
     /// Longest step of the integration.
     pub step_s: f64,
-    /// Largest slope of the blade that was seen.
+    /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// When slopes exceed 0.1, where the record ends; null where they do not.
+    /// Time at which slopes exceed 0.1 and the record ends; null if they do not.
     pub valid_until_s: Option<f64>,
 }
 
-/// A cut with the force that its power allows.
+/// A cut with the force that follows from its power.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ByPowerEntry {
-    /// P/(Ωb) shared by the teeth.
+    /// P/(Ωb) divided by the number of teeth in the cut.
     pub tangential_n_per_tooth: f64,
-    /// By the eigenvalues.
+    /// Verdict by the eigenvalues.
     pub verdict: Verdict,
     /// Largest Re λ.
     pub growth_per_s: f64,
 }
 
-/// The effect of loads that move with the teeth, compared with loads that stand still.
+/// The effect of loads that move with the teeth, compared with stationary loads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToothPassingEntry {
-    /// Teeth passing a second.
+    /// Number of teeth that pass per second.
     pub tooth_frequency_hz: f64,
-    /// Growth under loads that stand still.
+    /// Growth under stationary loads.
     pub standing_growth_per_s: f64,
-    /// Growth under the mean of the passing loads.
+    /// Growth under the mean of the moving loads.
     pub mean_growth_per_s: f64,
-    /// Growth under the passing loads, from Floquet multipliers.
+    /// Growth under the moving loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
-    /// Largest deflection at the probe in the cut under loads that stand still; null where
-    /// the linear model ends before the cut.
+    /// Largest deflection at the probe in the cut under stationary loads; null if the linear model ends
+    /// before the cut.
     pub standing_deflection_m: Option<f64>,
-    /// The same under passing loads.
+    /// Largest deflection at the probe in the cut under moving loads.
     pub passing_deflection_m: Option<f64>,
 }
 
@@ -162,11 +161,11 @@ pub struct ToothPassingEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct VerdictMapEntry {
-    /// Angles of the first guide, all guides moving with it; empty without guides.
+    /// Angles of the first guide, with which all guides move; empty without guides.
     pub guide_angle_deg: Vec<f64>,
-    /// Multiples of the radial and tangential forces.
+    /// Factors of the radial and tangential forces.
     pub load_level: Vec<f64>,
-    /// One row a load level, one column an angle; one column without guides.
+    /// Growth rates, one row for each load level, one column for each angle; one column without guides.
     pub growth_per_s: Vec<Vec<f64>>,
 }
 

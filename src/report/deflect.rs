@@ -10,7 +10,7 @@ use crate::deflect::{Curve, Deflecting, Reading, SlowSweep};
 use crate::scene::{SceneFile, rpm};
 use crate::stretched::TurnKind;
 
-/// `deflect.json`.
+/// Report of the equilibria over speed (`deflect.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeflectReport {
@@ -18,37 +18,37 @@ pub struct DeflectReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Shapes of that basis that the deflection is made of.
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
-    /// Relative change of the deflection with half as many modes more, at most; null where the blade stays
+    /// Largest relative change of the deflection with half as many modes more; null if the blade remains
     /// flat.
     pub estimated_relative_error: Option<f64>,
     /// First speed.
     pub from_rpm: f64,
     /// Last speed.
     pub to_rpm: f64,
-    /// Force across the blade at its rim, fixed in space.
+    /// Lateral force at the rim, fixed in space.
     pub force_n: f64,
-    /// Its angle, positive with the rotation.
+    /// Angle of the force, positive in the direction of rotation.
     pub force_angle_deg: f64,
     /// Distance of the probe from the axis.
     pub probe_radius_m: f64,
     /// Angle of the probe.
     pub probe_angle_deg: f64,
-    /// Speed, while it rises, up to which no place of the blade is deflected by more than its thickness; null where
-    /// none is at any speed.
+    /// Rising speed up to which the deflection stays within the thickness everywhere; null if it does at all
+    /// speeds.
     pub beyond_thickness_rpm: Option<f64>,
-    /// Stable equilibria while the speed rises.
+    /// Stable equilibria for rising speed.
     pub up: SlowSweepEntry,
-    /// Stable equilibria while the speed falls.
+    /// Stable equilibria for falling speed.
     pub down: SlowSweepEntry,
-    /// Curves of equilibria that were found, unstable ones included. That there is no other one is not proven.
+    /// Curves of equilibria, including unstable ones. It is not proven that there are no others.
     pub curves: Vec<EquilibriumCurveEntry>,
     /// Critical speeds of the flat blade, up to the last speed.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
@@ -60,20 +60,20 @@ pub struct DeflectReport {
     pub warnings: Vec<String>,
 }
 
-/// Stable equilibria over a speed that rises, or falls, so slowly that the blade stands still.
+/// Stable equilibria for slowly rising or falling speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SlowSweepEntry {
-    /// Stretches from one jump to the next, in the order of the sweep.
+    /// Arcs between jumps, in the order of the sweep.
     pub arcs: Vec<ArcEntry>,
-    /// What ends each stretch but the last.
+    /// Jumps at the ends of all arcs but the last.
     pub jumps: Vec<JumpEntry>,
-    /// Speed from which on slopes of the blade exceed 0.1 and the model does not hold; nothing beyond it is given.
-    /// Null where they do not.
+    /// Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there are no results
+    /// beyond it. Null if they do not.
     pub valid_until_rpm: Option<f64>,
 }
 
-/// Stable equilibria. All lists have one entry a speed.
+/// Stable equilibria. All lists have one entry for each speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ArcEntry {
@@ -81,7 +81,7 @@ pub struct ArcEntry {
     pub rpm: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
-    /// Largest deflection of any place of the blade, without its sign.
+    /// Largest magnitude of the deflection over the blade.
     pub largest_deflection_m: Vec<f64>,
     /// Largest slope of the blade.
     pub largest_slope: Vec<f64>,
@@ -93,37 +93,37 @@ pub struct ArcEntry {
     pub frequencies_hz: Vec<Vec<f64>>,
 }
 
-/// A place at which the blade leaves an equilibrium that ceases to be stable.
+/// A jump from an equilibrium that ceases to be stable to another one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JumpEntry {
-    /// A fold, at which the equilibrium ceases to exist, or a bifurcation, at which another one crosses it.
+    /// Fold, at which the equilibrium ceases to exist, or bifurcation, at which another one crosses it.
     pub kind: TurnKind,
     /// Rotation speed.
     pub rpm: f64,
-    /// Deflection at the probe before it.
+    /// Deflection at the probe before the jump.
     pub from_m: f64,
-    /// Deflection at the probe after it.
+    /// Deflection at the probe after the jump.
     pub to_m: f64,
-    /// Largest deflection of any place before it.
+    /// Largest deflection over the blade before the jump.
     pub largest_from_m: f64,
-    /// Largest deflection of any place after it.
+    /// Largest deflection over the blade after the jump.
     pub largest_to_m: f64,
 }
 
-/// A curve of equilibria. All lists have one entry an equilibrium, in the order of the curve.
+/// A curve of equilibria. All lists have one entry for each equilibrium, in the order of the curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EquilibriumCurveEntry {
-    /// Rotation speeds; they need not ascend.
+    /// Rotation speeds, not necessarily ascending.
     pub rpm: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
-    /// Largest deflection of any place of the blade, without its sign.
+    /// Largest magnitude of the deflection over the blade.
     pub largest_deflection_m: Vec<f64>,
-    /// Directions in which the potential energy falls: 0 where the equilibrium is stable.
+    /// Number of directions in which the potential energy decreases; 0 for a stable equilibrium.
     pub negative_eigenvalues: Vec<usize>,
-    /// Where the curve turns back in speed, or another one crosses it.
+    /// Folds and bifurcations of the curve.
     pub turns: Vec<TurnEntry>,
 }
 
@@ -131,7 +131,7 @@ pub struct EquilibriumCurveEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TurnEntry {
-    /// Which of the two.
+    /// Kind.
     pub kind: TurnKind,
     /// Rotation speed.
     pub rpm: f64,

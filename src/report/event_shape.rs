@@ -13,7 +13,7 @@ use crate::scene::rpm;
 use crate::spectrum::{Direction, EventName, Mode, ModeKind, SpectrumError};
 use crate::stability::{Analysis, Instability, InstabilityKind, StabilityState};
 
-/// Why a shape is shown.
+/// Occasion of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShapeOccasion {
@@ -21,11 +21,11 @@ pub enum ShapeOccasion {
     CriticalSpeed,
     /// The motion of largest growth of a band of divergence.
     Divergence,
-    /// The motion of largest growth of a band of flutter.
+    /// The motion of largest growth of a flutter band.
     Flutter,
     /// A mode at the operating speed.
     OperatingSpeed,
-    /// A mode at a speed that was asked for.
+    /// A mode at a requested speed.
     AskedSpeed,
 }
 
@@ -34,11 +34,11 @@ pub enum ShapeOccasion {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventShapeEntry {
-    /// Why it is shown.
+    /// Occasion.
     pub occasion: ShapeOccasion,
-    /// The waves that make it, named as the event is.
+    /// Waves of the shape, named as the event is.
     pub name: String,
-    /// How the wave runs, seen from space.
+    /// Direction of the wave, seen from space.
     pub direction: Direction,
     /// Rotation speed.
     pub rpm: f64,
@@ -48,21 +48,22 @@ pub struct EventShapeEntry {
     pub growth_per_s: f64,
     /// Radii of the profiles.
     pub radius_m: Vec<f64>,
-    /// Harmonics with a visible share in the square of the deflection, largest first.
+    /// Harmonics whose share of the squared deflection is visible, the largest first.
     pub harmonics: Vec<WaveEntry>,
 }
 
-/// Harmonics with a smaller share in the square of the deflection are a ten-thousandth of it, and not seen. Of a blade on a stiff
-/// pad many are small: with 1e-6 the deflection of the paper's saw was off by more than a thousandth.
+/// Harmonics with a smaller share of the squared deflection have a ten-thousandth of it and are not visible.
+/// For a blade on a stiff pad many are small: with 1e-6 the error of the deflection of the paper's saw
+/// exceeded a thousandth.
 const LEAST_SHARE: f64 = 1e-8;
-/// Modes at a single speed, besides those that grow: those that a slow side force bends most.
+/// Number of modes at a single speed besides those that grow; a slow side force excites the lowest most.
 const LOWEST: usize = 4;
-/// Angles at which the largest deflection is looked for, for each nodal diameter.
+/// Number of angles per nodal diameter at which the largest deflection is searched for.
 const ANGLES_EACH: usize = 24;
 
 impl Report {
     /// Adds the shapes at every critical speed, at the peak of every band, at the operating speed and at
-    /// the speeds asked for, by ascending speed.
+    /// requested speeds, by ascending speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -89,7 +90,8 @@ impl Report {
     }
 }
 
-/// The waves that stand still, each speed of a free blade once: its two waves differ by a turn.
+/// The waves that stand still; each speed of a free blade is listed once, because its two waves differ by a
+/// rotation.
 fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
     let model = &analysis.model;
     let end = analysis.range_rad_per_s.1;
@@ -128,7 +130,7 @@ fn of_band(
     band: &Instability,
 ) -> Result<Option<EventShapeEntry>, SpectrumError> {
     let (model, speed) = (&analysis.model, band.peak_rad_per_s);
-    // A band of divergence has a real λ beside which a pair may grow faster.
+    // In a band of divergence λ is real; a pair with larger growth may exist beside it.
     let is_of_band = |mode: &Mode| match band.kind {
         InstabilityKind::Divergence => mode.lambda.im == 0.0,
         InstabilityKind::Flutter => mode.lambda.im != 0.0,
@@ -165,7 +167,7 @@ fn at_speed(
 ) -> Result<Vec<EventShapeEntry>, SpectrumError> {
     let model = &analysis.model;
     let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
-    // The mirror image of a flutter mode is of no account by itself.
+    // The mirror image of a flutter mode is not shown separately.
     let modes = modes
         .iter()
         .filter(|found| found.mode.kind != ModeKind::Decaying);
@@ -182,14 +184,14 @@ fn at_speed(
             shape: &described.shape,
         };
         let mut entry = found.entry(&model.plate);
-        // Rounding of an undamped mode is no growth.
+        // Rounding of an undamped mode is not growth.
         entry.growth_per_s = described.mode.growth_per_s();
         entry
     });
     Ok(entries.collect())
 }
 
-/// A shape in the basis of the plate, and what it is.
+/// A shape in the basis of the plate, with its description.
 struct Found<'a> {
     occasion: ShapeOccasion,
     name: String,
@@ -216,7 +218,8 @@ impl Found<'_> {
     }
 }
 
-/// The unknowns are orthonormal with the mass, so that their squares are shares in the square of the deflection.
+/// The unknowns are orthonormal with respect to mass, so that their squares are shares of the squared
+/// deflection.
 fn harmonics(plate: &Plate, shape: &Col<c64>) -> Vec<WaveEntry> {
     let size = plate.basis.count();
     let square = |n: usize| {
@@ -234,7 +237,7 @@ fn harmonics(plate: &Plate, shape: &Col<c64>) -> Vec<WaveEntry> {
 }
 
 impl EventShapeEntry {
-    /// Complex deflections at angles, a row for each radius.
+    /// Complex deflections at angles, one row for each radius.
     pub(crate) fn at(&self, angles_rad: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let mut rows = vec![vec![[0.0; 2]; angles_rad.len()]; self.radius_m.len()];
         for wave in &self.harmonics {
@@ -251,7 +254,7 @@ impl EventShapeEntry {
         rows
     }
 
-    /// Scales and turns the shape so that its largest deflection is 1 at t = 0.
+    /// Scales the shape and its phase so that its largest deflection is 1 at t = 0.
     fn normalize(&mut self) {
         let most = self.harmonics.iter().map(|wave| wave.nodal_diameters);
         let count = ANGLES_EACH * most.max().unwrap_or(0).max(1);
@@ -263,7 +266,7 @@ impl EventShapeEntry {
         let Some([re, im]) = largest.filter(|value| square(*value) > 0.0) else {
             return;
         };
-        // Dividing by the largest value makes it 1.
+        // Division by the largest value gives 1.
         let size = square([re, im]);
         let (re, im) = (re / size, -im / size);
         for wave in &mut self.harmonics {

@@ -13,8 +13,8 @@ use crate::stability::Crossing;
 pub struct ExcitationEntry {
     /// The lines, ascending.
     pub lines: Vec<ExcitationLineEntry>,
-    /// Where they cross branches of the chart, by line and speed. Frequencies above
-    /// `campbell.complete_to_hz` are not looked at.
+    /// Crossings with branches of the diagram, by line and speed, for frequencies up to
+    /// `campbell.complete_to_hz`.
     pub crossings: Vec<CrossingEntry>,
 }
 
@@ -22,25 +22,25 @@ pub struct ExcitationEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExcitationLineEntry {
-    /// The multiple.
+    /// Ratio of the frequency to the rotation speed.
     pub order: u32,
-    /// "1×", "tooth passing, 42×".
+    /// Name: "1×", "tooth passing, 42×".
     pub name: String,
 }
 
-/// A speed at which a natural frequency is a multiple of it.
+/// A speed at which a natural frequency equals a multiple of the rotation speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CrossingEntry {
-    /// The multiple.
+    /// Ratio of the frequency to the rotation speed.
     pub order: u32,
     /// Rotation speed.
     pub rpm: f64,
-    /// Frequency in space, the multiple of that speed.
+    /// Frequency in the space-fixed frame.
     pub frequency_hz: f64,
     /// Number of the branch.
     pub branch: Option<usize>,
-    /// Its name.
+    /// Name of the branch.
     pub mode: String,
 }
 

@@ -6,45 +6,45 @@ use serde::{Deserialize, Serialize};
 use crate::fit::{BeforeAndAfter, Fit, FittedParameter, Measurement, Row, Start};
 use crate::scene::{SceneFile, unusual_number};
 
-/// `fit.json`.
+/// Report of a fit (`fit.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitReport {
     /// Version of the program that wrote the report.
     pub sawflutter: String,
-    /// The scene with the numbers found.
+    /// The fitted scene.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
-    /// Who measured the frequencies.
+    /// Source of the measured frequencies.
     pub source: String,
-    /// Probability with which the intervals cover the truth.
+    /// Probability that an interval contains the true value.
     pub confidence: f64,
-    /// Numbers found.
+    /// Fitted numbers.
     pub parameters: Vec<ParameterEntry>,
-    /// Freed numbers that move no measured frequency; they stay as they were.
+    /// Freed numbers without effect on the measured frequencies; they keep their values.
     pub without_effect: Vec<String>,
     /// Correlation of the parameters, in their order.
     pub correlation: Vec<Vec<f64>>,
-    /// Frequencies that were fitted.
+    /// Number of fitted frequencies.
     pub measured_frequencies: usize,
-    /// Measured frequencies less free numbers.
+    /// Number of measured frequencies minus number of free numbers.
     pub degrees_of_freedom: usize,
     /// Root mean square of computed minus measured frequencies.
     pub rms_hz: f64,
-    /// The same of the scene before the fit.
+    /// This value for the scene before the fit.
     pub rms_before_hz: f64,
-    /// Measured and computed frequencies, pair by pair.
+    /// Measured and computed frequencies in pairs.
     pub residuals: Vec<ResidualEntry>,
     /// Lowest frequencies over speed, before and after.
     pub curves: CurvesEntry,
-    /// Every start and where it led, on a coarser basis.
+    /// All starts and their results, on a coarser basis.
     pub starts: Vec<StartEntry>,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
-    /// Polynomials over the radius of each.
+    /// Polynomials over the radius for each.
     pub radial_functions: usize,
     /// Estimated relative error of the critical speeds on this basis.
     pub estimated_relative_error: Option<f64>,
@@ -52,7 +52,7 @@ pub struct FitReport {
     pub warnings: Vec<String>,
 }
 
-/// A number found.
+/// A fitted number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterEntry {
@@ -60,60 +60,60 @@ pub struct ParameterEntry {
     pub path: String,
     /// Value before.
     pub start: f64,
-    /// Value that fits best.
+    /// Fitted value.
     pub value: f64,
-    /// Least value of the interval; none at a bound, and where the data do not determine this number: they do not
-    /// tell it from others, or leave it an interval wider than the distance between its bounds.
+    /// Lower end of the interval. Null at a bound, and if the data do not determine this number: they do not
+    /// distinguish it from others, or the interval is wider than the distance between its bounds.
     pub interval_from: Option<f64>,
-    /// Largest value of the interval.
+    /// Upper end of the interval.
     pub interval_to: Option<f64>,
-    /// Least value allowed.
+    /// Lower bound.
     pub bound_from: f64,
-    /// Largest value allowed.
+    /// Upper bound.
     pub bound_to: f64,
-    /// Whether it rests on one of them.
+    /// Whether the value is a bound.
     pub at_bound: bool,
 }
 
-/// A measured frequency and the computed one that it is held against.
+/// A measured frequency and the corresponding computed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResidualEntry {
     /// Rotation speed.
     pub rpm: f64,
-    /// Place among the computed frequencies of this speed, from 1, ascending.
+    /// Rank of the computed frequency at this speed, from 1, ascending.
     pub place: usize,
-    /// Measured.
+    /// Measured frequency.
     pub measured_hz: f64,
-    /// Computed with the numbers before the fit.
+    /// Frequency computed before the fit.
     pub before_hz: f64,
-    /// Computed with the numbers found.
+    /// Frequency computed with the fitted numbers.
     pub fitted_hz: f64,
-    /// False for a speed that was left out of the fit.
+    /// False for a speed that was excluded from the fit.
     pub fitted: bool,
 }
 
-/// Lowest frequencies in ascending order, one row a speed.
+/// Lowest frequencies, ascending, one row for each speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvesEntry {
     /// Speeds.
     pub rpm: Vec<f64>,
-    /// Before.
+    /// Frequencies before the fit.
     pub before_hz: Vec<Vec<f64>>,
-    /// After.
+    /// Frequencies after the fit.
     pub fitted_hz: Vec<Vec<f64>>,
 }
 
-/// A start and where it led.
+/// A start and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartEntry {
-    /// Values it began with.
+    /// Initial values.
     pub from: Vec<f64>,
-    /// Values it reached; none for a start that is no saw.
+    /// Final values; null for a start that is not a valid saw.
     pub to: Option<Vec<f64>>,
-    /// Root mean square there.
+    /// Root mean square of the residuals at the final values.
     pub rms_hz: Option<f64>,
 }
 
@@ -218,7 +218,7 @@ fn misfit(fit: &Fit, used: &Measurement) -> Option<String> {
     let measured_hz = (squares / used.count() as f64).sqrt();
     (fit.rms_hz > MISFIT * measured_hz).then(|| {
         format!(
-            "the saw does not have these frequencies: it misses them by {:.3} Hz rms, and they are {measured_hz:.3} Hz rms; are they in Hz, the speeds in rpm, and the blade and its mount the ones measured?",
+            "the fitted saw does not have these frequencies: they differ by {:.3} Hz rms and are themselves {measured_hz:.3} Hz rms; are they in Hz, the speeds in rpm, and are blade and mount those of the measurement?",
             fit.rms_hz
         )
     })
@@ -244,7 +244,7 @@ fn warnings(fit: &Fit) -> Vec<String> {
     let mut warnings: Vec<String> = misfit(fit, &used).into_iter().collect();
     for freed in &fit.without_effect {
         warnings.push(format!(
-            "{} moves no measured frequency and stays as it was",
+            "{} changes no measured frequency and was kept",
             freed.parameter.path()
         ));
     }
@@ -252,7 +252,7 @@ fn warnings(fit: &Fit) -> Vec<String> {
         let path = found.freed.parameter.path();
         if found.at_bound {
             warnings.push(format!(
-                "{path} rests on a bound; widen it if a saw may have more"
+                "{path} is at a bound; widen it if a saw may have other values"
             ));
         } else if found.interval.is_none() {
             warnings.push(format!(
@@ -265,7 +265,7 @@ fn warnings(fit: &Fit) -> Vec<String> {
             if correlation.abs() > HIGH_CORRELATION {
                 let path = |i: usize| fit.parameters[i].freed.parameter.path();
                 warnings.push(format!(
-                    "{} and {} are hardly told apart (correlation {correlation:.2})",
+                    "the data hardly distinguish {} and {} (correlation {correlation:.2})",
                     path(k),
                     path(i)
                 ));

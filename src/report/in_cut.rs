@@ -7,33 +7,33 @@ use super::InstabilityEntry;
 use crate::scene::rpm;
 use crate::stability::{Analysis, Onsets};
 
-/// The forces of the cut that bear on the chart.
+/// The forces of the cut that a Campbell diagram includes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InCutEntry {
-    /// Speed of the cut whose forces these are; they are the same at every speed of the chart.
+    /// Speed of the cut at which these forces occur; in the diagram they are the same at every speed.
     pub rpm: f64,
-    /// Teeth in the cut.
+    /// Number of teeth in the cut.
     pub teeth: u32,
-    /// Force against the rotation on each.
+    /// Force against the rotation on each tooth.
     pub tangential_n_per_tooth: f64,
-    /// Force towards the axis on each.
+    /// Force towards the axis on each tooth.
     pub radial_n_per_tooth: f64,
-    /// The saw without them; null in a sketch, a chart of few speeds.
+    /// The idling saw; null in a diagram with few speeds.
     pub idling: Option<IdlingEntry>,
 }
 
-/// The same saw without the forces of the cut.
+/// The saw without the forces of the cut.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IdlingEntry {
     /// Critical speeds within the sweep, ascending.
     pub critical_speeds_rpm: Vec<f64>,
-    /// Bands of instability within the sweep, by onset; no chart names their branches.
+    /// Bands of instability within the sweep, by onset; their branches are not named.
     pub instabilities: Vec<InstabilityEntry>,
-    /// Lowest speed at which flutter counts.
+    /// Flutter speed.
     pub flutter_speed_rpm: Option<f64>,
-    /// Onset of the first flutter band of all.
+    /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
 }
 

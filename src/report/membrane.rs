@@ -17,7 +17,7 @@ pub struct MembraneEntry {
     pub radial_pa: Vec<f64>,
     /// σ_θθ at these radii.
     pub hoop_pa: Vec<f64>,
-    /// How hot the blade may become, when the scene has a temperature.
+    /// Limits of temperature, if the scene has a temperature.
     pub heat: Option<HeatEntry>,
 }
 
@@ -25,33 +25,34 @@ pub struct MembraneEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatEntry {
-    /// Peak of the profile in the scene: the rise of largest size, at the rim for a shape.
+    /// Peak of the profile in the scene: the rise of largest magnitude, at the rim for a shape.
     pub rise_k: f64,
     /// Rises at the radii of the stress.
     pub profile_k: Vec<f64>,
-    /// Peak at which the lowest critical speed has fallen to the operating speed; null without
-    /// an operating speed, or where the blade buckles before.
+    /// Peak at which the lowest critical speed equals the operating speed; null without an operating speed,
+    /// or if the blade buckles at a smaller one.
     pub operating_limit: Option<HeatLimitEntry>,
-    /// Whether the operating speed is past a critical speed of the cold blade already.
+    /// Whether the operating speed exceeds a critical speed of the cold blade.
     pub past_critical_when_cold: bool,
-    /// Peak at which the blade buckles at rest; null where no heat of this shape does it.
+    /// Peak at which the blade buckles at rest; null if no peak of this profile causes buckling.
     pub buckling: Option<HeatLimitEntry>,
-    /// Peak from which on the blade is flat, where roll tension buckles it when cold.
+    /// Peak from which on the blade is flat, if roll tension buckles it when cold.
     pub flat_from: Option<HeatLimitEntry>,
-    /// Whether it buckles at rest before its critical speed has fallen to the operating speed.
+    /// Whether the blade buckles at rest at a smaller peak than that at which its critical speed equals the
+    /// operating speed.
     pub buckles_first: bool,
-    /// Lowest critical speeds over the peak, as far as the blade stays flat at rest.
+    /// Lowest critical speeds over the peak, while the blade is flat at rest.
     pub critical_speeds: Vec<HeatCurveEntry>,
 }
 
-/// A temperature rise at which the blade buckles, or its lowest critical speed falls to the
-/// operating speed.
+/// A temperature rise at which the blade buckles, or its lowest critical speed equals the operating speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatLimitEntry {
     /// Peak of the profile.
     pub rise_k: f64,
-    /// The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves where none dominates.
+    /// The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves if none
+    /// dominates.
     #[serde(default)]
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.
@@ -64,7 +65,7 @@ pub struct HeatLimitEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeatCurveEntry {
-    /// The wave that stands still, of a guided blade at the last peak.
+    /// The wave that stands still; for a guided blade, that at the last peak.
     #[serde(default)]
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.

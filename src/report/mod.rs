@@ -70,7 +70,7 @@ use crate::scene::{Accuracy, SceneFile};
 pub use crate::spectrum::Direction;
 pub use crate::stability::{InstabilityKind, StabilityState};
 
-/// `report.json`.
+/// Report of an analysis (`report.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Report {
@@ -78,64 +78,63 @@ pub struct Report {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Terms of the equation of motion that were assembled.
     pub terms: Vec<String>,
-    /// The lowest modes of the blade at rest that oscillate, ascending.
+    /// Lowest oscillating modes of the blade at rest, ascending.
     pub modes_at_rest: Vec<RestMode>,
-    /// Modes at rest that decay without oscillating (overdamped), no faster than 2π `campbell.complete_to_hz`; they
-    /// are counted here and not listed.
+    /// Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π
+    /// `campbell.complete_to_hz`; they are not listed.
     #[serde(default)]
     pub overdamped_modes_at_rest: usize,
     /// Every critical speed up to the end of the sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
-    /// Whether `critical_speeds` are those of the saw without its damping: where damping turns with the blade, no
-    /// eigenvalue of the damped saw is zero at any speed.
+    /// Whether `critical_speeds` are those of the saw without its damping: with damping that turns with the
+    /// blade no eigenvalue of the damped saw is zero at any speed.
     #[serde(default)]
     pub critical_speeds_without_damping: bool,
-    /// The bands of instability found within the sweep, by onset; `certificate` says how much of
-    /// the sweep is proven to have no other.
+    /// Bands of instability within the sweep, by onset; `certificate` gives the share of the sweep that is
+    /// proven to have no others.
     pub instabilities: Vec<InstabilityEntry>,
-    /// Lowest speed at which flutter counts: see `counted_rpm` of the bands.
+    /// Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the bands.
     pub flutter_speed_rpm: Option<f64>,
-    /// Onset of the first flutter band, weak ones included.
+    /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
-    /// Growth rate from which a band counts as flutter of the saw.
+    /// Growth rate from which on a band counts as flutter.
     pub flutter_threshold_per_s: f64,
-    /// The forces of the cut on the chart, and the saw without them, when the scene asks for it.
+    /// The forces of the cut in the diagram, and the idling saw, if the scene requests it.
     #[serde(default)]
     pub in_cut: Option<InCutEntry>,
-    /// Multiples of the rotation speed and where they meet natural frequencies, when the scene
-    /// asks for them.
+    /// Multiples of the rotation speed and their crossings with natural frequencies, if the scene requests
+    /// them.
     #[serde(default)]
     pub excitation: Option<ExcitationEntry>,
-    /// The operating speed against the 85 % rule, when the scene gives one.
+    /// Comparison of the operating speed with the 85 % rule, if the scene has one.
     pub operating: Option<OperatingEntry>,
-    /// The modes of one speed, when asked for.
+    /// Modes at one speed, on request.
     pub whirl: Option<WhirlEntry>,
-    /// Shapes of the blade at every critical speed, at the peak of every band, at the operating speed and at speeds
-    /// asked for, when asked for.
+    /// Shapes of the blade at every critical speed, at the peak of every band, at the operating speed and at
+    /// further speeds, on request.
     #[serde(default)]
     pub shapes: Vec<EventShapeEntry>,
-    /// How fine the computation was, and how far it may be off.
+    /// Size of the basis and estimated errors.
     pub accuracy: AccuracyEntry,
-    /// Number of eigenproblems solved for the chart.
+    /// Number of eigenproblems solved.
     pub work: WorkEntry,
-    /// What was checked of the list of bands: how much of the sweep is proven to have no
-    /// instability that is not listed, which part was searched without proof, and what did not
-    /// agree.
+    /// Checks of the list of bands: the share of the sweep that is proven to have no unlisted instability,
+    /// intervals that were searched without proof, and disagreements.
     pub certificate: CertificateEntry,
     /// Branches over speed.
     pub campbell: CampbellEntry,
-    /// Eigenvalues of the two modes that coalesce at the flutter speed, or at the onset of the
-    /// first flutter band where none counts, over the speeds around it.
+    /// Eigenvalues of the two modes that coalesce at the flutter speed, or else at the onset of the first
+    /// flutter band, over the speeds around it.
     pub root_loci: Option<RootLociEntry>,
-    /// Stress of heat, roll tension and manufacture, when the scene names one.
+    /// Stress of heat, roll tension and manufacture, if the scene has any.
     pub membrane: Option<MembraneEntry>,
-    /// How critical speeds and onsets move with the saw, when asked for.
+    /// Derivatives of critical speeds and onsets by numbers of the scene, on request.
     pub sensitivities: Vec<SensitivityEntry>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
@@ -147,10 +146,10 @@ pub struct Report {
 pub struct CriticalSpeedEntry {
     /// Rotation speed.
     pub rpm: f64,
-    /// Number of the branch that stands still, where the chart shows which.
+    /// Number of the branch that stands still, if the diagram shows it.
     pub branch: Option<usize>,
-    /// The wave that stands still: "2 diameters", or the shares of waves where none dominates, "3 (52 %) + 2 (41 %)".
-    /// The branch is named by its mode at rest, and otherwise.
+    /// The wave that stands still: "2 diameters", or the shares of waves if none dominates, "3 (52 %) + 2 (41
+    /// %)". The branch is named by its mode at rest, which may differ.
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
@@ -171,7 +170,7 @@ pub struct InstabilityEntry {
     pub from_rpm: f64,
     /// End, or the end of the sweep.
     pub to_rpm: f64,
-    /// False when the sweep begins or ends inside the band.
+    /// False if the sweep begins or ends inside the band.
     pub closed: bool,
     /// Speed of largest growth.
     pub peak_rpm: f64,
@@ -179,39 +178,39 @@ pub struct InstabilityEntry {
     pub peak_growth_per_s: f64,
     /// Frequency at the peak.
     pub frequency_hz: f64,
-    /// The waves that make it, at its own speed: "2 diameters" of a divergence, "4 reflected with 2 forward" of flutter;
-    /// null where no chart was drawn. The branches are named by their modes at rest, and otherwise.
+    /// Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2 forward" for
+    /// flutter; null without a diagram. The branches are named by their modes at rest, which may differ.
     #[serde(default)]
     pub name: Option<String>,
-    /// Numbers of the branches that become unstable; none where no chart was drawn.
+    /// Numbers of the branches that become unstable; empty without a diagram.
     pub branches: Vec<usize>,
-    /// The same waves one by one, reflected ones first: "4 diameters, reflected".
+    /// These waves one by one, reflected ones first: "4 diameters, reflected".
     pub modes: Vec<String>,
-    /// Stretches [from, to] in which it counts as an instability of the saw: divergence as a
-    /// whole; flutter of an undamped blade as a whole when its largest growth reaches the
-    /// threshold, of a damped one where its growth does.
+    /// Intervals [from, to] in which the band counts as an instability: divergence as a whole; flutter of an
+    /// undamped blade as a whole if its largest growth reaches the threshold, of a damped one where its
+    /// growth does.
     pub counted_rpm: Vec<[f64; 2]>,
-    /// Largest deflection that flutter rises to from a small motion at the speed of largest growth, where stretching
-    /// turns it back, without damping; up to 1.41 times as large near one edge of the band. Null where it was not
-    /// asked for, of divergence, and where only damping makes the blade flutter.
+    /// Amplitude to which flutter rises from a small motion at the speed of largest growth, limited by
+    /// stretching, without damping; up to 1.41 times as large near one edge of the band. Null unless
+    /// requested, for divergence, and if only damping makes the blade flutter.
     #[serde(default)]
     pub saturated_amplitude_m: Option<f64>,
     /// Estimated relative error of the onset.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,
-    /// Estimated relative error of the largest growth rate, a small difference of large numbers:
-    /// it may exceed the tolerance.
+    /// Estimated relative error of the largest growth rate. As a small difference of large numbers it may
+    /// exceed the tolerance.
     #[serde(default)]
     pub estimated_relative_growth_error: Option<f64>,
 }
 
-/// The operating speed against the lowest critical speed.
+/// Comparison of the operating speed with the lowest critical speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperatingEntry {
     /// The scene's operating speed.
     pub rpm: f64,
-    /// Operating speed over lowest critical speed.
+    /// Ratio of operating speed to lowest critical speed.
     pub of_lowest_critical: Option<f64>,
     /// Usual limit of that ratio, 0.85.
     pub limit: f64,
@@ -221,63 +220,64 @@ pub struct OperatingEntry {
     pub verdict: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
-    /// The critical speed that it is at, nearer than 5 %: there a constant side force bends the wave that stands
-    /// still ten times as far as at rest, or more. Null where none is so near.
+    /// Critical speed within 5 % of the operating speed: there a constant side force deflects the blade, in
+    /// the shape of the wave that stands still, at least ten times as far as at rest. Null if there is none.
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,
-    /// The window without instability: the speeds around it at which no instability counts, within the sweep, and no
-    /// nearer than 5 % to a critical speed; null where the saw is unstable or at a critical speed.
+    /// The window without instability: speeds of the sweep around the operating speed at which no instability
+    /// counts, and which are at least 5 % from critical speeds; null if the saw is unstable or at a critical
+    /// speed.
     pub safe_window_rpm: Option<[f64; 2]>,
     /// Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep.
     pub growth_per_s: Option<f64>,
-    /// Im λ/2π of the same mode.
+    /// Im λ/2π of this mode.
     pub frequency_hz: Option<f64>,
 }
 
-/// How fine the computation was.
+/// Size of the basis and estimated errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyEntry {
-    /// The name asked for.
+    /// Named accuracy of the scene.
     pub name: Accuracy,
     /// Largest number of nodal diameters.
     pub max_diameters: usize,
-    /// Radial functions for each, those included that steps and bends of the thickness add.
+    /// Radial functions for each, including those that steps and kinks of the thickness add.
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Relative error allowed of critical speeds, onsets and the lowest frequencies at rest.
+    /// Relative error allowed for critical speeds, onsets and the lowest frequencies at rest.
     pub tolerance: f64,
-    /// Whether the estimate is within the tolerance: the largest basis may fall short of it.
+    /// Whether the estimate is within the tolerance, which the largest basis may not achieve.
     pub reached: bool,
-    /// Estimated relative error of the critical speeds within the range, from what a larger basis would change.
+    /// Estimated relative error of the critical speeds within the sweep, from the change with a larger basis.
     pub estimated_relative_error: Option<f64>,
     /// Estimated relative error of the lowest frequencies at rest, measured on a larger basis.
     #[serde(default)]
     pub estimated_resting_error: Option<f64>,
-    /// Estimated relative error of the frequencies that are drawn, each relative to the frequency
-    /// of its wave on the blade.
+    /// Estimated relative error of the frequencies in the diagram, each relative to the frequency of its wave
+    /// on the blade.
     #[serde(default)]
     pub estimated_drawn_error: Option<f64>,
 }
 
-/// Eigenproblems solved, largest first.
+/// Numbers of eigenproblems solved, the largest first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkEntry {
-    /// Of the full model: Krylov iterations with a factorization each, or dense ones.
+    /// Eigenproblems of the full model: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
-    /// Those among them that used the block structure of the blade and the few columns of its
-    /// guides, in a time linear in the number of functions; scenes with edge loads or dampers have
-    /// no such structure.
+    /// Those of `full_solves` that used the block structure of the blade and the few columns of its guides,
+    /// in a time linear in the number of functions; scenes with edge loads or dampers have no such structure.
     pub structured_solves: usize,
-    /// Dense, of the projected matrices.
+    /// Dense eigenproblems of the projected matrices.
     pub reduced_solves: usize,
-    /// Dense, of the Hamiltonian reduction between two speeds.
+    /// Dense eigenproblems of the Hamiltonian reduction between two speeds.
     pub local_solves: usize,
-    /// Pairs of modes, of a damped blade single modes, refined by inverse iteration with a few factorizations each.
+    /// Pairs of modes (single modes of a damped blade) refined by inverse iteration with a few factorizations
+    /// each.
     pub refined_pairs: usize,
-    /// Symmetric, of the full model under other temperatures: limits of heat.
+    /// Symmetric eigenproblems of the full model at other temperatures, for limits of heat.
     pub heat_solves: usize,
 }
 
@@ -289,15 +289,14 @@ pub struct SensitivityEntry {
     pub parameter: String,
     /// The change: "1 %" or "1 degree".
     pub change: String,
-    /// Change of each critical speed up to the end of the sweep, in percent; the
-    /// double ones of a free blade stand twice.
+    /// Change of each critical speed up to the end of the sweep, in percent; double ones of a free blade are
+    /// listed twice.
     pub critical_speeds_percent: Vec<f64>,
-    /// Change of the onset of each reported band, in percent; null where the sweep
-    /// begins inside the band.
+    /// Change of the onset of each reported band, in percent; null if the sweep begins inside the band.
     pub onsets_percent: Vec<Option<f64>>,
-    /// dλ/dp of each mode at the operating speed (at rest without one), times the
-    /// change: growth in 1/s.
+    /// dλ/dp of each mode at the operating speed (at rest without one), times the change: real part, growth
+    /// in 1/s.
     pub growth_per_s: Vec<f64>,
-    /// The same: frequency in Hz.
+    /// Imaginary part of this change: frequency in Hz.
     pub frequency_hz: Vec<f64>,
 }

@@ -14,9 +14,9 @@ use crate::spectrum::{DescribedMode, Direction};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModeEntry {
-    /// Its harmonics in words, with shares where none dominates.
+    /// Its harmonics, with shares if none dominates.
     pub name: String,
-    /// How the wave runs, seen from space.
+    /// Direction of the wave, seen from space.
     pub direction: Direction,
     /// Rotation speed.
     pub rpm: f64,
@@ -30,17 +30,18 @@ pub struct ModeEntry {
     pub krein_sign: i8,
     /// Radii of the profiles.
     pub radius_m: Vec<f64>,
-    /// Harmonics with a share in the energy large enough to be visible, largest first.
+    /// Harmonics whose share of the energy is visible, the largest first.
     pub harmonics: Vec<WaveEntry>,
 }
 
-/// n nodal diameters of a mode.
+/// The part of a mode with n nodal diameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WaveEntry {
     /// n.
     pub nodal_diameters: usize,
-    /// Share between 0 and 1: in the kinetic energy of a mode, in the square of the deflection of the shape of an event.
+    /// Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of the shape at an
+    /// event.
     pub share: f64,
     /// Coefficient of cos nθ at the radii.
     pub cosine: ComplexEntry,

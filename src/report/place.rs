@@ -10,64 +10,64 @@ use crate::place::{
 };
 use crate::scene::{Scene, SceneFile, rpm};
 
-/// `place.json`.
+/// Report of a placement (`place.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceReport {
     /// Version of the program that wrote the report.
     pub sawflutter: String,
-    /// The scene with the numbers found.
+    /// The scene with the best numbers.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
-    /// What was made large.
+    /// The quantity that was maximized.
     pub goal: GoalEntry,
-    /// Lower limit of the first critical speed, if one was asked for.
+    /// Lower limit of the first critical speed, if there is one.
     pub min_critical_rpm: Option<f64>,
-    /// Whether the best saw keeps it, even at the worst of its tolerances.
+    /// Whether the best saw keeps the limit in the worst case of its tolerances.
     pub kept: bool,
-    /// Whether the best saw is better than the scene as it was, both at the worst of their tolerances. Where none between the bounds
-    /// is, `scene`, `best` and the numbers are those of the scene as it was, unless that one lies
-    /// outside the bounds.
+    /// Whether the best saw is better than the original scene, both in the worst case of their tolerances. If
+    /// no saw between the bounds is, `scene`, `best` and the numbers are those of the original scene, unless
+    /// that lies outside the bounds.
     pub improved: bool,
     /// First speed of the sweep, the same for every saw.
     pub from_rpm: f64,
-    /// Last speed of the sweep; flutter beyond it is not known.
+    /// Last speed of the sweep; flutter beyond it is unknown.
     pub to_rpm: f64,
-    /// Growth rate from which a band counts as flutter of the saw.
+    /// Growth rate from which on a band counts as flutter.
     pub flutter_threshold_per_s: f64,
-    /// Numbers found.
+    /// Free numbers and their best values.
     pub parameters: Vec<PlacedEntry>,
-    /// Freed numbers that move nothing, or nothing that the others do not move as well.
+    /// Freed numbers without effect, or whose effect other free numbers have as well.
     pub without_effect: Vec<String>,
-    /// The scene as it was.
+    /// Result of the original scene.
     pub before: OutcomeEntry,
-    /// The worst of the saws off it by the tolerances, itself included.
+    /// Worst neighbour of the original scene within its tolerances, itself included.
     pub worst_before: NeighbourEntry,
-    /// The best saw: that of the best goal at the worst of its tolerances.
+    /// The best saw: that of the best goal in the worst case of its tolerances.
     pub best: OutcomeEntry,
     /// Bands of the best saw.
     pub bands: Vec<InstabilityEntry>,
-    /// What these bands were held against.
+    /// Certificate of these bands.
     pub certificate: PlaceCertificateEntry,
-    /// Whether the best saw loses more than a twentieth of the goal within its tolerances.
+    /// Whether the best saw loses more than 5 % of the goal within its tolerances.
     pub fragile: bool,
-    /// The worst of the saws off the best one by the tolerances, itself included: what the search makes best.
+    /// Worst neighbour of the best saw within its tolerances, itself included; the search maximizes its goal.
     pub worst_neighbour: Option<NeighbourEntry>,
     /// Its goal divided by that of the best saw.
     pub worst_neighbour_share: f64,
-    /// The saw of the best goal by itself, where that is better than the best saw and worse within its tolerances; null
-    /// where there is none.
+    /// The saw with the best nominal goal, if it is better than the best saw and worse within its tolerances;
+    /// null otherwise.
     pub fragile_optimum: Option<FragileOptimumEntry>,
-    /// Bands that nearly reach the threshold and begin before the flutter speed.
+    /// Bands that nearly reach the threshold and begin below the flutter speed.
     pub almost: Vec<InstabilityEntry>,
     /// The goal over two numbers, on the coarse basis of the search.
     pub map: Option<MapEntry>,
-    /// Saws analysed.
+    /// Number of saws analysed.
     pub saws: usize,
-    /// Those among them that could not be computed: they count as the worst.
+    /// Number of those that could not be computed; they count as the worst.
     pub failed_saws: usize,
     /// Largest number of nodal diameters of the best saw's basis.
     pub max_diameters: usize,
@@ -77,17 +77,17 @@ pub struct PlaceReport {
     pub warnings: Vec<String>,
 }
 
-/// What is made large.
+/// The quantity that is maximized.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum GoalEntry {
     /// The flutter speed.
     FlutterSpeed,
-    /// The stable window around the operating speed.
+    /// Width of the window without instability around the operating speed.
     StableWindow,
 }
 
-/// A number found.
+/// A free number and its best value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedEntry {
@@ -97,87 +97,88 @@ pub struct PlacedEntry {
     pub start: f64,
     /// Best value.
     pub value: f64,
-    /// Least value allowed.
+    /// Lower bound.
     pub bound_from: f64,
-    /// Largest value allowed.
+    /// Upper bound.
     pub bound_to: f64,
-    /// Whether it rests on one of them.
+    /// Whether the value is a bound.
     pub at_bound: bool,
-    /// Its tolerance of production: it is off by so much for the next two.
+    /// Tolerance of production, the deviation for the next two values.
     pub offset: f64,
-    /// The goal with so much less of it; none where there is no such saw or it could not be computed.
+    /// Goal if the number is smaller by this amount; null if there is no such saw or it could not be
+    /// computed.
     pub less_rpm: Option<f64>,
-    /// The goal with so much more of it.
+    /// Goal if the number is larger by this amount.
     pub more_rpm: Option<f64>,
 }
 
-/// The goal of one saw, and the speeds that decide it.
+/// Goal of one saw, and the speeds that determine it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutcomeEntry {
-    /// What is made large: the flutter speed, the end of the sweep where there is none, or the
-    /// width of the window.
+    /// Value of the goal: the flutter speed, or the end of the sweep if there is none, or the width of the
+    /// window.
     pub goal_rpm: f64,
-    /// Onset of the first flutter band that reaches the threshold; none within the sweep.
+    /// Flutter speed; null if it exceeds the sweep.
     pub flutter_rpm: Option<f64>,
     /// Lowest critical speed.
     pub critical_rpm: Option<f64>,
-    /// Stable speeds around the operating speed, if they are the goal.
+    /// Window without instability around the operating speed, if it is the goal.
     pub window_rpm: Option<[f64; 2]>,
-    /// Whether the limit on the critical speed is kept.
+    /// Whether the limit of the critical speed is kept.
     pub kept: bool,
 }
 
-/// What the bands of the best saw were held against.
+/// Certificate of the bands of the best saw.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceCertificateEntry {
-    /// What was found, in a sentence.
+    /// The result in a sentence.
     pub statement: String,
     /// Whether every check agrees.
     pub is_clean: bool,
-    /// Number of speeds at which the Krein index was compared with the modes, or of a damped saw the number of growing
-    /// modes with that of the bands.
+    /// Number of speeds at which the Krein index was compared with the modes or, for a damped saw, the number
+    /// of growing modes with that of the bands.
     pub speeds_checked: usize,
-    /// Number of counts of eigenvalues on the full model that the modes were compared with.
+    /// Number of counts of eigenvalues on the full model with which the modes were compared.
     pub full_basis_counts: usize,
 }
 
-/// A saw beside a jump of the goal.
+/// A saw next to a jump of the goal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FragileOptimumEntry {
     /// Values of the numbers, in their order, and the goal.
     pub saw: NeighbourEntry,
-    /// The worst of the saws off it by the tolerances.
+    /// Worst neighbour of this saw within the tolerances.
     pub worst: NeighbourEntry,
 }
 
-/// A saw off another one by the tolerances.
+/// A saw whose numbers deviate from another one by the tolerances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NeighbourEntry {
     /// Values of the numbers, in their order.
     pub values: Vec<f64>,
-    /// Its goal; none where it could not be computed.
+    /// Its result; null if it could not be computed.
     pub outcome: Option<OutcomeEntry>,
 }
 
-/// The goal over two numbers, the others as they were best.
+/// The goal over two numbers; the others have their best values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapEntry {
     /// JSON path of the number along x.
     pub x_path: String,
-    /// Its values.
+    /// Values along x.
     pub x: Vec<f64>,
-    /// JSON path of the number along y; none where only one is free.
+    /// JSON path of the number along y; null if only one is free.
     pub y_path: Option<String>,
-    /// Its values.
+    /// Values along y.
     pub y: Vec<f64>,
-    /// The goal, one row for each value of y; none where there is no such saw.
+    /// The goal, one row for each value of y; null if there is no such saw.
     pub goal_rpm: Vec<Vec<Option<f64>>>,
-    /// Whether the limit on the critical speed is kept.
+    /// Whether the limit of the critical speed is kept.
     pub kept: Vec<Vec<bool>>,
 }
 
@@ -330,10 +331,10 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
         let path = freed.parameter.path();
         warnings.push(if path.ends_with("angle_deg") {
             format!(
-                "{path} is held: without the forces of a cut, guides that turn together give the same saw, and a single one may stand anywhere"
+                "{path} was kept: without the forces of a cut a common rotation of all guides changes nothing, so a single guide may be at any angle"
             )
         } else {
-            format!("{path} moves no critical speed and no band, and stays as it was")
+            format!("{path} changes no critical speed and no band, and was kept")
         });
     }
     if !found.improved {
@@ -345,7 +346,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     };
     if beyond {
         warnings.push(format!(
-            "the best saw is stable to the end of the sweep, {:.0} rpm; more cannot be told apart: end the sweep later",
+            "the best saw is stable to the end of the sweep, {:.0} rpm, so better ones cannot be distinguished: end the sweep at a higher speed",
             rpm(found.range.1)
         ));
     }
@@ -354,16 +355,15 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     }
     if found.tally.failed > 0 {
         warnings.push(format!(
-            "{} of the {} saws tried could not be computed and count as the worst; one of them says: {}",
+            "{} of the {} saws tried could not be computed and count as the worst; the reason of one of them: {}",
             found.tally.failed,
             found.tally.saws,
             found.tally.why.as_deref().unwrap_or_default()
         ));
     }
     if scene.cut().is_some() {
-        warnings.push(
-            "the forces of the cut are left out; hold the result against the saw in the cut".into(),
-        );
+        warnings
+            .push("the search ignores the forces of the cut; check the result in the cut".into());
     }
     warnings
 }
@@ -373,7 +373,7 @@ fn limit_missed(found: &Placement) -> String {
     let worst = found.neighbours.worst.outcome.as_ref();
     let short = worst.map_or(0.0, |worst| rpm(worst.short_rad_per_s));
     format!(
-        "no saw tried keeps the limit on the critical speed at the worst of its tolerances; this one comes nearest and misses it by {short:.0} rpm there"
+        "no saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {short:.0} rpm"
     )
 }
 
@@ -381,10 +381,10 @@ fn not_improved(found: &Placement) -> &'static str {
     let within = |p: &PlacedParameter| (p.freed.from..=p.freed.to).contains(&p.start);
     match found.parameters.iter().all(within) {
         true => {
-            "no saw between the bounds is better than the scene's own at the worst of their tolerances; the scene stays as it was"
+            "no saw between the bounds is better than the original one in the worst case of the tolerances; the scene was kept"
         }
         false => {
-            "the scene's own saw, which lies outside the bounds, is as good at the worst of its tolerances as the best one found between them or better; widen the bounds, or keep it"
+            "the original saw, which lies outside the bounds, is in the worst case of its tolerances at least as good as the best one between them; widen the bounds, or keep it"
         }
     }
 }

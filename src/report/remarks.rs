@@ -116,11 +116,11 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
         false => "",
     };
     let guide = found.guide.map_or(String::new(), |guide| {
-        format!("; guides[{guide}] bends the blade most sharply, and more area or less stiffness of it helps")
+        format!("; guides[{guide}] causes the sharpest bending: more area or less stiffness helps")
     });
     let needed = found.functions.map_or(String::new(), |needed| {
         let hundreds = 100.0 * (needed / 100.0).ceil();
-        format!("; by the fall of the error some {hundreds} functions would reach it")
+        format!("; by extrapolation some {hundreds} functions would reach it")
     });
     Some(format!(
         "the tolerance {tolerance} is out of reach of {functions} functions{most}; reached: {error}{guide}{needed}"
@@ -134,7 +134,7 @@ fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
     is_early.then(|| {
         format!(
-            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a coarser accuracy goes further",
+            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep",
             shown_to(3, rpm(end)),
             shown_to(3, rpm(usual))
         )
@@ -155,7 +155,7 @@ fn uncalibrated(scene: &Scene) -> Option<String> {
 fn thick(blade: &Blade) -> Option<String> {
     let share = blade.thickness_range_m().1 / (blade.outer_radius_m - blade.inner_radius_m);
     (share > 0.1).then(|| {
-        format!("the blade is {share:.2} of its width thick; thin-plate theory holds below 0.1")
+        format!("the thickness is {share:.2} of the width of the ring; thin-plate theory is valid below 0.1")
     })
 }
 
@@ -163,8 +163,7 @@ fn out_of_balance(scene: &Scene) -> Option<String> {
     let residual = scene.membrane()?.residual_stress.as_ref()?;
     (residual.imbalance != 0.0).then(|| {
         format!(
-            "the measured hoop stress is out of balance by {:.1} % of its size; its mean was \
-             taken off, for the edges of the blade are free",
+            "the measured hoop stress is out of balance by {:.1} % of its size; its mean was subtracted, because the edges of the blade are free",
             100.0 * residual.imbalance
         )
     })
@@ -184,8 +183,7 @@ fn unsettled(analysis: &Analysis) -> Option<String> {
     let error_hz = analysis.model.unsettled_rad_per_s / TAU;
     (error_hz > 0.0).then(|| {
         format!(
-            "the reduced model would need modes of more speeds than it may take: its frequencies \
-             may be off by {} Hz; a sweep over fewer speeds cures that",
+            "the reduced model would need modes at more speeds than allowed: its frequencies may be wrong by {} Hz; a shorter sweep avoids this",
             shown_to(2, error_hz)
         )
     })
@@ -202,11 +200,12 @@ fn left_free(analysis: &Analysis) -> Option<String> {
     let mut components = analysis.model.components.iter();
     let free = free_bore && components.any(|p| !p.full.free_rigid.is_empty());
     free.then(|| {
-        "nothing holds the blade against some rigid motion; it is left out of the modes".to_owned()
+        "nothing holds the blade against some rigid motion, which the list of modes excludes"
+            .to_owned()
     })
 }
 
-/// How the linear model treats pads that lift off.
+/// Remark on the linear treatment of pads that lift off.
 pub(super) fn lifting_off(scene: &Scene) -> Option<String> {
     let lifting = scene.guides().iter();
     let lifting = lifting.filter_map(|guide| Some((guide, guide.lifting?)));

@@ -13,22 +13,20 @@ pub struct RestMode {
     pub nodal_diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub nodal_circles: usize,
-    /// Name of its branch; the shares of its harmonics where none dominates:
-    /// "0 (54 %) + 1 (45 %)".
+    /// Name of its branch, or the shares of its harmonics if none dominates: "0 (54 %) + 1 (45 %)".
     pub name: String,
-    /// Number of the branch of the Campbell diagram that begins with it, if the sweep does at
-    /// rest.
+    /// Number of the branch of the Campbell diagram that begins with this mode, if the sweep begins at rest.
     pub branch: Option<usize>,
-    /// ζ = −Re λ/|λ| of a damped scene.
+    /// ζ = −Re λ/|λ|; damped scenes only.
     pub damping_ratio: Option<f64>,
-    /// −2π Re λ/|Im λ| of a damped scene.
+    /// −2π Re λ/|Im λ|; damped scenes only.
     pub logarithmic_decrement: Option<f64>,
     /// Estimated relative error of the frequency.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,
     /// ‖L(λ)q‖ relative to the size of its terms.
     pub backward_error: f64,
-    /// Share of each harmonic in the kinetic energy, largest first.
+    /// Share of each harmonic of the kinetic energy, largest first.
     pub harmonics: Vec<HarmonicEntry>,
     /// Deflection, scaled to a largest value of one.
     pub shape: Vec<ShapeEntry>,
@@ -40,7 +38,7 @@ pub struct RestMode {
 pub struct HarmonicEntry {
     /// n.
     pub nodal_diameters: usize,
-    /// Between 0 and 1.
+    /// Share, between 0 and 1.
     pub share: f64,
 }
 

@@ -9,7 +9,7 @@ use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
 use crate::scene::{SceneFile, rpm};
 use crate::transient::{RunningUp, linear_limit_m};
 
-/// `runup.json`.
+/// Report of a run-up (`runup.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpReport {
@@ -17,8 +17,8 @@ pub struct RunUpReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
@@ -29,11 +29,11 @@ pub struct RunUpReport {
     pub to_rpm: f64,
     /// Rate of the run-up.
     pub rate_rpm_per_s: f64,
-    /// Step of the integration.
+    /// Time step.
     pub step_s: f64,
-    /// Largest deflection that is given: beyond it the linear model does not hold.
+    /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,
-    /// Speed at which it is exceeded at the probe, where the record ends; null when it is not.
+    /// Speed at which the deflection at the probe exceeds it and the record ends; null if it does not.
     pub linear_until_rpm: Option<f64>,
     /// Speeds of the record.
     pub rpm: Vec<f64>,
@@ -41,12 +41,11 @@ pub struct RunUpReport {
     pub deflection_m: Vec<f64>,
     /// Critical speeds up to the end of the run-up.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
-    /// Bands of instability and what they do to the run-up.
+    /// Bands of instability and their effect on the run-up.
     pub bands: Vec<RunUpBand>,
-    /// Onset of the first band that more than doubles a motion at this rate, e to the power of its exponent; null
-    /// where none does.
+    /// Onset of the first band that more than doubles a motion at this rate; null if none does.
     pub first_doubling_rpm: Option<f64>,
-    /// What stretching adds, where the scene asks for it.
+    /// Results with stretching, if the scene requests it.
     #[serde(default)]
     pub stretching: Option<StretchingEntry>,
     /// Branches over the speeds of the run-up.
@@ -63,32 +62,32 @@ pub struct RunUpReport {
 pub struct RunUpBand {
     /// The band.
     pub band: InstabilityEntry,
-    /// Time that the run-up spends in it.
+    /// Time that the run-up spends in the band.
     pub time_s: f64,
-    /// Re λ of the band's own eigenvalue integrated over that time: a motion in its mode grows by e to
-    /// this power.
+    /// Re λ of the band's eigenvalue integrated over that time: a motion in its mode grows by e to this
+    /// power.
     pub growth_exponent: f64,
-    /// Largest deflection at the probe within the band over that in as many speeds before; null where
-    /// the linear model ends before the band does. Every mode that rings contributes to it: beside a small exponent it
-    /// says how other modes beat, not that the band makes a motion grow.
+    /// Ratio of the largest deflection at the probe within the band to that in an interval of equal length
+    /// before it; null if the linear model ends before the band does. All vibrating modes contribute: with a
+    /// small exponent it shows beating of other modes, not growth.
     pub seen_amplification: Option<f64>,
 }
 
-/// A run-up of a blade that stretches.
+/// A run-up with stretching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StretchingEntry {
-    /// Shapes of the basis that the deflection is made of.
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
-    /// Largest slope of the blade that was seen.
+    /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// Speed from which on slopes exceed 0.1, where the record ends; null where they do not.
+    /// Speed from which on slopes exceed 0.1 and the record ends; null if they do not.
     pub valid_until_rpm: Option<f64>,
     /// Speeds of the spectrum.
     pub rpm: Vec<f64>,
     /// Frequencies of the spectrum.
     pub frequency_hz: Vec<f64>,
-    /// Amplitude at the probe about a straight line, under Hann's window, one row a speed.
+    /// Amplitude at the probe about a straight line, with Hann's window, one row for each speed.
     pub amplitude_m: Vec<Vec<f64>>,
 }
 
@@ -100,7 +99,7 @@ pub struct ResponseEntry {
     pub rpm: Vec<f64>,
     /// Frequencies of the force.
     pub frequency_hz: Vec<f64>,
-    /// Deflection at the probe per newton, one row a speed.
+    /// Deflection at the probe per newton, one row for each speed.
     pub receptance_m_per_n: Vec<Vec<f64>>,
 }
 

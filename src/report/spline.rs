@@ -11,9 +11,9 @@ use crate::transient::OnSpline;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SplineEntry {
-    /// In the cut, by the eigenvalues with the simulated reaction.
+    /// Verdict in the cut, by the eigenvalues with the simulated reaction.
     pub verdict: Verdict,
-    /// Largest Re λ with it.
+    /// Largest Re λ with this reaction.
     pub growth_per_s: f64,
     /// Frequency of the growing mode.
     pub frequency_hz: Option<f64>,
@@ -24,17 +24,17 @@ pub struct SplineEntry {
     pub force_n: [f64; 2],
     /// Mean torque of the arbor on the blade.
     pub torque_n_m: f64,
-    /// Gap between a flank and its mate when the blade is centred.
+    /// Gap between two flanks while the blade is centred.
     pub clearance_m: f64,
     /// Mean number of spline teeth in contact.
     pub teeth_in_contact: f64,
     /// Largest normal force on a spline tooth.
     pub peak_tooth_n: f64,
-    /// Deepest approach of any flank.
+    /// Largest approach of any flank.
     pub deepest_m: f64,
-    /// Mean reaction plus load, relative to the load: what the averaging left over.
+    /// Mean reaction plus load, relative to the load: the remaining imbalance of the average.
     pub imbalance: f64,
-    /// How far from settled the motion is.
+    /// Measure of how far the motion is from being settled.
     pub unsteadiness: f64,
     /// Index in the orbit from which the reaction was averaged.
     pub settled_from: usize,

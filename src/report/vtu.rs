@@ -1,14 +1,14 @@
-//! The shapes of a report as files of VTK, which ParaView opens: a grid for each phase of a period, and the list of them.
+//! Shapes of a report as VTK files for ParaView: a grid for each phase of a period, and a list of the grids.
 //!
-//! The blade is a grid of quadrilaterals; each shape is an array of deflections, to warp the grid by. Playing the list shows how a wave
-//! travels.
+//! The blade is a grid of quadrilaterals; each shape is an array of deflections by which the grid is warped.
+//! Playing the list shows the motion of a wave.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::{EventShapeEntry, Report};
 
-/// The list of the grids, and the grids.
+/// Names of the list and of the grids.
 pub const VTK_NAMES: [&str; 1 + PHASES] = [
     "modes.pvd",
     "modes-00.vtu",
@@ -24,20 +24,20 @@ pub const VTK_NAMES: [&str; 1 + PHASES] = [
     "modes-10.vtu",
     "modes-11.vtu",
 ];
-/// Phases of a period.
+/// Number of phases of a period.
 const PHASES: usize = 12;
-/// Angles of the grid.
+/// Number of angles of the grid.
 const ANGLES: usize = 120;
-/// Of the radii of a shape every so many are those of the grid.
+/// One in this number of radii of a shape is a radius of the grid.
 const STRIDE: usize = 2;
-/// VTK's number of the type quadrilateral.
+/// VTK's number of the cell type quadrilateral.
 const QUADRILATERAL: u8 = 9;
 
-/// A shape by its title, with its complex deflections at the points of the grid.
+/// Title of a shape, and its complex deflections at the points of the grid.
 type Titled = (String, Vec<[f64; 2]>);
 
 impl Report {
-    /// The files of VTK by name; none where the report has no shapes.
+    /// The VTK files by name; empty if the report has no shapes.
     pub fn vtk_files(&self) -> Vec<(&'static str, String)> {
         let Some(first) = self.shapes.first() else {
             return Vec::new();
@@ -63,7 +63,7 @@ impl Report {
     }
 }
 
-/// The grids with their times, in periods.
+/// The list of grids with their times, in periods.
 fn list() -> String {
     let sets = VTK_NAMES[1..].iter().enumerate().map(|(phase, name)| {
         let time = phase as f64 / PHASES as f64;
@@ -128,12 +128,12 @@ fn quadrilateral(cell: usize) -> String {
     )
 }
 
-/// Digits enough for a picture.
+/// A number with enough digits for a picture.
 fn short(value: f64) -> String {
     format!("{}", (1e6 * value).round() / 1e6)
 }
 
-/// The name of an array: what ParaView lists.
+/// The name of an array, which ParaView lists.
 fn title(number: usize, shape: &EventShapeEntry) -> String {
     let text = format!("{number:02} {:.0} rpm {}", shape.rpm, shape.name);
     let text = text.replace('&', "&amp;").replace('<', "&lt;");

@@ -12,7 +12,7 @@ use crate::spectrum::Direction;
 use crate::text::shown_to;
 use crate::washboarding::{Washboard, WashboardMode};
 
-/// `washboard.json`.
+/// Report of a washboarding analysis (`washboard.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WashboardReport {
@@ -20,41 +20,41 @@ pub struct WashboardReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Rotation speed of the verdict.
     pub rpm: f64,
     /// Whether a motion grows at that speed.
     pub verdict: Verdict,
-    /// Teeth that pass in a second.
+    /// Number of teeth that pass per second.
     pub tooth_passing_hz: f64,
-    /// Times from tooth to tooth: one of even teeth, else each of those that repeat.
+    /// Times between successive teeth: one for even teeth, otherwise one for each pitch that repeats.
     pub delays_s: Vec<f64>,
     /// Lateral cutting stiffness of all teeth in the cut together.
     pub stiffness_n_per_m: f64,
-    /// Share of a tooth's cut on the surface left by the tooth before.
+    /// Share of a tooth's cut on the surface left by the preceding tooth.
     pub overlap: f64,
     /// Arc of the rim on which the force acts.
     pub arc_deg: f64,
-    /// Speed at which the wood is fed, if it is given.
+    /// Feed speed of the wood, if given.
     pub feed_m_per_s: Option<f64>,
-    /// Least cutting stiffness at which a motion grows at that speed; null where there is none up to
-    /// `ceiling_n_per_m`, zero where one grows without the delayed force.
+    /// Smallest cutting stiffness at which a motion grows at that speed; null if it exceeds
+    /// `ceiling_n_per_m`, zero if a motion grows without the delayed force.
     pub critical_stiffness_n_per_m: Option<f64>,
-    /// Frequency at which it then begins to.
+    /// Frequency of this motion.
     pub critical_frequency_hz: Option<f64>,
-    /// Eigenvalues in the right half plane, counted by the argument principle, two for each
-    /// oscillation; null where one lies on the imaginary axis.
+    /// Number of eigenvalues in the right half plane by the argument principle, two for each oscillation;
+    /// null if one lies on the imaginary axis.
     pub growing_eigenvalues: Option<usize>,
-    /// The same without the delayed force.
+    /// This number without the delayed force.
     pub growing_eigenvalues_without: usize,
-    /// Modes at that speed, the fastest growing or slowest decaying first.
+    /// Modes at that speed, in descending order of growth.
     pub modes: Vec<WashboardModeEntry>,
-    /// Least cutting stiffness at which a motion grows, over the speed.
+    /// Smallest cutting stiffness at which a motion grows, over the speed.
     pub lobes: LobesEntry,
-    /// Cutting stiffness up to which it was looked for.
+    /// Largest cutting stiffness of the search.
     pub ceiling_n_per_m: f64,
     /// Frequency up to which the modes are complete.
     pub complete_to_hz: f64,
@@ -72,24 +72,24 @@ pub struct WashboardReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WashboardModeEntry {
-    /// Its harmonics in words, with shares where none dominates.
+    /// Its harmonics, with shares if none dominates.
     pub name: String,
-    /// How the wave runs, seen from space.
+    /// Direction of the wave, seen from space.
     pub direction: Direction,
     /// Im λ/2π in space.
     pub frequency_hz: f64,
     /// Re λ.
     pub growth_per_s: f64,
-    /// Re λ of the mode without the delayed force; null for one that only the delay makes.
+    /// Re λ of the mode without the delayed force; null for a mode that exists only because of the delay.
     pub growth_without_per_s: Option<f64>,
     /// Im λ/2π of the mode without the delayed force.
     pub frequency_without_hz: Option<f64>,
-    /// The multiple of the tooth passing frequency next to its frequency; null for teeth that are not
-    /// evenly spaced.
+    /// Multiple of the tooth passing frequency that is nearest to its frequency; null for unevenly spaced
+    /// teeth.
     pub tooth_passing_multiple: Option<u32>,
-    /// Its frequency less that multiple.
+    /// Difference between its frequency and this multiple.
     pub beside_tooth_passing_hz: Option<f64>,
-    /// Length of a wave of its pattern on the board, along the feed; null without a feed.
+    /// Wavelength of its pattern on the board, along the feed; null without a feed.
     pub pattern_pitch_m: Option<f64>,
 }
 
@@ -99,12 +99,12 @@ pub struct WashboardModeEntry {
 pub struct LobesEntry {
     /// Rotation speeds.
     pub rpm: Vec<f64>,
-    /// Least cutting stiffness at which a motion grows; null where there is none up to
-    /// `ceiling_n_per_m`, zero where one grows without the delayed force.
+    /// Smallest cutting stiffness at which a motion grows; null if it exceeds `ceiling_n_per_m`, zero if a
+    /// motion grows without the delayed force.
     pub critical_stiffness_n_per_m: Vec<Option<f64>>,
-    /// Frequency at which it begins to.
+    /// Frequency of this motion.
     pub frequency_hz: Vec<Option<f64>>,
-    /// Whether the argument principle says that nothing grows right below it.
+    /// Whether the argument principle confirms that nothing grows just below it.
     pub confirmed: Vec<bool>,
 }
 
@@ -212,7 +212,7 @@ fn unusual_numbers(found: &Washboard) -> Vec<String> {
 fn without_delay(found: &Washboard) -> Option<String> {
     (found.growing_without > 0).then(|| {
         format!(
-            "at {:.0} rpm the saw in the cut is unstable without the delayed force; an analysis of the cut tells why",
+            "at {:.0} rpm the saw in the cut is unstable without the delayed force; an analysis of the cut shows why",
             found.run.rpm
         )
     })
@@ -220,7 +220,7 @@ fn without_delay(found: &Washboard) -> Option<String> {
 
 fn on_the_axis(found: &Washboard) -> Option<String> {
     found.growing.is_none().then(|| {
-        "a motion neither grows nor decays to all digits: it cannot be told on which side of the boundary the saw is, and it is called unstable".to_owned()
+        "a motion neither grows nor decays within rounding: the side of the boundary is undetermined, and the saw is called unstable".to_owned()
     })
 }
 
@@ -230,7 +230,7 @@ fn unlisted(found: &Washboard) -> Option<String> {
     let count = found.growing?;
     (count != listed).then(|| {
         format!(
-            "the argument principle counts {count} growing eigenvalues, but {listed} were found: the list of modes lacks some"
+            "the argument principle counts {count} growing eigenvalues, but {listed} were found: the list of modes is incomplete"
         )
     })
 }
@@ -239,14 +239,14 @@ fn beyond(found: &Washboard) -> Option<String> {
     let complete_hz = found.complete_to_rad_per_s / TAU;
     if found.complete_to_rad_per_s < found.needed_to_rad_per_s {
         return Some(format!(
-            "only modes up to {complete_hz:.0} Hz are looked at, as many as can be, but teeth drive those up to {:.0} Hz: what they do is not known",
+            "only modes up to {complete_hz:.0} Hz are included, as many as possible, but teeth drive modes up to {:.0} Hz: their stability is not known",
             found.needed_to_rad_per_s / TAU
         ));
     }
     let stiffness = found.washboarding.stiffness_n_per_m;
     (stiffness > found.safe_beyond_n_per_m).then(|| {
         format!(
-            "modes above {complete_hz:.0} Hz are not looked at; by its damping alone none of them grows up to {} N/m",
+            "modes above {complete_hz:.0} Hz are not included; their damping prevents growth up to {} N/m",
             shown_to(3, found.safe_beyond_n_per_m)
         )
     })
@@ -265,8 +265,7 @@ fn unconfirmed(found: &Washboard) -> Option<String> {
 fn without_pitch(found: &Washboard) -> Option<String> {
     if !found.washboarding.is_even() {
         return Some(
-            "teeth that are not evenly spaced leave no pattern of one pitch: none is given"
-                .to_owned(),
+            "unevenly spaced teeth leave no pattern of a single pitch, so none is given".to_owned(),
         );
     }
     found.run.feed_m_per_s.is_none().then(|| {

@@ -9,7 +9,7 @@ use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
 use crate::stability::{Analysis, StabilityState};
 
-/// The modes of one speed.
+/// The modes at one speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WhirlEntry {
@@ -17,14 +17,14 @@ pub struct WhirlEntry {
     pub rpm: f64,
     /// Whether the saw can run at that speed.
     pub verdict: StabilityState,
-    /// The critical speed that it is at, nearer than 5 %; null where none is so near.
+    /// Critical speed within 5 % of this speed; null if there is none.
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,
     /// Modes, ascending in frequency.
     pub modes: Vec<WhirlMode>,
 }
 
-/// A mode of a saw that turns.
+/// A mode of a rotating saw.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WhirlMode {
@@ -34,15 +34,15 @@ pub struct WhirlMode {
     pub nodal_diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub nodal_circles: usize,
-    /// How the dominant harmonic runs, seen from space.
+    /// Direction of the dominant harmonic, seen from space.
     pub direction: Direction,
-    /// In words.
+    /// Name.
     pub name: String,
     /// Re λ.
     pub growth_per_s: f64,
-    /// ζ = −Re λ/|λ| of a damped scene.
+    /// ζ = −Re λ/|λ|; damped scenes only.
     pub damping_ratio: Option<f64>,
-    /// −2π Re λ/|Im λ| of a damped scene, where the mode oscillates.
+    /// −2π Re λ/|Im λ|; damped scenes only, if the mode oscillates.
     pub logarithmic_decrement: Option<f64>,
     /// Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
     pub krein_sign: i8,

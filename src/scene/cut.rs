@@ -190,7 +190,7 @@ fn teeth_in_cut(
     blade: &Blade,
 ) -> Result<TeethInCut, SceneError> {
     let Some(all_teeth) = teeth.filter(|teeth| *teeth > 0) else {
-        let remedy = "the pitch of the teeth says where the forces act; give their number";
+        let remedy = "the pitch of the teeth determines where the forces act; give their number";
         let given = teeth.map_or("missing".into(), |teeth| teeth.to_string());
         let allowed = "at least 1 where the scene has a cut";
         return Err(RefusedValue::new("blade.teeth", given, allowed, remedy).into());
@@ -215,7 +215,7 @@ fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneErr
     }
     let Some(depth_m) = typed.depth_m else {
         let allowed = "given, or cut.depth_m in its place";
-        let remedy = "say how many teeth are in the cut, or how deep it is";
+        let remedy = "give the number of teeth in the cut, or its depth";
         return Err(RefusedValue::missing(key, allowed, remedy).into());
     };
     let diameter_m = 2.0 * blade.outer_radius_m;

@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 use super::check::refuse;
 use super::{RefusedValue, SceneError, SceneFile};
 
-/// Lines of the Campbell diagram at multiples of the rotation speed, and where they cross the
-/// natural frequencies.
+/// Lines of the Campbell diagram at multiples of the rotation speed, and their crossings with the natural
+/// frequencies.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ExcitationFile {
-    /// Lines 1×, 2×, … up to this multiple of the rotation speed: a warp or an unbalance of the
-    /// blade as the guides see it. None by default.
+    /// Lines 1×, 2×, … up to this multiple of the rotation speed: frequencies at which a warped or unbalanced
+    /// blade excites itself at the guides. None by default.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub orders: u32,
     /// Lines at the tooth passing frequency, which is the number of teeth times the rotation speed,
@@ -84,7 +84,7 @@ fn few(key: &str, count: u32, most: u32) -> Result<(), SceneError> {
     if count <= most {
         return Ok(());
     }
-    let remedy = "ask for the lines that something excites";
+    let remedy = "list only multiples that are excited";
     Err(refuse(
         key,
         f64::from(count),

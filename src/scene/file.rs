@@ -13,18 +13,18 @@ use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
 use super::thickness::{RimFile, ThicknessRow};
 
-/// A saw and what to find out about it, as written in a scene file.
+/// A saw and the analysis, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// Title of reports and figures.
     pub name: String,
-    /// Where the numbers come from: measured, assumed, calibrated.
+    /// Origin of the numbers: measured, assumed, calibrated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// The blade.
     pub blade: BladeFile,
-    /// How the bore is held.
+    /// Support of the bore.
     pub mount: Mount,
     /// Guide pads, fixed in space. None by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -32,13 +32,13 @@ pub struct SceneFile {
     /// Damping. None by default, as in the classical analysis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingFile>,
-    /// Membrane stress from heat, roll tension or as measured. None by default.
+    /// Membrane stress from heat, roll tension or measurement. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub membrane: Option<MembraneFile>,
     /// Contact between bore and splined arbor. Not simulated by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spline: Option<SplineFile>,
-    /// Speed at which the saw is run, held against the 85 % rule.
+    /// Operating speed, to which the 85 % rule applies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
     /// Lines of the Campbell diagram at multiples of the rotation speed. None by default.
@@ -47,13 +47,13 @@ pub struct SceneFile {
     /// Range of speeds; by default from rest to twice the lowest critical speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sweep: Option<SweepFile>,
-    /// Speed for accuracy.
+    /// Accuracy by name; a lower one is faster.
     #[serde(default)]
     pub accuracy: Accuracy,
-    /// Relative error allowed of critical speeds and onsets, instead of a named accuracy.
+    /// Relative error allowed for critical speeds and onsets, in place of a named accuracy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Growth rate from which an oscillatory band counts as flutter of the saw.
+    /// Growth rate from which on an oscillatory band counts as flutter.
     #[serde(default = "default_flutter_threshold_per_s")]
     pub flutter_threshold_per_s: f64,
     /// Forces of the wood on the teeth, for `sawflutter cut`.
@@ -62,7 +62,7 @@ pub struct SceneFile {
     /// Run-up under a lateral force, for `sawflutter runup`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runup: Option<RunUpFile>,
-    /// Where the deflection is read; by default at the rim, 90° past the cut.
+    /// Point at which the deflection is read; by default at the rim, 90° downstream of the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probe: Option<ProbeFile>,
     /// Measured or published frequencies to show beside the computed ones.
@@ -83,14 +83,13 @@ pub struct BladeFile {
     pub outer_diameter_m: f64,
     /// Diameter of the bore.
     pub inner_diameter_m: f64,
-    /// Thickness of the plate; with a profile, from the bore to the first row of it.
+    /// Thickness of the plate; with a profile, from the bore to its first row.
     pub thickness_m: f64,
-    /// Thickness at ascending radii, straight between the rows and constant beyond the last; two
-    /// rows of one radius make a step, and so does a first row of another thickness. By default
-    /// the blade has one thickness.
+    /// Thickness at ascending radii, linear between the rows and constant beyond the last. Two rows at one
+    /// radius are a step, and so is a first row of another thickness. By default the thickness is uniform.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub profile: Vec<ThicknessRow>,
-    /// Number of teeth; they carry no stiffness in the model, and mass where `rim` gives it.
+    /// Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub teeth: Option<u32>,
     /// Mass of teeth or carbide tips. None by default.
@@ -112,7 +111,7 @@ pub struct Material {
     pub density_kg_per_m3: f64,
 }
 
-/// How the bore is held.
+/// Support of the bore.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Mount {
@@ -127,8 +126,8 @@ pub enum Mount {
     },
 }
 
-/// In-plane condition at the edge of a collar. It moves critical speeds by
-/// 15 % on a 400 mm blade, so there is no default.
+/// In-plane condition at the edge of a collar. It changes critical speeds by 15 % for a blade of 400 mm, so
+/// there is no default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum InPlane {
@@ -138,60 +137,62 @@ pub enum InPlane {
     Free,
 }
 
-/// A rectangular guide pad, its sides along and across the radius at its
-/// centre. Without size it is a point spring.
+/// A rectangular guide pad with sides along and across the radius at its centre. With zero size it is a point
+/// spring.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GuideFile {
     /// Distance of the pad's centre from the axis.
     pub radius_m: f64,
-    /// Angle of the pad's centre, from the cut (θ = 0), positive with the rotation.
+    /// Angle of the pad's centre, from the cut (θ = 0), positive in the direction of rotation.
     pub angle_deg: f64,
-    /// Side along the radius.
+    /// Length along the radius.
     pub radial_length_m: f64,
-    /// Side across the radius.
+    /// Length across the radius.
     pub tangential_length_m: f64,
     /// Lateral stiffness of the whole pad, both faces together.
     pub stiffness_n_per_m: f64,
     /// Lateral viscous damping of the whole pad, fixed in space.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub damping_n_s_per_m: f64,
-    /// Gap between the pad and a face of the blade, such as its film of water: `check` holds the static
-    /// deflection in the cut against it. A linear pad acts within it all the same. Not looked at by default.
+    /// Gap between the pad and a face of the blade, such as its film of water; `check` compares it with the
+    /// static deflection in the cut. A linear pad acts as if it had no gap. Not checked by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap_m: Option<f64>,
     /// Whether the pad acts at any deflection, which is the default, or only beyond the gap.
     #[serde(default, skip_serializing_if = "is_usual")]
     pub contact: ContactLaw,
-    /// Sides of the blade on which a one-sided pad stands; both by default.
+    /// Sides of the blade on which a one-sided pad is; both by default.
     #[serde(default, skip_serializing_if = "is_usual")]
     pub side: GuideSide,
-    /// Lateral stiffness of the whole pad inside the gap if it is one-sided, such as that of a film of water. Zero by
+    /// Lateral stiffness of the whole one-sided pad inside the gap, such as that of a film of water. Zero by
     /// default.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub film_stiffness_n_per_m: f64,
 }
 
-/// How a guide pad holds the blade.
+/// Contact law of a guide pad.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ContactLaw {
-    /// A spring in both directions at any deflection: a preloaded pad, or one that is carried by a film.
+    /// A spring in both directions at any deflection: a preloaded pad, or one with a film.
     #[default]
     Linear,
-    /// A spring beyond the gap only, which presses and never pulls. `deflect`, `runup.stretching` and `cut.stretching`
-    /// follow the contact; linear analyses such as the Campbell diagram treat the pad as linear.
+    /// A spring only beyond the gap, which presses and never pulls. `deflect`, `runup.stretching` and
+    /// `cut.stretching` include the contact; linear analyses such as the Campbell diagram treat the pad as
+    /// linear.
     OneSided,
 }
 
-/// Sides of the blade on which a guide pad stands.
+/// Sides of the blade on which a guide pad is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum GuideSide {
-    /// Both: a gap on each.
+    /// Both sides, with a gap on each.
     #[default]
     Both,
-    /// The side of positive deflections, which is left when looking from the cut towards the axis with θ = 90° up.
+    /// The side of positive deflections, on the left when looking from the cut towards the axis with θ = 90°
+    /// up.
     Left,
     /// The side of negative deflections.
     Right,
@@ -201,18 +202,18 @@ fn is_usual<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Damping of the blade. Each number states the frame it lives in.
+/// Damping of the blade. Each number belongs to one frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingFile {
-    /// Kelvin–Voigt retardation time η of the material (turns with the blade).
+    /// Kelvin–Voigt retardation time η of the material, which turns with the blade.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub material_retardation_time_s: f64,
-    /// Viscous resistance of the surrounding air per area (at rest in space, unless it turns).
+    /// Viscous resistance per area of the surrounding air, which is at rest in space unless it turns.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub air_n_s_per_m3: f64,
-    /// Share of the blade's speed with which this air turns: 0 for air at rest, by default; 1 for
-    /// air that goes with the blade.
+    /// Ratio of the rotation speed of this air to that of the blade: 0, by default, for air at rest; 1 for
+    /// air that turns with the blade.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub air_rotation_share: f64,
 }
@@ -232,16 +233,16 @@ pub struct SweepFile {
     pub to_rpm: f64,
 }
 
-/// Named accuracies: the relative error allowed of critical speeds and onsets.
+/// Named accuracies: the relative error allowed for critical speeds and onsets.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Accuracy {
-    /// 1 %, for looking around.
+    /// 1 %, for exploration.
     Draft,
-    /// 0.1 %, for designing.
+    /// 0.1 %, for design.
     #[default]
     Design,
-    /// 0.01 %, for comparing with others.
+    /// 0.01 %, for comparison with other results.
     Reference,
 }
 
@@ -256,13 +257,13 @@ impl Accuracy {
     }
 }
 
-/// Frequencies from elsewhere, drawn over the chart.
+/// Frequencies from another source, shown in the Campbell diagram.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// Who measured or published them.
+    /// Source of the frequencies.
     pub source: String,
-    /// One row a speed.
+    /// One row for each speed.
     pub rows: Vec<MeasuredRow>,
 }
 
@@ -272,7 +273,7 @@ pub struct Measured {
 pub struct MeasuredRow {
     /// Rotation speed.
     pub rpm: f64,
-    /// Frequencies in the space-fixed frame, lowest first; null in the place of one that was not seen.
+    /// Frequencies in the space-fixed frame, ascending; null for one that was not measured.
     pub frequencies_hz: Vec<Option<f64>>,
 }
 

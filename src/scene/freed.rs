@@ -116,7 +116,7 @@ impl Freed {
         let asked = if asked.is_empty() { &usual } else { asked };
         if asked.len() > MAX_FREED {
             let allowed = format!("at most {MAX_FREED}");
-            let remedy = "name those that matter";
+            let remedy = "name the most important ones";
             let key = "the number of free paths";
             return Err(RefusedValue::new(key, asked.len(), allowed, remedy).into());
         }

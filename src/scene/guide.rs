@@ -7,7 +7,7 @@ use crate::text::shown;
 /// Validated guide pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guide {
-    /// Its place in the scene.
+    /// Index in the list of the scene.
     pub index: usize,
     /// Distance of the centre from the axis.
     pub radius_m: f64,
@@ -21,18 +21,18 @@ pub(crate) struct Guide {
     pub stiffness_n_per_m: f64,
     /// Damping of the whole pad.
     pub damping_n_s_per_m: f64,
-    /// How it lifts off; `None` of a linear pad.
+    /// Gap of a pad that lifts off; `None` for a linear pad.
     pub lifting: Option<Lifting>,
 }
 
-/// A pad that touches the blade beyond a gap only.
+/// A pad that touches the blade only beyond a gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Lifting {
     /// Gap on each side.
     pub gap_m: f64,
     /// Stiffness of the whole pad within the gap.
     pub film_stiffness_n_per_m: f64,
-    /// Sides on which the pad stands.
+    /// Sides on which the pad is.
     pub side: GuideSide,
 }
 
@@ -101,7 +101,7 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
     Ok(pad)
 }
 
-/// How a pad lifts off, if it does.
+/// Validates the gap of a pad that lifts off; `None` for a linear pad.
 fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lifting>, SceneError> {
     if typed.contact == ContactLaw::Linear {
         if typed.side != GuideSide::Both {
@@ -151,7 +151,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// A pad that lifts off with everything that it needs, and changes to it.
+    /// A pad that lifts off with all that it needs, modified.
     fn with(change: impl FnOnce(&mut GuideFile)) -> Result<Scene, SceneError> {
         Scene::paper().edited(|file| {
             let pad = &mut file.guides[0];

@@ -9,30 +9,29 @@ use super::residual::{ResidualStress, ResidualStressRow};
 use super::{Blade, SceneError};
 use crate::text::shown;
 
-/// Stress in the plane of the blade, the same all around. What is not named is not there.
+/// Axisymmetric stress in the plane of the blade. Missing parts are zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MembraneFile {
     /// Heat of the cut and of guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureFile>,
-    /// Bands that a roller has spread.
+    /// Bands that were rolled.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub roll_tension: Vec<RollBandFile>,
-    /// Residual stress as measured, at ascending radii: straight between the rows, constant
-    /// beyond them.
+    /// Measured residual stress at ascending radii: linear between the rows, constant beyond them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub residual_stress: Vec<ResidualStressRow>,
 }
 
-/// Temperature over the radius, above that of the unstressed blade (which is that of a collar
-/// that holds it in its plane): either a rise at the rim with its shape, or a table.
+/// Temperature over the radius, relative to that of the unstressed blade (for a fixed collar, that of the
+/// collar): either a rise at the rim with its shape, or a table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TemperatureFile {
     /// Coefficient of linear thermal expansion; steel: 1.2e-5.
     pub expansion_per_k: f64,
-    /// Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p from r₀ on, zero within.
+    /// Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim_rise_k: Option<f64>,
     /// r₀; by default the bore, or the edge of the collar.
@@ -41,7 +40,7 @@ pub struct TemperatureFile {
     /// p; by default 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exponent: Option<f64>,
-    /// Rises at ascending radii, straight between the rows and constant beyond them.
+    /// Rises at ascending radii, linear between the rows and constant beyond them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<TemperatureRow>,
 }
@@ -56,17 +55,16 @@ pub struct TemperatureRow {
     pub rise_k: f64,
 }
 
-/// A band that a roller has gone over. Squeezed in its thickness, it would spread in its
-/// plane; the metal around holds it, and is stretched along the rim.
+/// A rolled band. Rolling reduces its thickness, so that it would expand in its plane; the surrounding metal
+/// restrains it and is stretched along the rim.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RollBandFile {
     /// Radius of its middle.
     pub radius_m: f64,
-    /// Its width along the radius.
+    /// Width along the radius.
     pub width_m: f64,
-    /// Strain by which it would spread in its plane if it were free, the same in all
-    /// directions; positive for rolling.
+    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling.
     pub eigenstrain: f64,
 }
 
@@ -157,7 +155,7 @@ impl Temperature {
         if typed.rim_rise_k.is_some() == has_table {
             let given = if has_table { 2.0 } else { 0.0 };
             let remedy = "give rim_rise_k (with from_radius_m and exponent) or a table";
-            let allowed = "exactly one way of saying it";
+            let allowed = "exactly one description";
             return Err(refuse("membrane.temperature", given, allowed, remedy));
         }
         let (peak_rise_k, shape) = match typed.rim_rise_k {

@@ -44,7 +44,7 @@ impl Parameter {
             key: "the parameter".into(),
             value: format!("{:?}", self.path),
             allowed: "the path of a number that the scene has, like guides[0].radius_m".into(),
-            remedy: "write this number into the scene, or mend its name",
+            remedy: "write this number into the scene, or correct its name",
         })
     }
 }

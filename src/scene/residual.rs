@@ -13,9 +13,9 @@ use super::{Blade, Bore, SceneError};
 pub struct ResidualStressRow {
     /// Distance from the axis.
     pub radius_m: f64,
-    /// Stress along the rim, tension positive. The radial stress follows from it.
+    /// Stress along the circumference, positive in tension. The radial stress follows from it.
     pub hoop_pa: f64,
-    /// Stress along the radius, if measured too: refused where the hoop stress contradicts it.
+    /// Stress along the radius, if measured too; refused if it contradicts the hoop stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_pa: Option<f64>,
 }

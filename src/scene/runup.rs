@@ -16,15 +16,15 @@ pub struct RunUpFile {
     pub from_rpm: f64,
     /// Last speed.
     pub to_rpm: f64,
-    /// Time it takes.
+    /// Duration.
     pub duration_s: f64,
     /// Lateral force at the rim.
     pub force_n: f64,
-    /// Angle of the force, positive with the rotation.
+    /// Angle of the force, positive in the direction of rotation.
     #[serde(default)]
     pub angle_deg: f64,
-    /// Whether the blade stretches where it bends by more than a part of its thickness: then the record does not end
-    /// at five thicknesses, but where slopes exceed 0.1. It takes longer.
+    /// Whether the model includes stretching of the middle surface at large deflections: then the record ends
+    /// where slopes exceed 0.1, and not at five thicknesses. It takes longer.
     #[serde(default, skip_serializing_if = "is_false")]
     pub stretching: bool,
 }
@@ -34,14 +34,14 @@ pub(super) fn is_false(value: &bool) -> bool {
     !value
 }
 
-/// Where the deflection is read.
+/// Point at which the deflection is read.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProbeFile {
     /// Distance from the axis; the rim by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
-    /// Angle, positive with the rotation.
+    /// Angle, positive in the direction of rotation.
     pub angle_deg: f64,
 }
 

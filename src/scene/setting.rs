@@ -212,9 +212,9 @@ fn number(setting: &Setting) -> Result<Number, RefusedValue> {
 
 fn no_entry(path: &str, list: &str, count: usize) -> RefusedValue {
     let allowed = match count {
-        0 => format!("a place that the scene has, but its {list} has no entries"),
+        0 => format!("an index that the scene has, but its {list} has no entries"),
         _ => format!(
-            "a place that the scene has: {list}[0] to {list}[{}]",
+            "an index that the scene has: {list}[0] to {list}[{}]",
             count - 1
         ),
     };

@@ -6,35 +6,33 @@ use serde::{Deserialize, Serialize};
 use super::check::{positive, within};
 use super::{Blade, Mount, RefusedValue, SceneError, SceneFile};
 
-/// Contact between the splined bore and the arbor; with it the motion of the blade in
-/// its own plane is simulated.
+/// Contact between the splined bore and the arbor; with it the in-plane motion of the blade is simulated.
 ///
-/// The paper states the clearance. It gives neither the number of spline teeth nor
-/// their shape, and for the contact two numbers whose units do not fit its formula
-/// F = K x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C = 0.15 "N-s/m". Taken in metres,
-/// 2.2e5 N/m^{3/2} lets the weight of the paper's blade alone sink millimetres into a
-/// tooth. In millimetres, the usual unit of the program the paper used, they are
-/// 6.96e9 N/m^{3/2} and 4.74e3 N/(m/s)^{3/2}. So neither has a default here.
+/// The paper states the clearance. It gives neither the number of spline teeth nor their shape, and for the
+/// contact two numbers whose units do not fit its formula F = K x^{3/2} + C ẋ^{3/2}: K = 2.2e5 "N/m" and C =
+/// 0.15 "N-s/m". Interpreted in metres, with 2.2e5 N/m^{3/2} the weight of the paper's blade alone would
+/// cause an approach of millimetres. In millimetres, the usual unit of the program used in the paper, they
+/// are 6.96e9 N/m^{3/2} and 4.74e3 N/(m/s)^{3/2}. Therefore neither has a default.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SplineFile {
     /// Number of spline teeth.
     pub teeth: u32,
-    /// Angle of a flank to the radius through it: 0 for straight-sided teeth, 30 for the
-    /// usual involute spline.
+    /// Angle between a flank and the radius through it: 0 for straight-sided teeth, 30 for the usual involute
+    /// spline.
     pub pressure_angle_deg: f64,
-    /// K of the contact force K x^{3/2} at a flank that is pressed in by x.
+    /// K of the contact force K x^{3/2} at the approach x of a flank.
     pub contact_stiffness_n_per_m_3_2: f64,
-    /// C of the contact force C ẋ^{3/2} at a flank that is pressed in at the speed ẋ.
+    /// C of the contact force C ẋ^{3/2} at the speed of approach ẋ of a flank.
     pub contact_damping_n_s_3_2_per_m_3_2: f64,
-    /// Gap between a flank and its mate when the blade is centred.
+    /// Gap between two flanks while the blade is centred.
     #[serde(default = "papers_clearance_m")]
     pub clearance_m: f64,
-    /// Where the flanks touch; by default at the bore.
+    /// Radius of the contact; by default that of the bore.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch_radius_m: Option<f64>,
-    /// Direction in which the blade's weight acts, from the cut (θ = 0), positive with the
-    /// rotation. Without it the weight does not act in the plane of the blade.
+    /// Direction of the weight of the blade, from the cut (θ = 0), positive in the direction of rotation.
+    /// Without it the weight does not act in the plane of the blade.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight_angle_deg: Option<f64>,
 }

@@ -15,17 +15,17 @@ use crate::text::shown;
 pub struct ThicknessRow {
     /// Distance from the axis.
     pub radius_m: f64,
-    /// Thickness of the plate there.
+    /// Thickness of the plate at this radius.
     pub thickness_m: f64,
 }
 
-/// Mass of teeth or of carbide tips, taken as spread evenly along a circle.
+/// Mass of teeth or of carbide tips, distributed evenly along a circle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RimFile {
-    /// Mass of one tooth, or of one tip; blade.teeth says how many there are.
+    /// Mass of one tooth or of one tip; blade.teeth is their number.
     pub mass_per_tooth_kg: f64,
-    /// Distance of its centre from the axis; by default that of the rim.
+    /// Distance of its centre from the axis; by default the radius of the rim.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
 }
@@ -67,7 +67,8 @@ impl ThicknessProfile {
         }
         if rows.len() > MAX_ROWS {
             let allowed = format!("at most {MAX_ROWS} rows");
-            let remedy = "thickness is straight between rows: a step takes one or two, a taper two";
+            let remedy =
+                "the thickness is linear between rows: a step needs one or two rows, a taper two";
             return Err(refuse(key, rows.len() as f64, allowed, remedy));
         }
         let mut profile = ThicknessProfile {
@@ -189,7 +190,7 @@ impl RimMass {
                 shown(inner),
                 shown(outer)
             );
-            let remedy = "what stands out beyond the rim counts at the rim";
+            let remedy = "mass beyond the rim counts at the rim";
             return Err(refuse("blade.rim.radius_m", radius_m, allowed, remedy));
         }
         let mass_kg = each * f64::from(teeth);

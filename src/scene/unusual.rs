@@ -238,7 +238,7 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
         path,
         value,
         unit: "°",
-        why: "few would set such a fraction of a degree".to_owned(),
+        why: "angles are rarely set to such a fraction of a degree".to_owned(),
         meant: Some((RADIANS, (100.0 * value.to_degrees()).round() / 100.0)),
     };
     suspect.flatten().map(unusual).collect()

@@ -11,21 +11,21 @@ use super::wood::Wood;
 use super::{RefusedValue, SceneError};
 use crate::text::shown;
 
-/// The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the surface
-/// that the tooth before it has left at the same place in space, one tooth period τ ago.
+/// The lateral force of the cut on the blade, −k (w(t) − μ w(t − τ)): each tooth cuts the surface that the
+/// preceding tooth left at the same point in space, one tooth period τ earlier.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WashboardingFile {
-    /// Lateral cutting stiffness k of all teeth in the cut together: the force across the blade for
-    /// each metre that the teeth cut beside the surface left by those before.
+    /// Lateral cutting stiffness k of all teeth in the cut together: lateral force per metre of lateral
+    /// distance between the teeth and the surface left by the preceding ones.
     pub stiffness_n_per_m: f64,
-    /// Share μ of a tooth's cut that lies on the surface left by the tooth before, 0 to 1.
+    /// Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1.
     #[serde(default = "full_overlap")]
     pub overlap: f64,
     /// Arc of the rim on which the force acts; by default that of the teeth in the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_deg: Option<f64>,
-    /// Angles from tooth to tooth, repeated around the blade, of teeth that are not evenly spaced.
+    /// Angles between successive teeth, repeated around the blade, if teeth are unevenly spaced.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pitches_deg: Vec<f64>,
 }
@@ -64,7 +64,7 @@ impl Washboarding {
         let stiffness = typed.stiffness_n_per_m;
         if !(stiffness > 0.0 && stiffness <= MAX_CUTTING_STIFFNESS) {
             let allowed = format!("above 0 and at most {}", shown(MAX_CUTTING_STIFFNESS));
-            let remedy = "give it in N/m, or take washboarding out";
+            let remedy = "give it in N/m, or remove washboarding";
             return Err(refuse(
                 &key("stiffness_n_per_m"),
                 stiffness,

@@ -8,7 +8,7 @@ use super::teeth_in_cut::TeethInCut;
 use super::{Blade, SceneError};
 use crate::text::shown;
 
-/// Wood in the kerf, a spring and a damper that stand in space around the middle of the cut.
+/// Wood in the kerf, a spring and a damper fixed in space around the middle of the cut.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WoodFile {
@@ -18,8 +18,7 @@ pub struct WoodFile {
     /// Lateral viscous damping of the whole contact.
     #[serde(default)]
     pub damping_n_s_per_m: f64,
-    /// How far the contact reaches from the rim towards the axis; by default it is an arc of the
-    /// rim.
+    /// Extent of the contact from the rim towards the axis; by default it is an arc of the rim.
     #[serde(default)]
     pub depth_m: f64,
     /// Arc of the contact; by default that of the teeth in the cut.
@@ -57,7 +56,7 @@ impl Wood {
         };
         if !(0.0..=width).contains(&typed.depth_m) {
             let allowed = format!("from 0 to the width of the moving ring ({})", shown(width));
-            let remedy = "say how far from the rim the wood touches the blade";
+            let remedy = "give the distance from the rim to which the wood touches the blade";
             return Err(refuse(&key("depth_m"), typed.depth_m, allowed, remedy));
         }
         let range = (0.0, MAX_GUIDE);

@@ -1,4 +1,4 @@
-//! Blades whose pads lift off: closed forms, and the linear pad as a limit.
+//! Blades whose pads lift off, compared with closed forms and with the linear pad as a limit.
 
 use faer::Col;
 use faer::linalg::solvers::Solve;
@@ -30,7 +30,7 @@ fn lifting(pad: &mut GuideFile, gap_m: f64) {
     (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(gap_m));
 }
 
-/// The deflection at a place where a force acts.
+/// The deflection at the point at which a force acts.
 fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: (f64, f64)) -> f64 {
     let speed = rad_per_s(rpm);
     let blade = StretchedBlade::up_to(plate, speed, place, MODES).unwrap();
@@ -40,8 +40,8 @@ fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: (f64, f64)) -> f64 {
     blade.deflection_m(&found, place.0, place.1)
 }
 
-/// A blade in a collar, pressed where a point pad stands behind a gap. With the compliance c of the blade alone, from all its
-/// functions: w = Fc, and beyond the gap w = (F + kg)c/(1 + kc), on the pad's own side.
+/// A blade in a collar under a force at a point pad behind a gap. With the compliance c of the blade alone,
+/// from all its functions: w = Fc, and beyond the gap w = (F + kg)c/(1 + kc), on the side of the pad.
 #[test]
 fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
     let place = (0.3, 0.7);
@@ -75,7 +75,7 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
                 false => force * compliance,
             };
             let found = deflection(&plate, force, 0.0, place);
-            // A deflection of up to 80 µm stretches the blade by little.
+            // A deflection of up to 80 µm causes little stretching.
             let error = found / expected - 1.0;
             assert!(
                 error.abs() < 2e-3,
@@ -85,8 +85,8 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
     }
 }
 
-/// A gap of nothing on both sides is the linear pad, and so is a film as stiff as the pad; a gap that the blade does not
-/// cross is none.
+/// With a gap of zero on both sides the pad is the linear one, and so it is with a film as stiff as the pad;
+/// a gap that the blade does not cross has no effect.
 #[test]
 fn limits_of_the_gap_are_the_linear_pad_and_none() {
     let place = (0.355, 0.0);
@@ -99,7 +99,7 @@ fn limits_of_the_gap_are_the_linear_pad_and_none() {
         pad.film_stiffness_n_per_m = pad.stiffness_n_per_m;
     });
     let found = deflection(&filled, 5.0, 1000.0, place);
-    // On more shapes.
+    // This blade has more shapes.
     assert!((found / linear - 1.0).abs() < 2e-3, "{found:e} {linear:e}");
     let bare = deflection(
         &plate(true, |pad| pad.stiffness_n_per_m = 0.0),
@@ -111,7 +111,7 @@ fn limits_of_the_gap_are_the_linear_pad_and_none() {
     assert!((far / bare - 1.0).abs() < 1e-4, "{far:e} {bare:e}");
 }
 
-/// A wider gap deflects the blade more, and its pad presses with the side force alone.
+/// With a wider gap the deflection is larger, and the pad presses with the side force only.
 #[test]
 fn one_pad_carries_the_whole_side_force() {
     let place = (0.355, 0.0);

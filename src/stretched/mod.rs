@@ -12,8 +12,9 @@
 //! Otherwise gyroscopic forces may stabilize the undamped blade, but such damping destabilizes it (Thomson,
 //! Tait & Chetaev; see W. T. Thomson & P. G. Tait, *Treatise on Natural Philosophy*, 1879, §345).
 //!
-//! A pad that lifts off (`GapPotential`) is no part of K(Ω), but for its film: its potential joins V. Within the gaps of
-//! such pads a blade with a free bore has no stiffness against heave and tilt: only a side force says where it stands.
+//! A pad that lifts off (`GapPotential`) contributes only its film to K(Ω); its potential is added to V.
+//! Within the gaps of such pads a blade with a free bore has no stiffness against heave and tilt: only a side
+//! force determines its position.
 //!
 //! Curves of equilibria are followed by pseudo-arclength continuation (H. B. Keller, in *Applications of
 //! Bifurcation Theory*, 1977, 359–384).
@@ -47,10 +48,10 @@ use crate::system::GyroscopicSystem;
 pub enum StretchedError {
     /// Nothing resists heave or tilt.
     #[error(
-        "nothing holds the blade laterally, so that it stands still nowhere in particular; add a guide, or clamp the bore"
+        "nothing holds the blade laterally, so its equilibria are not unique; add a guide, or clamp the bore"
     )]
     NotHeld,
-    /// Heave or tilt that nothing resists within the gaps of guides.
+    /// Nothing resists heave or tilt within the gaps of guides.
     #[error(
         "within the gaps of its guides nothing holds the blade laterally, so that it stands still nowhere in particular; give a side force, or one of the guides a film_stiffness_n_per_m"
     )]
@@ -65,11 +66,11 @@ pub enum StretchedError {
     },
     /// The blade is axisymmetric, so that deflected equilibria are not isolated.
     #[error(
-        "the blade is the same at every angle, so that it leans in no direction in particular; add a guide, or a side force"
+        "the blade is axisymmetric, so the direction of its deflection is undetermined; add a guide, or a side force"
     )]
     Axisymmetric,
     /// The number of shapes is zero or exceeds that of the functions.
-    #[error("{given} shapes were asked for; give 1 to {most}, of which 20 to 40 are usual")]
+    #[error("{given} shapes were requested; give 1 to {most}; 20 to 40 are usual")]
     Shapes {
         /// Number of requested shapes.
         given: usize,
@@ -78,7 +79,7 @@ pub enum StretchedError {
     },
     /// Newton's method did not converge.
     #[error(
-        "no equilibrium was found at {rpm:.1} rpm: forces of {residual:.1e} of the elastic ones are left; start nearer to one, or with a smaller force"
+        "no equilibrium was found at {rpm:.1} rpm: the residual forces are {residual:.1e} of the elastic ones; start closer to an equilibrium, or with a smaller force"
     )]
     NotFound {
         /// Rotation speed.
@@ -112,7 +113,7 @@ pub struct StretchedBlade {
     shapes: Mat<f64>,
     system: GyroscopicSystem,
     stretching: ReducedStretching,
-    /// Of pads that lift off.
+    /// Potential of pads that lift off.
     gaps: Option<GapPotential>,
     /// Side force on the shapes, in N/√kg.
     force: Col<f64>,
@@ -230,7 +231,7 @@ impl StretchedBlade {
         let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
         let all: Vec<Col<f64>> = own.chain(of_released).collect();
         let shapes = orthonormal(order, &all, INDEPENDENT);
-        // What nothing holds within the gaps the pads do hold.
+        // Motions that are free within the gaps are held by the pads.
         released.free_rigid.clear();
         released.drift = None;
         let gaps = GapPotential::new(&plate, shapes.as_ref());
@@ -328,7 +329,8 @@ impl StretchedBlade {
         }
     }
 
-    /// Within the gaps of its pads a blade that nothing holds stands still everywhere, unless a force presses it.
+    /// Checks that equilibria are isolated: within the gaps of its pads a blade that nothing else holds is in
+    /// equilibrium everywhere, unless a force presses it.
     fn not_loose(&self) -> Result<(), StretchedError> {
         if self.gaps.is_none() || self.force.norm_max() > 0.0 {
             return Ok(());
@@ -356,7 +358,7 @@ impl StretchedBlade {
         Ok(self.system.stiffness_at(speed_rad_per_s) + self.added_stiffness(p)?)
     }
 
-    /// What stretching and pads that lift off add to it.
+    /// Stiffness of stretching and of pads that lift off.
     fn added_stiffness(&self, p: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
         let stretching = self.stretching.hessian(p)?;
         Ok(match &self.gaps {
@@ -383,7 +385,8 @@ impl StretchedBlade {
     }
 }
 
-/// Fewest modes at rest within the gaps that join the shapes: heave, tilts, and the first of two and three diameters.
+/// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
+/// of two and three diameters.
 const LEAST_RELEASED: usize = 8;
 /// Eigenvalues of ∂²V/∂p² from below zero to this share of the largest are zero: rounding leaves as much of the motions
 /// that nothing holds.

@@ -19,7 +19,7 @@ const LAST: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
 /// Smaller stiffnesses, relative to the largest, are replaced by this value, so that steps are bounded.
 const SOFTEST: f64 = super::ROUNDING;
-/// A blade that has gone by so many thicknesses is held by nothing.
+/// If a blade has moved by this number of thicknesses nothing holds it.
 const FAR: f64 = 100.0;
 
 impl StretchedBlade {

@@ -8,31 +8,31 @@ use crate::scene::{RefusedValue, SceneError};
 use crate::stability::AnalysisError;
 use crate::text::{KeyedError, from_keyed_json};
 
-/// Which numbers of a scene vary, how, and what the saws have to keep.
+/// Numbers of a scene that vary, their distributions, and limits of the saws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyFile {
     /// Title of reports and figures.
     pub name: String,
-    /// Where the numbers come from: measured, assumed.
+    /// Origin of the numbers: measured, assumed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     /// The numbers that vary, independently of each other.
     pub parameters: Vec<ParameterFile>,
-    /// Saws drawn from the distributions, in every point of the grid; left out where all
-    /// parameters are grids. Powers of two fill the ranges most evenly.
+    /// Number of random saws, in every point of the grid; omit it if all parameters are grids. Powers of two
+    /// are most evenly distributed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub saws: Option<u32>,
-    /// Another seed draws other saws.
+    /// Seed of the random saws.
     #[serde(default)]
     pub seed: u32,
-    /// Last speed looked at; by default the end of the scene's sweep. Limits extend it.
+    /// Last speed of the sweep; by default the end of the scene's sweep. Limits extend it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to_rpm: Option<f64>,
-    /// What each saw is held against, as by `sawflutter check`.
+    /// Limits of each saw, as for `sawflutter check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsFile>,
-    /// Shares of the saws whose speeds are reported.
+    /// Shares of the saws for which quantiles of the speeds are reported.
     #[serde(default = "default_quantiles")]
     pub quantiles: Vec<f64>,
     /// Confidence of the interval around the probability of passing.
@@ -54,38 +54,38 @@ fn default_confidence() -> f64 {
 pub struct ParameterFile {
     /// Its JSON path in the scene, like `guides[0].radius_m`.
     pub path: String,
-    /// How it varies, in its own unit.
+    /// Distribution, in the unit of the number.
     pub distribution: DistributionFile,
 }
 
-/// How a number varies.
+/// Distribution of a number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum DistributionFile {
-    /// Evenly about the scene's value.
+    /// Uniform about the scene's value.
     Tolerance {
         /// Largest deviation to either side.
         plus_minus: f64,
     },
-    /// Evenly between two values.
+    /// Uniform between two values.
     Uniform {
-        /// Least value.
+        /// Lower limit.
         from: f64,
-        /// Greatest value.
+        /// Upper limit.
         to: f64,
     },
-    /// Normally, cut off on both sides: nobody sells what is far outside.
+    /// Normal, truncated on both sides, because saws far outside are not sold.
     Normal {
         /// Mean; the scene's value by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         mean: Option<f64>,
-        /// Standard deviation, before the cut.
+        /// Standard deviation before truncation.
         standard_deviation: f64,
-        /// Where it is cut, in standard deviations from the mean.
+        /// Truncation, in standard deviations from the mean.
         #[serde(default = "default_truncation")]
         truncated_at_deviations: f64,
     },
-    /// Each of these values, with every combination of the others.
+    /// Every value of a list, combined with all values of the others.
     Grid {
         /// The values.
         values: Vec<f64>,

@@ -58,7 +58,7 @@ pub enum LogError {
         path: PathBuf,
     },
     /// A row does not belong to the study.
-    #[error("a row is none of this study: {row}")]
+    #[error("a row does not belong to this study: {row}")]
     NoRow {
         /// The row.
         row: String,
@@ -348,7 +348,7 @@ fn differing(path: &Path, study: &Study) -> LogError {
     };
     LogError::Other {
         path: path.to_owned(),
-        difference: difference.unwrap_or_else(|| "its columns are others".into()),
+        difference: difference.unwrap_or_else(|| "its columns differ".into()),
     }
 }
 

@@ -241,7 +241,7 @@ fn counts(
     let drawn = match (file.saws, dimensions) {
         (None, 0) => 1,
         (Some(saws), 0) => {
-            let remedy = "leave it out: the grids alone say which saws there are";
+            let remedy = "leave it out: the grids alone determine the saws";
             return Err(refuse("saws", saws, "left out of a study of grids", remedy));
         }
         (Some(saws), 1..=DIMENSIONS) if saws > 0 => saws as usize,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::file::StudyFile;
 use crate::scene::SceneFile;
 
-/// Quantiles and probabilities of a study, and what it was asked.
+/// Quantiles and probabilities of a study, and its inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyReport {
@@ -14,27 +14,26 @@ pub struct StudyReport {
     pub sawflutter: String,
     /// The saw without deviations.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// The study.
     pub study: StudyFile,
-    /// Last speed looked at.
+    /// Last speed of the sweep.
     pub swept_to_rpm: f64,
     /// Largest estimated relative error of the critical speeds of any saw.
     pub largest_estimated_relative_error: f64,
-    /// Saws with a speed at which the Krein index did not match; expected 0.
+    /// Number of saws with a speed at which the Krein index disagrees; 0 is expected.
     pub saws_with_krein_violations: usize,
     /// All saws together.
     pub all: Group,
-    /// The saws drawn in each point of the grid, where there are both, and no more than 10 000
-    /// points.
+    /// Saws of each point of the grid, if there are random saws too and at most 10 000 points.
     pub groups: Vec<Group>,
     /// The first saws that were not analysed.
     pub not_analysed: Vec<Refusal>,
-    /// How many saws can be run, by the speed at which they are; null where no saw has a critical
-    /// or a flutter speed.
+    /// Share of saws that can run, over the operating speed; null if no saw has a critical or a flutter
+    /// speed.
     #[serde(default)]
     pub reliability: Option<Reliability>,
     /// The saws with the lowest first critical speed, ascending.
@@ -43,28 +42,28 @@ pub struct StudyReport {
     /// The saws with the lowest flutter speed, ascending.
     #[serde(default)]
     pub worst_flutter: Vec<WorstSaw>,
-    /// Kinds of processors that have computed the saws, where there are several: the last digits
-    /// of a speed may differ between them.
+    /// Kinds of processors that have computed the saws, if there are several: the last digits of a speed may
+    /// differ between them.
     #[serde(default)]
     pub processors: Vec<String>,
 }
 
-/// How many saws can be run, by the speed at which they are: up to that speed they keep the margin
-/// to their lowest critical speed, and do not flutter. A saw that was refused or failed cannot.
+/// Share of saws that can run, over the operating speed: at that speed they keep the margin to their lowest
+/// critical speed and do not flutter. A saw that was refused or failed cannot run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reliability {
-    /// Largest share of the lowest critical speed that the operating speed may be: that of the
-    /// limits, or the usual one.
+    /// Largest ratio of the operating speed to the lowest critical speed: that of the limits, or the usual
+    /// one.
     pub margin: f64,
-    /// The highest speeds at which given shares of the saws can be run; null where it lies beyond
-    /// the speeds of the study, or fewer saws were analysed.
+    /// Highest operating speeds for given shares of the saws; null if it exceeds the speeds of the study, or
+    /// fewer saws were analysed.
     pub fastest: Vec<Quantile>,
-    /// Shares of the saws that can be run at even speeds.
+    /// Shares of the saws that can run at evenly spaced speeds.
     pub curve: Vec<ReliabilityPoint>,
 }
 
-/// The share of the saws that can be run at a speed.
+/// Share of the saws that can run at a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliabilityPoint {
@@ -78,31 +77,31 @@ pub struct ReliabilityPoint {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorstSaw {
-    /// Its number.
+    /// Its number in the study.
     pub saw: usize,
-    /// Its speed.
+    /// Its lowest speed.
     pub rpm: f64,
-    /// The numbers that vary, in the order of the study.
+    /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
 }
 
-/// Saws that belong together.
+/// A group of saws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Group {
-    /// Where in the grid; empty for all saws.
+    /// Point of the grid; empty for all saws.
     pub grid: Vec<GridEntry>,
     /// Number of saws.
     pub saws: usize,
-    /// Of these, saws with numbers that no saw can have.
+    /// Number of saws with impossible values.
     pub refused: usize,
-    /// Of these, saws that could not be analysed.
+    /// Number of saws that could not be analysed.
     pub failed: usize,
-    /// Lowest critical speed of those analysed.
+    /// Lowest critical speed of the analysed saws.
     pub lowest_critical: SpeedEntry,
-    /// Flutter speed of those analysed.
+    /// Flutter speed of the analysed saws.
     pub flutter: SpeedEntry,
-    /// How many keep the limits, where the study has any.
+    /// Share of saws that keep the limits, if the study has any.
     pub passing: Option<Passing>,
 }
 
@@ -116,19 +115,19 @@ pub struct GridEntry {
     pub value: f64,
 }
 
-/// How a speed is distributed.
+/// Distribution of a speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedEntry {
-    /// Saws with such a speed.
+    /// Number of saws with such a speed.
     pub saws: usize,
-    /// Saws without one: it lies beyond the speeds of the study, if anywhere.
+    /// Number of saws without one within the speeds of the study.
     pub beyond: usize,
-    /// Half of the saws lie below; null where it lies beyond the speeds of the study.
+    /// Median; null if it exceeds the speeds of the study.
     pub median_rpm: Option<f64>,
     /// Speeds below which given shares of the saws lie.
     pub quantiles: Vec<Quantile>,
-    /// Counts; none without saws.
+    /// Histogram; null without saws.
     pub histogram: Option<Histogram>,
 }
 
@@ -146,43 +145,43 @@ pub struct Quantile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Histogram {
-    /// Least speed.
+    /// Lowest speed.
     pub from_rpm: f64,
-    /// Greatest speed.
+    /// Highest speed.
     pub to_rpm: f64,
-    /// Saws in each bar.
+    /// Number of saws in each bar.
     pub counts: Vec<usize>,
 }
 
-/// How many saws keep all limits. A saw that was refused or failed keeps none.
+/// Share of saws that keep all limits. A saw that was refused or failed keeps none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Passing {
-    /// Saws that keep every limit.
+    /// Number of saws that keep every limit.
     pub passed: usize,
     /// Their share of all.
     pub probability: f64,
     /// Confidence of the interval.
     pub confidence: f64,
-    /// Interval of the probability (Clopper and Pearson's, for as many independent saws;
-    /// scrambled Sobol points are spread more evenly than these). Null for a grid, of which the
-    /// share is exact, and for all of several groups, which share their deviations.
+    /// Interval of the probability (by Clopper and Pearson for independent saws; scrambled Sobol points are
+    /// more even). Null for a grid, whose share is exact, and for all of several groups, which have the same
+    /// deviations.
     pub interval: Option<[f64; 2]>,
-    /// Saws that keep each limit.
+    /// Number of saws that keep each limit.
     pub criteria: Vec<CriterionEntry>,
 }
 
-/// How many saws keep one limit.
+/// Number of saws that keep one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CriterionEntry {
-    /// In a word, as in the columns of the table.
+    /// Short name, as in the columns of the table.
     pub key: String,
-    /// What is compared, in words.
+    /// The limit in words.
     pub name: String,
-    /// The speed asked for.
+    /// Speed required.
     pub asked_rpm: f64,
-    /// Saws that keep it.
+    /// Number of saws that keep it.
     pub passed: usize,
 }
 
@@ -190,8 +189,8 @@ pub struct CriterionEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Refusal {
-    /// Its number.
+    /// Its number in the study.
     pub saw: usize,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }

@@ -34,4 +34,4 @@ pub fn amplitudes(text: &mut String, report: &Report) -> Result {
 }
 
 const MEANING: &str = "Rises to: largest deflection of a motion that begins small, at the speed of largest growth and \
-     without damping, where stretching turns it back. Near one edge of a band it is up to 1.41 times as large, and takes longer.";
+     without damping, limited by stretching. Near one edge of a band it is up to 1.41 times as large and is reached later.";

@@ -54,7 +54,7 @@ impl Answer {
     fn in_words(self) -> &'static str {
         match self {
             Answer::Runs => "YES",
-            Answer::PastRule => "STABLE, but past the usual limit",
+            Answer::PastRule => "STABLE, but above the usual limit",
             Answer::AtCritical => "STABLE, but AT A CRITICAL SPEED",
             Answer::Divergence => "NO, UNSTABLE: divergence",
             Answer::Flutter => "NO, UNSTABLE: flutter",
@@ -82,7 +82,7 @@ fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String
     let band = around.and_then(|index| report.instabilities.get(index));
     lines.extend(band.map(inside));
     if answer == Answer::OutsideSweep {
-        lines.push("  widen `sweep` so that it holds operating_rpm".to_owned());
+        lines.push("  widen `sweep` so that it includes operating_rpm".to_owned());
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
         lines.push(format!("  {}", fastest(report, growth, hz)));
@@ -141,8 +141,7 @@ fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<Stri
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
     let line = format!(
-        "  within {:.0} % of the critical speed {rpm:.1} rpm{name}: a constant side force bends that wave \
-         ten times as far as at rest, or more",
+        "  within {:.0} % of the critical speed {rpm:.1} rpm{name}: a constant side force deflects the blade at least ten times as far as at rest",
         100.0 * CRITICAL_MARGIN
     );
     Some(wrapped(&line))
@@ -183,7 +182,7 @@ fn up_to(report: &Report) -> Vec<String> {
             critical.rpm, critical.name
         )
     });
-    let lacking = "  (no operating_rpm in the scene to hold against it)".to_owned();
+    let lacking = "  (the scene has no operating_rpm to compare with it)".to_owned();
     let lines = [Some(answer), lowest, Some(lacking)];
     lines.into_iter().flatten().collect()
 }
@@ -242,16 +241,14 @@ fn hidden(
             (Some(_), None) => "below the flutter speed",
             (None, _) => "in the sweep",
         };
-        return format!("What is not proven could hide no {growth} {place} (estimated)");
+        return format!("Unproven speeds have no {growth} {place} (estimated)");
     };
     let more = match stretches.count() {
         0 => String::new(),
-        1 => " and in one more place".to_owned(),
-        count => format!(" and in {count} more places"),
+        1 => " and in one more interval".to_owned(),
+        count => format!(" and in {count} more intervals"),
     };
-    format!(
-        "What is not proven could hide a {growth} at {from:.1} to {to:.1} rpm{more} (estimated)"
-    )
+    format!("Unproven speeds may have a {growth} at {from:.1} to {to:.1} rpm{more} (estimated)")
 }
 
 /// Writes certificate, estimated error and warnings.
@@ -304,7 +301,8 @@ mod tests {
     fn a_growth_that_could_hide_is_told_where_it_would_change_an_answer() {
         let says = |stretches: &[[f64; 2]], flutter, operating| {
             hidden(stretches, 0.25, flutter, operating)
-                .replace("What is not proven could hide ", "")
+                .replace("Unproven speeds have ", "")
+                .replace("Unproven speeds may have ", "")
                 .replace(" (estimated)", "")
         };
         let stretches = [[1530.0, 1531.0], [2560.0, 2561.0]];
@@ -322,7 +320,7 @@ mod tests {
         );
         assert_eq!(
             says(&stretches, None, None),
-            "a growth of 0.25 1/s or more at 1530.0 to 1531.0 rpm and in one more place"
+            "a growth of 0.25 1/s or more at 1530.0 to 1531.0 rpm and in one more interval"
         );
         assert_eq!(
             says(&[], None, None),

@@ -27,7 +27,7 @@ fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
         jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
         if let Some(rpm) = sweep.valid_until_rpm {
             let end = format!(
-                "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model does not hold there, and nothing is given."
+                "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model is not valid there, and no results are given."
             );
             writeln!(text, "{}", wrapped(&end))?;
         }
@@ -44,9 +44,7 @@ fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     Ok(())
 }
 
-const MEANING: &str = "These equilibria are those of the blade with any damping that stands in space: every motion \
-     then ends in a stable one. Damping that turns with the blade may hold the flat blade, and a fast run-up may \
-     be over before the blade leans. Curves that neither a sweep, nor its mirror image, nor a critical speed leads to may exist.";
+const MEANING: &str = "With any damping fixed in space every motion ends in a stable equilibrium. Damping that turns with the blade may stabilize the flat blade, and a fast run-up may end before the blade leaves the flat state. Curves of equilibria may exist to which neither a sweep, nor its mirror image, nor a critical speed leads.";
 
 /// The deflection of the blade.
 fn verdict(report: &DeflectReport) -> String {
@@ -60,18 +58,18 @@ fn verdict(report: &DeflectReport) -> String {
     let (rpm, largest_m) = largest.map_or((report.from_rpm, 0.0), |(rpm, m)| (*rpm, *m));
     let within = match report.beyond_thickness_rpm {
         None => format!(
-            "no place of the blade leaves its plane by more than the thickness up to {:.0} rpm",
+            "the deflection does not exceed the thickness up to {:.0} rpm",
             report.to_rpm
         ),
         Some(beyond) if beyond <= report.from_rpm => {
-            format!("the blade is deflected by more than its thickness at {beyond:.0} rpm already")
+            format!("the deflection exceeds the thickness at {beyond:.0} rpm already")
         }
         Some(beyond) => {
-            format!("the blade stands within its thickness up to {beyond:.0} rpm and leans beyond")
+            format!("the deflection exceeds the thickness from {beyond:.0} rpm on")
         }
     };
     format!(
-        "{force} {within}; it is deflected most, by {}, at {rpm:.0} rpm",
+        "{force} {within}; the largest deflection is {}, at {rpm:.0} rpm",
         millimetres(largest_m)
     )
 }
@@ -195,7 +193,7 @@ impl SlowSweepEntry {
     }
 }
 
-/// The largest force of each pad that lifts off while the speed rises.
+/// The largest force of each pad that lifts off, for rising speed.
 fn pads(report: &DeflectReport) -> Option<String> {
     let guides = report.scene.guides.iter().enumerate();
     let lifting = guides.filter(|(_, guide)| guide.contact == ContactLaw::OneSided);

@@ -14,7 +14,7 @@ pub fn crossings(text: &mut String, report: &Report) -> Result {
     if excitation.crossings.is_empty() {
         return writeln!(
             text,
-            "\nNo multiple of the speed that was asked about meets a frequency below {complete_hz:.0} Hz"
+            "\nNo requested multiple of the speed equals a frequency below {complete_hz:.0} Hz"
         );
     }
     writeln!(

@@ -11,7 +11,7 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
         return Ok(());
     };
     let forces = format!(
-        "In the cut: the chart is under the forces of {:.0} rpm, {:.0} N against the rotation and {:.0} N \
+        "In the cut: the diagram includes the forces of {:.0} rpm, {:.0} N against the rotation and {:.0} N \
          inwards on each of {} teeth",
         in_cut.rpm, in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth, in_cut.teeth
     );
@@ -28,7 +28,7 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
             report.critical_speeds.first().map(|critical| critical.rpm),
         ),
         (
-            "first flutter band, also weak",
+            "first flutter band, even weak",
             idling.first_merge_rpm,
             report.first_merge_rpm,
         ),

@@ -59,7 +59,7 @@ pub fn sensitivity(text: &mut String, report: &Report) -> Result {
     let flutter = report.instabilities.iter().position(begins);
     writeln!(
         text,
-        "\nWhat moves the first critical speed, and the flutter speed"
+        "\nInfluences on the first critical speed, and the flutter speed"
     )?;
     for entry in &report.sensitivities {
         let critical = entry.critical_speeds_percent.first().copied();

@@ -67,7 +67,7 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     }
     for band in &report.almost {
         let line = format!(
-            "From {:.0} rpm a band grows by {:.2} 1/s, of {} that count: were it to count, this would be the flutter speed",
+            "A band from {:.0} rpm on grows by {:.2} 1/s, the threshold is {} 1/s: if the growth reached it, this would be the flutter speed",
             band.from_rpm, band.peak_growth_per_s, report.flutter_threshold_per_s
         );
         writeln!(text, "{}", wrapped(&line))?;
@@ -88,7 +88,7 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
 fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::Result {
     writeln!(
         text,
-        "\nWith a number of the best saw off by its tolerance the {goal} is [rpm]"
+        "\nWith one number changed by its tolerance the {goal} is [rpm]"
     )?;
     for p in &report.parameters {
         let PlacedEntry {
@@ -108,7 +108,7 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
     let verdict = if report.fragile { "FRAGILE" } else { "robust" };
     let share = 100.0 * report.worst_neighbour_share;
     let line = format!(
-        "At the worst of its tolerances, all numbers off at a time included, the best saw has {share:.0} % of its {goal}: {verdict}"
+        "In the worst case of its tolerances, of single numbers and of all together, the best saw has {share:.0} % of its {goal}: {verdict}"
     );
     writeln!(text, "{}", wrapped(&line))
 }

@@ -103,8 +103,7 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
             entry.seen_amplification.map_or("-".into(), times)
         )?;
     }
-    let meaning = "in/before: largest deflection at the probe in the band over that in as many rpm before it. \
-                   All modes ring in it: beside a small exponent it is beating, not growth.";
+    let meaning = "in/before: largest deflection at the probe in the band over that in as many rpm before it. All modes contribute: with a small exponent it shows beating, not growth.";
     writeln!(text, "{}", wrapped(meaning))
 }
 

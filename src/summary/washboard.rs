@@ -63,7 +63,7 @@ fn boundary(report: &WashboardReport) -> String {
         report.critical_frequency_hz,
     ) {
         (Some(stiffness), Some(hz)) if stiffness > 0.0 => format!(
-            "Least cutting stiffness at which a motion grows: {} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
+            "Smallest cutting stiffness at which a motion grows: {} N/m, at {hz:.1} Hz; the cut has {:.3} times that",
             shown_to(4, stiffness),
             report.stiffness_n_per_m / stiffness
         ),

@@ -95,7 +95,7 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
         return (below(path, subject), message);
     }
     if word("duplicate field") {
-        let message = format!("it stands there twice; remove one (line {line})");
+        let message = format!("it is given twice; remove one (line {line})");
         return (below(path, subject), message);
     }
     if word("unknown variant") {
@@ -270,10 +270,10 @@ fn of_word(token: &Token, begins_key: bool) -> Option<String> {
         "true" | "false" => format!("write {bare} in small letters, not {text}"),
         "none" | "nil" => "leave the key out where there is no value".into(),
         _ if quotes => {
-            format!("{text} must stand in straight double quotation marks, like \"this\"")
+            format!("{text} must be in straight double quotation marks, like \"this\"")
         }
         _ if begins_key => {
-            format!("the key {text} must stand in double quotation marks: \"{text}\"")
+            format!("the key {text} must be in double quotation marks: \"{text}\"")
         }
         _ if text.starts_with('#') => "a comment begins with //, not with #".into(),
         _ if bare.parse::<f64>().is_ok_and(f64::is_infinite) => {

@@ -76,11 +76,11 @@ pub enum TransientError {
     #[error(transparent)]
     Stretched(#[from] StretchedError),
     /// Sinusoids could not be fitted to a record.
-    #[error("{0}; the scene's numbers are too far apart")]
+    #[error("{0}; the scene's numbers differ too much in size")]
     Fit(#[from] FitError),
     /// The deflection overflowed.
     #[error(
-        "the deflection at {rpm:.0} rpm outgrows every number within {time_s:.3} s; shorten the time, or lower the speed"
+        "the deflection at {rpm:.0} rpm overflows within {time_s:.3} s; shorten the time, or lower the speed"
     )]
     Overflow {
         /// Rotation speed.
@@ -116,7 +116,7 @@ pub enum TransientError {
     },
     /// The matrix exponential overflowed.
     #[error(
-        "within {step_s:e} s at {rpm:.0} rpm the motion outgrows every number; the forces or other numbers of the scene are too large"
+        "within {step_s:e} s at {rpm:.0} rpm the motion overflows; the forces or other numbers of the scene are too large"
     )]
     NotFinite {
         /// Rotation speed.

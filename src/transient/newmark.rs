@@ -44,7 +44,7 @@ const ITERATIONS: usize = 30;
 const LAST: f64 = 1e-9;
 /// Relative size of the last correction with linear convergence.
 const CLOSEST: f64 = 1e-13;
-/// A share of a correction below which it is taken all the same: what is left is rounding.
+/// Share of a correction below which it is accepted; the remainder is rounding.
 const SHORTEST: f64 = 0.01;
 /// If corrections decrease by less than this factor, Newton's method takes over.
 const QUICK: f64 = 0.3;
@@ -109,7 +109,7 @@ impl<'a> Newmark<'a> {
         self.by_newton(q, right, change)
     }
 
-    /// What is left of the step's equation.
+    /// Residual of the equation of the step.
     fn left(&self, q: &Col<f64>, right: &Col<f64>, change: &Col<f64>) -> Col<f64> {
         right + self.twice_mean(q, change) - &self.effective * change
     }

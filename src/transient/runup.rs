@@ -110,7 +110,7 @@ pub(super) struct Moving<'a> {
 pub(super) struct Steps {
     /// Number of steps.
     pub count: usize,
-    /// Length of one.
+    /// Length of a step.
     pub step_s: f64,
     from_rad_per_s: f64,
     rate_rad_per_s2: f64,

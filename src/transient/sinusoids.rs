@@ -25,7 +25,7 @@ pub struct Sinusoid {
 
 /// Reason for which a record could not be decomposed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("{samples} samples of a deflection could not be taken apart into sinusoids")]
+#[error("{samples} samples of a deflection could not be decomposed into sinusoids")]
 pub struct FitError {
     /// Number of samples used.
     pub samples: usize,

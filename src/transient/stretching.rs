@@ -16,12 +16,13 @@ pub(super) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
         .collect()
 }
 
-/// The linear terms of a plate on the shapes of the blade, its damping included, without the stiffness of pads beyond their gaps.
+/// The linear terms of a plate on the shapes of the blade, including damping, without the stiffness of pads
+/// beyond their gaps.
 pub(super) fn system(plate: &Plate, blade: &StretchedBlade) -> GyroscopicSystem {
     let released = plate.released();
     let mut system = GyroscopicSystem::of_plate(released.as_ref().unwrap_or(plate));
     if released.is_some() {
-        // What nothing holds within the gaps the pads do hold.
+        // Motions that are free within the gaps are held by the pads.
         system.free_rigid.clear();
         system.drift = None;
     }
@@ -53,7 +54,7 @@ impl Force for GapPotential {
         *stiffness += self.hessian(displacement);
     }
 
-    /// Where a pad begins to touch Gauss points of the line would not give the mean exactly.
+    /// Gauss points of the line would not give the exact mean where a pad begins to touch.
     fn add_mean_to(&self, displacement: &Col<f64>, change: &Col<f64>, force: &mut Col<f64>) {
         *force -= self.mean_gradient(displacement, change);
     }
@@ -211,8 +212,8 @@ mod tests {
         f64::NAN
     }
 
-    /// Between two stops: it crosses the gap four times at its speed v, and is for half a period of a spring on each:
-    /// T = 4g/v + 2π√(m/k).
+    /// Between two stops the blade crosses the gap four times at its speed v, and is in contact with each
+    /// stop for half a period of the spring: T = 4g/v + 2π√(m/k).
     #[test]
     fn a_blade_between_stops_keeps_its_energy_and_its_period() {
         let plate = on_points(|_| ());
@@ -243,7 +244,8 @@ mod tests {
         }
     }
 
-    /// A guided blade of many modes that rattles within its pad's gap at speed: what it has of energy it keeps.
+    /// A guided blade of many modes that rattles within the gap of its pad while it rotates: its energy is
+    /// conserved.
     #[test]
     fn a_blade_that_rattles_keeps_its_energy() {
         let scene = Scene::paper().edited(|saw| {

@@ -70,7 +70,7 @@ pub enum WashboardError {
     },
     /// The saw has so many modes that those driven by the teeth are outside the computed ones.
     #[error(
-        "blade.teeth at {rpm:.0} rpm drive modes between {:.0} and {:.0} Hz, but the blade has so many that only those up to {complete_hz:.0} Hz can be looked at; give a thicker blade, a lower speed or fewer teeth",
+        "blade.teeth at {rpm:.0} rpm drive modes between {:.0} and {:.0} Hz, but the blade has so many that only those up to {complete_hz:.0} Hz can be included; give a thicker blade, a lower speed or fewer teeth",
         0.5 * passing_hz, passing_hz
     )]
     Incomplete {

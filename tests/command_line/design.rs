@@ -136,11 +136,7 @@ fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
             &["--free", "guides[0].radius_m=0.3..0.2"],
             "from a number to a larger",
         ),
-        (
-            TABLE,
-            &["--free", "guides[0].angle_deg"],
-            "no number is free",
-        ),
+        (TABLE, &["--free", "guides[0].angle_deg"], "no free number"),
     ];
     for (content, more, expected) in cases {
         let folder = TempDir::new().unwrap();
@@ -196,7 +192,7 @@ fn a_place_is_found_and_written() {
 #[test]
 fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
     let cases: [(&[&str], i32, &str); 5] = [
-        (&["--min-critical-rpm", "9000"], 1, "comes nearest"),
+        (&["--min-critical-rpm", "9000"], 1, "misses it by"),
         (&["--min-critical-rpm", "-9"], 2, "--min-critical-rpm is -9"),
         (&["--map", "1"], 2, "--map is 1"),
         (&["--samples", "0"], 2, "--samples is 0"),

@@ -120,7 +120,7 @@ fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     assert_eq!(past.rim_stiffness_n_per_m, None);
     let words = check("1800", false);
     assert!(
-        words.contains("none past the first critical speed"),
+        words.contains("none above the first critical speed"),
         "{words}"
     );
     let before: CheckReport = serde_json::from_str(&check("1250", true)).unwrap();

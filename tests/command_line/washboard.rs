@@ -79,7 +79,7 @@ fn a_pitch_that_is_not_known_is_not_told() {
         ),
         (
             |saw| delayed(saw).pitches_deg = vec![9.0, 11.0],
-            "not evenly spaced",
+            "unevenly spaced",
         ),
     ];
     for (change, said) in cases {

@@ -221,7 +221,7 @@ fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
     let report = PlaceReport::new(&demands, &found);
     assert!(!report.kept);
     let missed = format!(
-        "comes nearest and misses it by {:.0} rpm",
+        "misses it by the smallest amount, {:.0} rpm",
         5000.0 - answered
     );
     assert!(

@@ -220,7 +220,7 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
             (
                 "cut.chart_rpm",
                 "-5",
-                "Speed of the cut of the chart must be above 0 rpm; usual: 30 to 60000 rpm",
+                "Speed of the cut in the diagram must be above 0 rpm; usual: 30 to 60000 rpm",
             ),
             (
                 "cut.idle_s",

@@ -135,7 +135,7 @@ def _fragile(r: PlaceReport) -> list[Item]:
     values = dict(zip((p.path for p in r.parameters), fragile.saw.values, strict=True))
     x, y = (np.array([values.get(path or "", np.nan)]) for path in (found.x_path, found.y_path))
     said = [f"by itself {fragile.saw.outcome.goal_rpm:.0f} rpm, fragile"]
-    return [Points(x, y, colours()["quiet"], "better by itself, fragile", hover=said)]
+    return [Points(x, y, colours()["quiet"], "better nominally, fragile", hover=said)]
 
 
 def tradeoff(settings: Sequence[Setting], name: str) -> Chart:

@@ -20,12 +20,12 @@ const PEAK_SIZE: f64 = 5.5;
 /// Factor by which the axis exceeds the largest growth rate, so that its dot is complete.
 const HEADROOM: f64 = 1.15;
 
-/// Note if nothing grows. It excludes critical speeds, at which the blade is not stable either.
+/// Note for a saw without growth. It mentions critical speeds, at which the blade has no stiffness.
 fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     let mut critical = report.critical_speeds.iter();
     match critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
         true => {
-            "no motion grows by itself; at a critical speed (dashed) a constant force bends the blade ever further"
+            "no motion grows; at a critical speed (dashed) a constant force deflects the blade without bound"
         }
         false => "no growth: stable at every speed shown",
     }

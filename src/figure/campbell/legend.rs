@@ -36,7 +36,7 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
         }
     }
     if let Some(reflected) = shown.iter().find(|line| line.dashed) {
-        let word = "reflected: a backward wave past its critical speed";
+        let word = "reflected: a backward wave above its critical speed";
         draw_sample(&mut key, grey(reflected), word);
     }
     if let Some(unstable) = shown.iter().find(|line| line.width > CURVE) {

@@ -120,7 +120,7 @@ fn a_saw_with_critical_speeds_is_not_called_stable_at_every_speed() {
     }
     let drawn = sheet(&report, CampbellView::default());
     assert!(starting_with(&drawn, "no growth").is_empty());
-    assert_eq!(starting_with(&drawn, "no motion grows by itself").len(), 1);
+    assert_eq!(starting_with(&drawn, "no motion grows;").len(), 1);
     assert_unstruck(&drawn);
 }
 

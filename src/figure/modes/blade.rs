@@ -11,11 +11,11 @@ use crate::scene::GuideFile;
 pub const RADIUS: f64 = 108.0;
 pub const NODAL_WIDTH: f64 = 1.3;
 pub const GUIDE_WIDTH: f64 = 2.2;
-/// Angles of the tiles.
+/// Number of angles of the tiles.
 pub const ANGLES: usize = 72;
-/// Of the radii of a report every so many are corners of tiles.
+/// One in this number of radii of a report is a corner of tiles.
 const STRIDE: usize = 4;
-/// Levels on either side of zero.
+/// Number of levels on either side of zero.
 const LEVELS: i32 = 6;
 /// A guide smaller than this on the sheet is drawn as a point.
 const SMALL: f64 = 5.0;
@@ -74,7 +74,7 @@ pub fn colour(deflection: f64) -> Colour {
     tint(hue, 0.06 + 0.84 * deflection.abs().min(1.0))
 }
 
-/// The parts of a tile between neighbouring levels, each in the colour of the middle between them.
+/// Draws the parts of a tile between neighbouring levels, each in the colour of the middle between them.
 fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     let values = tile.map(|(_, value)| value);
     let (low, high) = values.iter().fold((1.0_f64, -1.0_f64), |(low, high), v| {
@@ -82,7 +82,7 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     });
     for level in -LEVELS..LEVELS {
         let ends = [level, level + 1].map(|level| f64::from(level) / f64::from(LEVELS));
-        // The outermost are open, so that rounding leaves no hole.
+        // The outermost levels are unbounded, so that rounding leaves no hole.
         let from = if level == -LEVELS {
             f64::NEG_INFINITY
         } else {
@@ -103,7 +103,7 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     }
 }
 
-/// The part of a polygon on one side of a level, the deflection being linear along its sides.
+/// The part of a polygon on one side of a level; the deflection is linear along its sides.
 fn clipped(polygon: &[Corner], level: f64, side: f64) -> Vec<Corner> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     let next = polygon.iter().cycle().skip(1);
@@ -123,7 +123,7 @@ fn between(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
     [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
 }
 
-/// Where the deflection changes sign along the sides of a tile.
+/// Points at which the deflection changes its sign along the sides of a tile.
 fn crossings(tile: &[Corner; 4]) -> Vec<[f64; 2]> {
     let next = tile.iter().cycle().skip(1);
     let sides = tile.iter().zip(next);
@@ -133,7 +133,7 @@ fn crossings(tile: &[Corner; 4]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// The outline of a pad, or a point.
+/// Draws the outline of a pad, or a point.
 fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]) {
     let (sin, cos) = guide.angle_deg.to_radians().sin_cos();
     let at = |along: f64, across: f64| {

@@ -1,16 +1,16 @@
-//! Pads that lift off: they press on the blade beyond their gap, and never pull.
+//! Pads that lift off: they press on the blade beyond their gap and never pull.
 //!
-//! A pad of stiffness k, with a film of stiffness k_f within the gap g, is the linear one of stiffness k_f and beside it the
-//! potential
+//! A pad of stiffness k, with a film of stiffness k_f within the gap g, is a linear pad of stiffness k_f with
+//! the additional potential
 //!
 //! V = (k − k_f)/A ∫ Ψ(w − g) + Ψ(−w − g) dA, Ψ(x) = ½x² for x > 0 and 0 for x < 0,
 //!
-//! over its area A, of a pad on one side only one of the two terms. V is convex; ∂V/∂w rises from 0 to that of a spring. Within
-//! ±g/100 of the gap the second derivative of Ψ rises on a straight line, which Newton's method needs. The integral is the
-//! sum over Gauss points of the pad: each is one point of contact.
+//! over its area A; a pad on one side has only one of the two terms. V is convex; ∂V/∂w rises from 0 to the
+//! force of a spring. Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
+//! requires. The integral is a sum over Gauss points of the pad, each of which is a point of contact.
 //!
-//! In goes a [`Plate`] with shapes; out come V in J, its gradient in N/√kg, its second derivatives in 1/s², and the force of each
-//! pad in N.
+//! A [`Plate`] with shapes gives V in J, its gradient in N/√kg, its second derivatives in 1/s², and the force
+//! of each pad in N.
 
 use faer::{Col, Mat, MatRef};
 
@@ -24,12 +24,12 @@ use super::{Contact, ContactTerms};
 #[derive(Debug, Clone)]
 pub struct LiftingPads {
     pads: Vec<(Guide, Lifting)>,
-    /// Terms of everything that touches the plate, with the film in the place of each of these pads.
+    /// Terms of all contacts of the plate, in which the film replaces each of these pads.
     pub released: ContactTerms,
 }
 
 impl LiftingPads {
-    /// Those of some guides.
+    /// The pads that lift off among some guides.
     pub fn of(plate: &Plate, guides: &[Guide]) -> Option<Self> {
         let lifting = |guide: &Guide| guide.lifting.map(|lifting| (*guide, lifting));
         let pads: Vec<_> = guides.iter().filter_map(lifting).collect();
@@ -48,7 +48,7 @@ impl LiftingPads {
         Some(LiftingPads { pads, released })
     }
 
-    /// The same with the terms that have a potential.
+    /// The pads with only those terms that have a potential.
     pub fn conservative(&self) -> Self {
         LiftingPads {
             pads: self.pads.clone(),
@@ -70,7 +70,7 @@ pub struct GapPotential {
 /// A point of contact.
 #[derive(Debug, Clone, Copy)]
 struct Point {
-    /// Its pad among those that lift off.
+    /// Index of its pad among those that lift off.
     pad: usize,
     /// Its share of k − k_f.
     stiffness_n_per_m: f64,
@@ -78,15 +78,15 @@ struct Point {
     side: GuideSide,
 }
 
-/// Points of a pad over each smooth interval of the radius, and over the angle. Of the built-in saw's pad, pressed all over, they
-/// give the force of the exact integral to 3e-5, five over the radius to 5e-3; where it touches by a part only, the energy
-/// to 0.5 %.
+/// Number of points of a pad over each smooth interval of the radius, and over the angle. For the built-in
+/// saw's pad, if the whole of it touches, they give the force of the exact integral to 3e-5 (five over the
+/// radius to 5e-3); if only a part of it touches, the energy to 0.5 %.
 const POINTS: (usize, usize) = (8, 8);
-/// The second derivative of Ψ rises within this share of the gap to each side of it.
+/// The second derivative of Ψ rises within this share of the gap on each side of it.
 const ROUNDED: f64 = 0.01;
 
 impl GapPotential {
-    /// On the shapes that are the columns of V, N × r; `None` where no pad lifts off.
+    /// The potential on the shapes that are the columns of V, N × r; `None` if no pad lifts off.
     pub fn new(plate: &Plate, basis: MatRef<'_, f64>) -> Option<Self> {
         Self::with_points(plate, basis, POINTS)
     }
@@ -143,7 +143,8 @@ impl GapPotential {
         self.stiffness(|k| self.points[k].tangent_n_per_m(w[k]))
     }
 
-    /// The mean of ∂V/∂p on the straight line from one deflection to another: its product with the change is exactly that of V.
+    /// The mean of ∂V/∂p on the straight line from one deflection to another; its product with the change is
+    /// exactly the change of V.
     pub fn mean_gradient(&self, from: &Col<f64>, change: &Col<f64>) -> Col<f64> {
         let (w, d) = (self.deflections(from), self.deflections(change));
         let mean = |k: usize| {
@@ -153,7 +154,7 @@ impl GapPotential {
         &self.shapes * Col::from_fn(self.points.len(), mean)
     }
 
-    /// The derivative of that mean by the change.
+    /// The derivative of this mean by the change.
     pub fn mean_stiffness(&self, from: &Col<f64>, change: &Col<f64>) -> Mat<f64> {
         let (w, d) = (self.deflections(from), self.deflections(change));
         self.stiffness(|k| {
@@ -162,7 +163,7 @@ impl GapPotential {
         })
     }
 
-    /// Force that each pad that lifts off exerts on the blade beyond its gap, in the order of the scene's guides.
+    /// Force that each of these pads exerts on the blade beyond its gap, in the order of the scene's guides.
     pub fn forces_n(&self, coordinates: &Col<f64>) -> Vec<f64> {
         let w = self.deflections(coordinates);
         let mut forces = vec![0.0; self.pads];
@@ -172,7 +173,7 @@ impl GapPotential {
         forces
     }
 
-    /// Σ sₖ φₖφₖᵀ over the points that touch.
+    /// Σ sₖ φₖφₖᵀ over the points in contact.
     fn stiffness(&self, of: impl Fn(usize) -> f64) -> Mat<f64> {
         let order = self.shapes.nrows();
         let touching: Vec<(usize, f64)> = (0..self.points.len())
@@ -216,7 +217,7 @@ fn places(plate: &Plate, pad: &Guide, radial: usize, angular: usize) -> Vec<((f6
 }
 
 impl Point {
-    /// Factors of w that make distances beyond the gap of it, one for each side.
+    /// Signs of w for the distances beyond the gap, one for each side of the pad.
     fn sides(&self) -> impl Iterator<Item = f64> {
         let both = self.side == GuideSide::Both;
         let left = (both || self.side == GuideSide::Left).then_some(1.0);
@@ -257,7 +258,7 @@ impl Point {
         self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
     }
 
-    /// ∫₀¹ f(s, w + s d) ds of a function that is a polynomial of degree three between the bends of Ψ′.
+    /// ∫₀¹ f(s, w + s d) ds of a function that is a polynomial of degree three between the kinks of Ψ′.
     fn mean(&self, w: f64, d: f64, of: impl Fn(f64, f64) -> f64) -> f64 {
         let width = ROUNDED * self.gap_m;
         if w.abs().max((w + d).abs()) <= self.gap_m - width {
@@ -279,7 +280,7 @@ impl Point {
     }
 }
 
-/// Gauss points from 0 to 1, each of the weight ½.
+/// Gauss points on [0, 1], each of weight ½.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 #[cfg(test)]

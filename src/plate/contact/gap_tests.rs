@@ -1,4 +1,4 @@
-//! Pads that lift off against closed forms, differences of their potential, and the linear pad.
+//! Pads that lift off, compared with closed forms, differences of their potential, and the linear pad.
 
 use faer::Scale;
 
@@ -11,7 +11,7 @@ const SMALL: Resolution = Resolution {
     radial_functions: 4,
 };
 
-/// The built-in saw with its pad lifting off.
+/// The built-in saw with a pad that lifts off.
 fn lifting(change: impl FnOnce(&mut GuideFile)) -> Plate {
     let scene = Scene::paper().edited(|file| {
         let pad = &mut file.guides[0];
@@ -27,7 +27,7 @@ fn potential(plate: &Plate) -> GapPotential {
     GapPotential::new(plate, Mat::<f64>::identity(order, order).as_ref()).unwrap()
 }
 
-/// A deflection of a tenth of a millimetre or so, of many waves.
+/// A deflection of about a tenth of a millimetre that contains many waves.
 fn bent(plate: &Plate, size: f64) -> Col<f64> {
     let order = plate.degrees_of_freedom();
     Col::from_fn(order, |i| {
@@ -35,7 +35,7 @@ fn bent(plate: &Plate, size: f64) -> Col<f64> {
     })
 }
 
-/// Central differences of V, and of its gradient.
+/// References: central differences of V and of its gradient.
 #[test]
 fn force_and_stiffness_are_derivatives_of_the_potential() {
     let plate = lifting(|_| ());
@@ -60,7 +60,7 @@ fn force_and_stiffness_are_derivatives_of_the_potential() {
     }
 }
 
-/// Of random pairs, far from each other and near.
+/// The pairs of deflections are random, far from each other and near.
 #[test]
 fn the_mean_force_does_the_work_of_the_potential() {
     let plate = lifting(|_| ());
@@ -87,7 +87,7 @@ fn the_mean_force_does_the_work_of_the_potential() {
     }
 }
 
-/// A rigid motion w = ±d across the pad: the whole pad presses by k (d − g), from the side on which it stands.
+/// In a rigid motion w = ±d across the pad the whole pad presses by k (d − g), from the side on which it is.
 #[test]
 fn a_blade_that_heaves_is_pressed_by_the_whole_pad() {
     for (side, left, right) in [
@@ -125,7 +125,8 @@ fn a_blade_that_heaves_is_pressed_by_the_whole_pad() {
     }
 }
 
-/// A gap of nearly nothing leaves the linear pad, whose integral is exact; a film as stiff as the pad leaves it exactly.
+/// A pad with a nearly closed gap approaches the linear pad, whose integral is exact; with a film as stiff as
+/// the pad it equals it.
 #[test]
 fn without_a_gap_the_pad_is_the_linear_one() {
     let plate = lifting(|pad| pad.gap_m = Some(1e-12));
@@ -140,7 +141,7 @@ fn without_a_gap_the_pad_is_the_linear_one() {
     assert_eq!(difference.norm_max(), 0.0);
 }
 
-/// Within the gap the plate is the one without the pad, and a linear pad beside it stays.
+/// Within the gap the plate is that without the pad; a further linear pad is not affected.
 #[test]
 fn within_the_gap_there_is_no_pad() {
     let lone = lifting(|_| ()).released().unwrap();
@@ -164,12 +165,12 @@ fn within_the_gap_there_is_no_pad() {
     assert_eq!((stiffness(&lifting) - stiffness(&linear)).norm_max(), 0.0);
 }
 
-/// The force of a pad that touches by a part only converges with its points.
+/// If only a part of a pad touches, its force converges with the number of points.
 #[test]
 fn points_of_a_pad_converge() {
     let plate = lifting(|_| ());
     let order = plate.degrees_of_freedom();
-    // A tilt, which touches by a part of the pad.
+    // A tilt, in which a part of the pad touches.
     let mut tilt = Col::zeros(order);
     tilt[plate.offset(1)] = 4e-4;
     let identity = Mat::<f64>::identity(order, order);

@@ -55,7 +55,7 @@ pub enum StretchingError {
     },
     /// The numbers differ too much in size.
     #[error(
-        "the stiffness of the blade in its plane is no number for {harmonic} waves around; the scene's numbers are too far apart"
+        "the in-plane stiffness of the blade for {harmonic} waves is not finite; the scene's numbers differ too much in size"
     )]
     NotFinite {
         /// m.

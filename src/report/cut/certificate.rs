@@ -7,21 +7,22 @@ use crate::report::MiscountEntry;
 use crate::stability::GrowingModes;
 use crate::transient::CutHistory;
 
-/// How many modes grow in the cut and without its forces, and what counts on the full model say of that.
+/// Number of growing modes in the cut and without its forces, compared with counts on the full model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutCertificateEntry {
-    /// What was found, in a sentence.
+    /// The result in a sentence.
     pub statement: String,
-    /// Modes that grow in the cut; a pair of conjugate eigenvalues is one.
+    /// Number of modes that grow in the cut; a pair of conjugate eigenvalues counts as one.
     pub growing_modes: usize,
-    /// Modes that grow without the forces.
+    /// Number of modes that grow without the forces.
     pub idle_growing_modes: usize,
-    /// Counts on the full model that the modes were held against, in the cut and without the forces.
+    /// Number of counts on the full model with which the modes were compared, in the cut and without the
+    /// forces.
     pub full_basis_counts: usize,
-    /// In how many of the two the Krein index of an undamped saw does not match; expected 0.
+    /// For how many of the two the Krein index of an undamped saw fails; 0 is expected.
     pub krein_violations: usize,
-    /// Modes that the counts say are missing, or too many; expected none.
+    /// Modes that, according to the counts, are missing or superfluous; none are expected.
     pub miscounted_modes: Vec<MiscountEntry>,
 }
 

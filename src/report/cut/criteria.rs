@@ -13,50 +13,50 @@ use crate::transient::{CuttingRun, Growth};
 pub enum Verdict {
     /// No motion grows as fast as the threshold.
     Stable,
-    /// Some motion does.
+    /// Some motion grows as fast.
     Unstable,
 }
 
-/// What becomes of a cut.
+/// Verdict of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CutVerdict {
     /// No motion grows as fast as the threshold, and the deflection stays within the model.
     Stable,
-    /// No motion grows so fast, but the forces alone deflect the blade beyond the linear model and
-    /// any kerf, or with stretching to slopes beyond 0.1.
+    /// No motion grows as fast, but the forces alone deflect the blade beyond the linear model and any kerf,
+    /// or with stretching to slopes beyond 0.1.
     LeavesModel,
     /// Some motion grows.
     Unstable,
 }
 
-/// What a verdict rests on.
+/// Criterion of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CutCriterion {
-    /// The eigenvalues in the cut, with tooth loads that stand still.
+    /// Eigenvalues in the cut, with stationary tooth loads.
     Eigenvalues,
-    /// The growth fitted to the deflection in the cut.
+    /// Growth fitted to the deflection in the cut.
     TimeHistory,
     /// Floquet multipliers with tooth loads that move with the teeth.
     MovingToothLoads,
-    /// The eigenvalues in the cut, with the simulated reaction of the spline.
+    /// Eigenvalues in the cut, with the simulated reaction of the spline.
     SplineReaction,
-    /// The eigenvalues before and after the cut.
+    /// Eigenvalues before and after the cut.
     OutOfCut,
 }
 
-/// A criterion and what it says.
+/// A criterion and its result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutCriterionEntry {
-    /// Which one.
+    /// The criterion.
     pub criterion: CutCriterion,
-    /// What it says.
+    /// Its verdict.
     pub verdict: Verdict,
-    /// Largest growth by it.
+    /// Its largest growth.
     pub growth_per_s: f64,
-    /// Frequency of that motion where it is known and grows.
+    /// Frequency of that motion, if it is known and the motion grows.
     pub frequency_hz: Option<f64>,
 }
 

@@ -25,7 +25,7 @@ fn contradicted(run: &CutRunEntry) -> Option<String> {
     let certificate = &run.certificate;
     (!certificate.is_clean()).then(|| {
         format!(
-            "at {:.0} rpm the growing modes are contradicted: {}",
+            "at {:.0} rpm the checks contradict the growing modes: {}",
             run.rpm, certificate.statement
         )
     })
@@ -36,7 +36,7 @@ fn against_power(run: &CutRunEntry) -> Option<String> {
     let ratio = run.tangential_n_per_tooth / by_power.tangential_n_per_tooth;
     ((ratio - 1.0).abs() > 0.05).then(|| {
         format!(
-            "at {:.0} rpm the tangential force given, {:.0} N a tooth, is {ratio:.1} times the {:.0} N that the power allows at the rim; with the latter {}",
+            "at {:.0} rpm the given tangential force, {:.0} N per tooth, is {ratio:.1} times the {:.0} N that correspond to the power; with the latter {}",
             run.rpm,
             run.tangential_n_per_tooth,
             by_power.tangential_n_per_tooth,
@@ -51,7 +51,7 @@ fn against_power(run: &CutRunEntry) -> Option<String> {
 fn without_lateral_force(run: &CutRunEntry) -> Option<String> {
     (run.lateral_n_per_tooth == 0.0).then(|| {
         format!(
-            "at {:.0} rpm no lateral force moves the blade, so that the time history says nothing; give cut.lateral_n_per_tooth",
+            "at {:.0} rpm no lateral force excites the blade, so the time history contains no motion; give cut.lateral_n_per_tooth",
             run.rpm
         )
     })
@@ -71,7 +71,7 @@ fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
     let width_rpm = run.rpm * passing.passing_growth_per_s / (TAU * passing.tooth_frequency_hz);
     alone.then(|| {
         format!(
-            "at {:.0} rpm only the moving tooth loads are unstable: two modes are in resonance with the teeth, {:.0} of which pass in a second; such a resonance is narrow, here of the order of {} rpm, and where exactly it lies depends on modes as high",
+            "at {:.0} rpm only the moving tooth loads are unstable: two modes are in resonance with the teeth, {:.0} of which pass in a second; such a resonance is narrow, here of the order of {} rpm, and its exact speed depends on modes of equally high frequency",
             run.rpm,
             passing.tooth_frequency_hz,
             one_digit(width_rpm)
@@ -95,7 +95,7 @@ fn one_digit(value: f64) -> String {
 fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     if run.stretching.is_some() {
         return run.tooth_passing.passing_deflection_m.is_none().then(|| format!(
-            "at {:.0} rpm the moving tooth loads, which are followed without stretching, deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has loads that stand still",
+            "at {:.0} rpm the moving tooth loads, which are computed without stretching, deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has stationary loads",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m
         ));
@@ -103,7 +103,7 @@ fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     let alone = run.linear_until_s.is_none() && run.tooth_passing.passing_deflection_m.is_none();
     alone.then(|| {
         format!(
-            "at {:.0} rpm the moving tooth loads deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), beyond the linear model; loads that stand still do not",
+            "at {:.0} rpm the moving tooth loads deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm), beyond the linear model; stationary loads do not",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m
         )
@@ -130,7 +130,7 @@ fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     }
     if let Some(until_s) = run.linear_until_s {
         return Some(format!(
-            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {}: the linear model ends there, and the record with it; whether and how fast a small motion grows stays right",
+            "at {:.0} rpm the deflection at the probe exceeds {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm) {}: the linear model ends there, and the record with it; the growth rate of small motions remains right",
             run.rpm,
             1e3 * LINEAR_THICKNESSES * thickness_m,
             moment(run, until_s),
@@ -143,7 +143,7 @@ fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
     let largest_m = largest.into_iter().flatten().fold(0.0_f64, f64::max);
     (largest_m > SMALL_THICKNESSES * thickness_m).then(|| {
         format!(
-            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: beyond one thickness a blade stretches as it bends, which the linear model leaves out and `cut.stretching` adds",
+            "at {:.0} rpm the deflection reaches {:.1} mm, {:.1} times the thickness of the blade: beyond one thickness a blade stretches as it bends, which the linear model neglects and `cut.stretching` includes",
             run.rpm,
             1e3 * largest_m,
             largest_m / thickness_m
