@@ -42,6 +42,7 @@ pub mod check;
 #[doc(hidden)]
 pub mod cli;
 pub mod deflect;
+pub mod document;
 #[cfg(feature = "explore")]
 mod explore;
 pub mod figure;

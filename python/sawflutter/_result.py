@@ -269,6 +269,37 @@ class Result(Report, Entry):
         """
         return _native.picture(name, self._text)
 
+    def save_page(self, path: str | os.PathLike[str]) -> None:
+        """Writes one self-contained page of HTML, as the program does with ``--report``: verdict,
+        inputs, tables, figures, warnings, certificate. A browser prints it as PDF.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        TypeError
+            Where results of this kind have no page.
+        OSError
+            Where it cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "page.html"
+        >>> r.save_page(path)
+        >>> "<svg" in path.read_text(encoding="utf-8")
+        True
+        """
+        page = _native.page(self.command, self._text)
+        if page is None:
+            raise TypeError(f"there is no page of {self.command!r}; save its figures and its table")
+        Path(path).write_bytes(page.encode())
+
     def _described(self, name: str, otherwise: str = "") -> Chart:
         """The chart of a figure of the program; one without panels that says something else where
         the report has no data for it."""

@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use sawflutter::document;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
@@ -83,6 +84,29 @@ macro_rules! read {
 #[pyfunction]
 pub fn summary(command: &str, report: &str) -> PyResult<String> {
     Ok(read!(command, |report| report.summary()))
+}
+
+/// The page of a report of the command of this name; `None` of one that has none.
+#[pyfunction]
+pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
+    macro_rules! of {
+        ($kind:ty) => {{
+            let report: $kind = serde_json::from_str(report).map_err(Failure::from)?;
+            document::page(&report).map_err(Failure::from)?
+        }};
+    }
+    Ok(Some(match command {
+        "analyze" => of!(Report),
+        "check" => of!(CheckReport),
+        "compare" => of!(CompareReport),
+        "cut" => of!(CutReport),
+        "runup" => of!(RunUpReport),
+        "deflect" => of!(DeflectReport),
+        "washboard" => of!(WashboardReport),
+        "fit" => of!(FitReport),
+        "place" => of!(PlaceReport),
+        _ => return Ok(None),
+    }))
 }
 
 /// What a figure of this name shows, as JSON; `None` where the report has no data for it.

@@ -19,7 +19,7 @@ mod _native {
         analyze, check, compare, cut, deflect, fit, modes, place, runup, tradeoff, washboard,
     };
     #[pymodule_export]
-    use super::figures::{campbell_csv, chart, palette, picture, summary, vtk_files};
+    use super::figures::{campbell_csv, chart, page, palette, picture, summary, vtk_files};
     #[pymodule_export]
     use super::matrices::{functions_at, matrices};
     #[pymodule_export]

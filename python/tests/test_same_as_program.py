@@ -124,6 +124,16 @@ def test_the_report_of_a_comparison(
         sf.compare(saw)
 
 
+def test_the_page(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    checked = sf.Scene.load(scenes / "paper.json").check(operating_rpm=1400, accuracy="draft")
+    checked.save_page(tmp_path / "own.html")
+    for program in programs:
+        options = ["--operating-rpm", 1400, "--accuracy", "draft", "--report", page]
+        assert ran(program, "check", scenes / "paper.json", *options).returncode == 1
+        assert page.read_bytes() == (tmp_path / "own.html").read_bytes()
+
+
 def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", shapes=[1000])
     assert found.shapes[-1].rpm == pytest.approx(1000)

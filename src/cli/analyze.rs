@@ -11,6 +11,7 @@ use clap::Args;
 
 use super::common::{Changes, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
+use super::page::Page;
 use super::pictures::{self, figure_names};
 use super::progress::watched_with_remarks;
 use super::several;
@@ -28,6 +29,7 @@ Examples:
   sawflutter analyze --amplitude                      # how far flutter rises
   sawflutter analyze --draw-to-rpm 2000               # a part of the sweep
   sawflutter analyze --in-cut 2800                    # with forces of a cut
+  sawflutter analyze --shapes --report page.html      # one page, to print
   sawflutter analyze --json | jq .flutter_speed_rpm   # for scripts";
 
 #[derive(Args, Default)]
@@ -65,6 +67,8 @@ pub struct Arguments {
     in_cut: Option<Option<f64>>,
     #[command(flatten)]
     drawn: Drawn,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// What part of the sweep the picture of the Campbell diagram shows; what is computed stays the same.
@@ -118,6 +122,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         [] => one(arguments, &asked(Scene::paper())?),
         [path] => one(arguments, &read(path)?),
         paths => {
+            anyhow::ensure!(
+                !arguments.page.is_asked(),
+                "--report is given with several scenes, but a page is one saw's; name one scene, or use `sawflutter compare`"
+            );
             let scenes = paths.iter().map(read);
             let scenes: Vec<anyhow::Result<Scene>> = match arguments.keep_going {
                 true => scenes.collect(),
@@ -153,9 +161,11 @@ fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
 }
 
 fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
+    arguments.page.tried()?;
     let folder = arguments.output.folder()?;
     let report = report(arguments, scene)?;
     let (files, json) = files(arguments, &report)?;
+    arguments.page.write(&report)?;
     // The table of several scenes is not this run's.
     let optional = [&optional_names()[..], &several::FILES].concat();
     let words = || report.summary();

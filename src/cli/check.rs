@@ -9,6 +9,7 @@ use clap::Args;
 
 use super::common::{Input, number, of_option, say};
 use super::output::OutputFolder;
+use super::page::Page;
 use super::pictures::drawn;
 use super::progress::watched;
 
@@ -61,12 +62,15 @@ pub struct Arguments {
     /// Write check.json and a picture, check.png and check.svg, to this folder
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// Holds a saw against limits; whether it keeps them all.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.input.scene()?;
     let limits = limits(arguments, &scene)?;
+    arguments.page.tried()?;
     let folder = arguments
         .out
         .as_deref()
@@ -74,6 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         .transpose()?;
     let check = watched(|_| Check::new(&scene, &limits))??;
     let report = CheckReport::new(&scene, &limits, &check);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {
         let mut files = drawn(&report)?;

@@ -10,6 +10,7 @@ use anyhow::{Context, anyhow};
 use clap::Args;
 
 use super::common::{Changes, Output, is_standard_input, read_text, refused};
+use super::page::Page;
 use super::pictures::drawn;
 use super::progress::watched;
 
@@ -37,6 +38,8 @@ pub struct Arguments {
     changes: Changes,
     #[command(flatten)]
     output: Output,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// As for a report, with branches over speed.
@@ -54,6 +57,7 @@ enum Saw {
 /// Compares saws, writes the files and prints the table.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let saws = saws(arguments)?;
+    arguments.page.tried()?;
     let folder = arguments.output.folder()?;
     let report = watched(|progress| {
         let mut compared = Vec::new();
@@ -70,6 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         }
         CompareReport::new(compared).ok_or_else(|| anyhow!("there is no saw to compare"))
     })??;
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     files.push(("compare.json", json.clone().into_bytes()));

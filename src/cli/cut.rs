@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::assumed::{Block, Given};
 use super::common::{Common, number};
+use super::page::Page;
 use super::paste::{pasted, usual_cut};
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
@@ -33,6 +34,8 @@ pub struct Arguments {
     stretching: bool,
     #[command(flatten)]
     forces: Forces,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// Numbers of the scene's `cut`, with or without a unit. Where the scene has no cut, the others are assumed, and said.
@@ -103,12 +106,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         scene = scene.edited(|file| file.cut.iter_mut().for_each(|cut| cut.stretching = true))?;
     }
     let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let cutting = watched(|progress| {
         let map = |done, of| progress.show("points of the map", done, of);
         Cutting::new(&scene, &runs, &map)
     })??;
     let report = CutReport::new(&cutting);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     files.push(("cut.json", json.clone().into_bytes()));

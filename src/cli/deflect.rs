@@ -5,6 +5,7 @@ use crate::report::DeflectReport;
 use clap::Args;
 
 use super::common::{Common, number, of_option};
+use super::page::Page;
 use super::pictures::drawn;
 use super::progress::watched;
 
@@ -33,6 +34,8 @@ pub struct Arguments {
     /// Last speed; by default the end of the scene's sweep
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     to_rpm: Option<f64>,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// Follows the equilibria, writes the files and prints the summary.
@@ -44,6 +47,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         to_rpm: arguments.to_rpm,
     };
     options.checked(&scene).map_err(of_option)?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let found = watched(|_| Deflecting::new(&scene, &options))?;
     let found = found.map_err(|error| match error {
@@ -51,6 +55,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         other => other.into(),
     })?;
     let report = DeflectReport::new(&found);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     files.push(("deflect.json", json.clone().into_bytes()));

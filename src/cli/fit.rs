@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::common::{Common, count, number, of_option, read_text, refused};
 use super::free::named_bounds;
+use super::page::Page;
 use super::pictures::drawn;
 use super::progress::watched;
 
@@ -53,6 +54,8 @@ pub struct Arguments {
     /// Spreads the starts in another way
     #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = count::<u64>)]
     seed: u64,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// As for scenes; a table of frequencies is a page.
@@ -74,12 +77,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     let options = options.checked(&measurement).map_err(of_option)?;
     let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let fit = watched(|progress| {
         let starts = |done, of| progress.show("starts", done, of);
         Fit::new(&scene, &measurement, &freed, &options, &starts)
     })??;
     let report = FitReport::new(&fit);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     let fitted = serde_json::to_string_pretty(&report.scene)?;

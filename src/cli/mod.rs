@@ -14,6 +14,7 @@ mod fit;
 mod free;
 mod keys;
 mod output;
+mod page;
 mod paint;
 mod paste;
 mod pictures;

@@ -188,7 +188,7 @@ impl Writing<'_> {
 }
 
 /// Temporary files are private; what they become should not be.
-trait LikeAnyNewFile {
+pub trait LikeAnyNewFile {
     fn permissions_like_any_new_file(&mut self) -> &mut Self;
 }
 

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::common::{Common, count, number, of_option};
 use super::free::named_bounds;
+use super::page::Page;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
@@ -61,6 +62,8 @@ pub struct Arguments {
     /// Points of the map along each axis; 0 for none
     #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>)]
     map: usize,
+    #[command(flatten)]
+    page: Page,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -89,12 +92,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     };
     let options = options.checked().map_err(of_option)?;
     let freed = Freed::to_place(&scene, &named_bounds(&arguments.free)?)?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let found = watched(|progress| {
         let steps = |what, done, of| progress.show(what, done, of);
         Placement::new(&scene, &freed, &demands, &options, &steps)
     })??;
     let report = PlaceReport::new(&demands, &found);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     let placed = serde_json::to_string_pretty(&report.scene)?;

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::assumed::{Block, Given};
 use super::common::Common;
+use super::page::Page;
 use super::paste::{pasted, usual_runup};
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
@@ -30,6 +31,8 @@ pub struct Arguments {
     stretching: bool,
     #[command(flatten)]
     course: Course,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// Numbers of the scene's `runup`, with or without a unit. Where the scene has no run-up, the others are assumed, and
@@ -86,12 +89,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         })?;
     }
     pasted(&scene, scene.needed_runup())?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let found = watched(|progress| {
         let steps = |done, of| progress.show("steps", done, of);
         RunningUp::new(&scene, &steps)
     })??;
     let report = RunUpReport::new(&found);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     files.push(("runup.json", json.clone().into_bytes()));

@@ -5,6 +5,7 @@ use crate::washboarding::Washboard;
 use clap::Args;
 
 use super::common::{Common, number};
+use super::page::Page;
 use super::paste::pasted;
 use super::pictures::{drawn, figure_names};
 use super::progress::watched;
@@ -25,6 +26,8 @@ pub struct Arguments {
     /// Speed to cut at; the scene's operating speed by default
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Option<f64>,
+    #[command(flatten)]
+    page: Page,
 }
 
 /// Looks at washboarding, writes the files and prints the summary.
@@ -32,12 +35,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.common.scene()?;
     let cut = pasted(&scene, scene.needed_washboarding())?;
     let run = cut.at_rpm(scene.needed_operating_rpm(arguments.rpm)?)?;
+    arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let found = watched(|progress| {
         let speeds = |done, of| progress.show("speeds", done, of);
         Washboard::new(&scene, &run, &speeds)
     })??;
     let report = WashboardReport::new(&found);
+    arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     let mut files = drawn(&report)?;
     files.push(("washboard.json", json.clone().into_bytes()));

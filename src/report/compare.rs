@@ -123,32 +123,18 @@ impl CompareReport {
 
 /// The keys of a scene with their values, in its order.
 fn keys(scene: &SceneFile) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    if let Ok(Value::Object(json)) = serde_json::to_value(scene) {
-        for (key, value) in &json {
-            if !NOT_COMPARED.contains(&key.as_str()) {
-                below(value, key, &mut found);
-            }
-        }
-    }
-    found
-}
-
-fn below(value: &Value, path: &str, found: &mut Vec<(String, String)>) {
-    match value {
-        Value::Object(json) => {
-            for (key, inner) in json {
-                below(inner, &format!("{path}.{key}"), found);
-            }
-        }
-        Value::Array(list) => {
-            for (k, inner) in list.iter().enumerate() {
-                below(inner, &format!("{path}[{k}]"), found);
-            }
-        }
-        Value::String(text) => found.push((path.to_owned(), text.clone())),
-        other => found.push((path.to_owned(), other.to_string())),
-    }
+    let entries = scene.entries().into_iter();
+    let entries = entries.filter(|(path, _)| {
+        let first = path.split(['.', '[']).next().unwrap_or_default();
+        !NOT_COMPARED.contains(&first)
+    });
+    let in_words = |value: Value| match value {
+        Value::String(text) => text,
+        other => other.to_string(),
+    };
+    entries
+        .map(|(path, value)| (path, in_words(value)))
+        .collect()
 }
 
 /// The scenes over the same speeds where they name none: up to the largest speed that the program chooses for one of them.

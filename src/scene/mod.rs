@@ -8,6 +8,7 @@
 mod check;
 mod cut;
 mod cut_file;
+mod entries;
 mod excitation;
 mod file;
 mod freed;

@@ -24,7 +24,6 @@ use std::fmt::Write;
 
 #[cfg(feature = "cli")]
 pub use self::answer::Answer;
-#[cfg(feature = "explore")]
 pub use self::answer::answer;
 use crate::report::Report;
 use textwrap::{Options, WordSeparator, WordSplitter};

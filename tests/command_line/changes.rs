@@ -158,3 +158,56 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
         "{message}"
     );
 }
+
+/// A page is written as a whole, where it is asked for, and refused before anything is computed.
+#[test]
+fn a_page_is_written_beside_the_files_or_refused() {
+    let folder = TempDir::new().unwrap();
+    let scene = write_scene(&folder, &quick_scene());
+    let scene = scene.to_str().unwrap();
+    let page = folder.path().join("page.html");
+    let found = report(
+        &["analyze", scene, "--report", page.to_str().unwrap()],
+        &folder,
+    );
+    let text_of = |path: &std::path::Path| std::fs::read_to_string(path).unwrap();
+    let critical = format!("<td>{:.1}</td>", found.critical_speeds[0].rpm);
+    assert!(text_of(&page).contains(&critical));
+    assert!(text_of(&page).ends_with("</html>\n"));
+    let check = folder.path().join("check.html");
+    let mut command = sawflutter();
+    let set = [
+        "--set",
+        "operating_rpm=600",
+        "--report",
+        check.to_str().unwrap(),
+    ];
+    let output = command.args(["check", scene]).args(set).output().unwrap();
+    // Nothing holds this blade against rigid motions, which is a limit that it does not keep.
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    // The words of the terminal are those of the page.
+    let first = text(&output.stdout).lines().nth(1).unwrap();
+    assert!(text_of(&check).contains(first), "{first}");
+    for wrong in [
+        folder.path().join("none/page.html"),
+        folder.path().to_owned(),
+    ] {
+        let other = TempDir::new().unwrap();
+        let output = run(
+            &["analyze", scene, "--report", wrong.to_str().unwrap()],
+            &other,
+        );
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            text(&output.stderr).contains("--report"),
+            "{}",
+            text(&output.stderr)
+        );
+        assert!(names_in(&out(&other)).is_empty());
+    }
+    let two = run(
+        &["analyze", scene, scene, "--report", page.to_str().unwrap()],
+        &folder,
+    );
+    assert!(text(&two.stderr).contains("a page is one saw's"));
+}

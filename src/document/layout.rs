@@ -1,0 +1,192 @@
+//! A document as HTML.
+
+use std::fmt::Write;
+
+use super::inputs::inputs;
+use super::{Document, Documented, Table};
+use crate::figure::FigureError;
+use crate::scene::SceneFile;
+
+const STYLE: &str = "\
+body{font:15px/1.45 Inter,Helvetica,Arial,sans-serif;color:#20242a;max-width:1100px;margin:2em auto;padding:0 1.5em}\
+h1{font-size:1.5em;margin:0}h2{font-size:1.15em;margin:1.8em 0 .4em;border-bottom:1px solid #d6d8dc}\
+p{margin:.25em 0}.facts{color:#696f78;margin:.2em 0}\
+.answer{font-size:1.25em;font-weight:600;margin:.4em 0}.warnings{border-left:4px solid #c8102e;padding-left:1em}\
+table{border-collapse:collapse;font-size:.9em;font-variant-numeric:tabular-nums}\
+th,td{text-align:left;padding:.2em 1.2em .2em 0;border-bottom:1px solid #e9ebed;vertical-align:top}\
+pre{font-size:.85em;overflow-x:auto;white-space:pre-wrap}\
+figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{break-inside:avoid}\
+@media print{body{margin:0;max-width:none;font-size:11px}h2{break-after:avoid}}@page{margin:15mm}";
+
+/// The page of a report.
+///
+/// # Errors
+/// [`FigureError`] where a figure cannot be drawn.
+pub fn page(report: &impl Documented) -> Result<String, FigureError> {
+    let figures = report.figures();
+    let figures = figures.iter().map(|figure| figure.svg());
+    let figures = figures.collect::<Result<Vec<String>, _>>()?;
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_page(&mut text, &report.document(), &figures);
+    Ok(text)
+}
+
+fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std::fmt::Result {
+    let name = escaped(&document.scene.name);
+    writeln!(
+        text,
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>{STYLE}</style>\n</head>\n<body>"
+    )?;
+    writeln!(
+        text,
+        "<h1>{name}</h1>\n<p class=\"facts\">sawflutter {} {}</p>",
+        escaped(document.version),
+        document.command
+    )?;
+    warnings(text, &document.warnings)?;
+    verdict(text, document)?;
+    for table in &document.tables {
+        writeln!(text, "<h2>{}</h2>", escaped(&table.title))?;
+        write_table(text, table)?;
+    }
+    writeln!(text, "<h2>Figures</h2>")?;
+    for figure in figures {
+        // A drawing within a page begins with its own tag.
+        let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
+        writeln!(text, "<figure>\n{drawing}\n</figure>")?;
+    }
+    if !document.certificate.is_empty() {
+        writeln!(text, "<h2>Certificate</h2>")?;
+        paragraphs(text, &document.certificate)?;
+    }
+    scene(text, document.scene)?;
+    if !document.answer.is_empty() {
+        writeln!(
+            text,
+            "<h2>Summary</h2>\n<pre>{}</pre>",
+            escaped(&document.summary)
+        )?;
+    }
+    writeln!(text, "</body>\n</html>")
+}
+
+fn warnings(text: &mut String, warnings: &[String]) -> std::fmt::Result {
+    if warnings.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "<div class=\"warnings\">\n<h2>Warnings</h2>")?;
+    paragraphs(text, warnings)?;
+    writeln!(text, "</div>")
+}
+
+/// The answer; the summary of a report that has it there.
+fn verdict(text: &mut String, document: &Document) -> std::fmt::Result {
+    writeln!(text, "<h2>Result</h2>")?;
+    let Some((first, rest)) = document.answer.split_first() else {
+        return writeln!(text, "<pre>{}</pre>", escaped(&document.summary));
+    };
+    writeln!(text, "<p class=\"answer\">{}</p>", escaped(first))?;
+    paragraphs(text, rest)
+}
+
+fn paragraphs(text: &mut String, lines: &[String]) -> std::fmt::Result {
+    lines
+        .iter()
+        .try_for_each(|line| writeln!(text, "<p>{}</p>", escaped(line)))
+}
+
+fn write_table(text: &mut String, table: &Table) -> std::fmt::Result {
+    let row = |cells: &mut dyn Iterator<Item = &str>, tag: &str| {
+        let cells = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)));
+        format!("<tr>{}</tr>", cells.collect::<String>())
+    };
+    writeln!(
+        text,
+        "<table>\n<thead>{}</thead>\n<tbody>",
+        row(&mut table.columns.iter().copied(), "th")
+    )?;
+    for cells in &table.rows {
+        writeln!(text, "{}", row(&mut cells.iter().map(String::as_str), "td"))?;
+    }
+    writeln!(text, "</tbody>\n</table>")
+}
+
+/// Notes and numbers of the scene, and the scene itself for programs that read the page.
+fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
+    writeln!(text, "<h2>Inputs</h2>")?;
+    paragraphs(text, &scene.notes)?;
+    if let Some(measured) = &scene.measured {
+        let line = format!(
+            "Measured frequencies of {} speeds, from {}.",
+            measured.rows.len(),
+            measured.source
+        );
+        writeln!(text, "<p>{}</p>", escaped(&line))?;
+    }
+    write_table(text, &inputs(scene))?;
+    let json = serde_json::to_string(scene).unwrap_or_default();
+    // A text may contain the tag that ends the element; JSON allows an escape for its first letter.
+    let json = json.replace('<', "\\u003c");
+    writeln!(
+        text,
+        "<script type=\"application/json\" id=\"scene\">{json}</script>"
+    )
+}
+
+fn escaped(text: &str) -> String {
+    let text = crate::text::printable(text);
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::Figures;
+    use crate::report::Report;
+    use crate::scene::{Accuracy, Scene};
+    use crate::stability::Analysis;
+
+    fn report(name: &str) -> Report {
+        let scene = Scene::paper().edited(|file| {
+            file.accuracy = Accuracy::Draft;
+            file.name = name.to_owned();
+            file.operating_rpm = Some(1800.0);
+        });
+        Analysis::new(&scene.unwrap()).unwrap().report()
+    }
+
+    /// The numbers are those of the report; every table, figure and key is there.
+    #[test]
+    fn a_page_holds_what_the_report_says_and_needs_nothing_else() {
+        let report = report("A saw");
+        let page = page(&report).unwrap();
+        let critical = format!(
+            "<td>{:.1}</td><td>{}</td>",
+            report.critical_speeds[0].rpm, report.critical_speeds[0].name
+        );
+        assert!(page.contains(&critical), "{critical}");
+        assert!(page.contains("Can it run at 1800 rpm? STABLE, but past the usual limit"));
+        assert!(page.contains(&escaped(&report.certificate.statement)));
+        assert!(page.contains(
+            "<td>blade.thickness_m</td><td>thickness of the blade</td><td>0.0028 m</td>"
+        ));
+        assert_eq!(page.matches("<svg").count(), report.figures().len());
+        assert_eq!(page.matches("<tr>").count(), page.matches("</tr>").count());
+        for outside in ["src=", "href=", "@import", "url("] {
+            assert!(!page.contains(outside), "{outside}");
+        }
+        let scene = page.split("id=\"scene\">").nth(1).unwrap();
+        let scene = Scene::from_json(scene.split("</script>").next().unwrap()).unwrap();
+        assert_eq!(*scene.file(), report.scene);
+    }
+
+    #[test]
+    fn texts_of_a_scene_are_no_tags() {
+        let page = page(&report("</script><b>&\"")).unwrap();
+        assert!(!page.contains("<b>"), "a tag of the name");
+        assert!(page.contains("&lt;/script&gt;&lt;b&gt;&amp;&quot;"));
+        assert_eq!(page.matches("</script>").count(), 1);
+    }
+}

@@ -1,0 +1,120 @@
+//! A report as one page of HTML: verdict, warnings, tables, figures, inputs, certificate, version.
+//!
+//! The page needs nothing else: styles and figures are in it, and so is the scene. A browser prints it as PDF. It says what the
+//! summary, the figures and the JSON say.
+
+mod inputs;
+mod layout;
+mod of_report;
+
+pub use layout::page;
+
+use crate::figure::Figures;
+use crate::report::{
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
+    RunUpReport, WashboardReport,
+};
+use crate::scene::SceneFile;
+
+/// What a page says of a report.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document<'a> {
+    /// The command that reports it.
+    pub command: &'static str,
+    /// Version of the program that wrote the report.
+    pub version: &'a str,
+    /// The scene.
+    pub scene: &'a SceneFile,
+    /// The answer, line by line; where there is none, the summary has it.
+    pub answer: Vec<String>,
+    /// Numbers that no saw has, and remarks on the validity of the result.
+    pub warnings: Vec<String>,
+    /// Tables.
+    pub tables: Vec<Table>,
+    /// How sure the result is.
+    pub certificate: Vec<String>,
+    /// The report in words, as the program prints it.
+    pub summary: String,
+}
+
+/// A table with a title.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Title.
+    pub title: String,
+    /// Names of its columns, with units.
+    pub columns: Vec<&'static str>,
+    /// Rows.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// A report that has a page.
+pub trait Documented: Figures {
+    /// What the page says.
+    fn document(&self) -> Document<'_>;
+}
+
+macro_rules! documented {
+    ($($report:ty: $command:literal,)*) => {$(
+        impl Documented for $report {
+            fn document(&self) -> Document<'_> {
+                let warnings = self.unusual_numbers.iter().chain(&self.warnings);
+                Document {
+                    command: $command,
+                    version: &self.sawflutter,
+                    scene: &self.scene,
+                    answer: Vec::new(),
+                    warnings: warnings.cloned().collect(),
+                    tables: Vec::new(),
+                    certificate: Vec::new(),
+                    summary: self.summary(),
+                }
+            }
+        }
+    )*};
+}
+
+documented! {
+    CheckReport: "check",
+    CutReport: "cut",
+    DeflectReport: "deflect",
+    FitReport: "fit",
+    PlaceReport: "place",
+    RunUpReport: "runup",
+    WashboardReport: "washboard",
+}
+
+impl Documented for CompareReport {
+    fn document(&self) -> Document<'_> {
+        let of_saws = self.saws.iter().flat_map(|saw| {
+            let warnings = saw.warnings.iter();
+            warnings.map(|warning| format!("{}: {warning}", saw.label))
+        });
+        Document {
+            command: "compare",
+            version: &self.sawflutter,
+            scene: &self.scene,
+            answer: Vec::new(),
+            warnings: of_saws.collect(),
+            tables: Vec::new(),
+            certificate: Vec::new(),
+            summary: self.summary(),
+        }
+    }
+}
+
+impl Documented for Report {
+    fn document(&self) -> Document<'_> {
+        let warnings = self.unusual_numbers.iter().chain(&self.warnings);
+        Document {
+            command: "analyze",
+            version: &self.sawflutter,
+            scene: &self.scene,
+            answer: of_report::answer_lines(self),
+            warnings: warnings.cloned().collect(),
+            tables: of_report::tables(self),
+            certificate: of_report::certificate(self),
+            summary: self.summary(),
+        }
+    }
+}
