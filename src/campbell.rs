@@ -1,12 +1,11 @@
-//! Many speeds: modes computed in parallel, and followed as branches.
+//! Campbell diagram: modes at many speeds, computed in parallel and followed as branches.
 //!
-//! In goes a [`SpectralModel`] and speeds in rad/s; out comes a
-//! [`Campbell`]: the modes of every speed, and for each branch which of them belong to it.
+//! The input is a [`SpectralModel`] and speeds in rad/s, the result a [`Campbell`]: the modes at every speed,
+//! and the modes that belong to each branch.
 //!
-//! Every mode of an undamped blade is brought to positive action: a reflected wave
-//! (ω, q) with Krein sign −1 is the same motion as (−ω, q̄) with sign +1. A backward
-//! wave then passes through its critical speed without changing its shape, and
-//! modes of opposite sign can never be mistaken for each other.
+//! Every mode of an undamped blade is converted to positive action: a reflected wave (ω, q) with Krein sign
+//! −1 is the same motion as (−ω, q̄) with sign +1. A backward wave then passes through its critical speed
+//! without changing its shape, and modes of opposite sign cannot be mistaken for each other.
 
 mod assignment;
 mod matching;
@@ -21,17 +20,17 @@ use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError
 pub(crate) use matching::{Sighted, match_modes};
 pub(crate) use refine::{Closeness, refined};
 
-/// Progress callback: how many of how many speeds are done.
+/// Progress callback: number of speeds done and number of speeds in total.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);
 
-/// Why a chart could not be sampled.
+/// Reason why a chart could not be sampled.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CampbellError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
-    /// The modes of all speeds of a chart would not fit into the memory allowed.
+    /// The modes at all speeds of a chart do not fit into the allowed memory.
     #[error(
         "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; {}ask for a coarser accuracy", end_in_words(*.largest_end_rpm)
     )]
@@ -44,7 +43,7 @@ pub enum CampbellError {
         modes: usize,
         /// Speeds.
         speeds: usize,
-        /// Largest end of a sweep whose chart would fit, if any does.
+        /// Largest end of a sweep whose chart would fit, if any.
         largest_end_rpm: Option<f64>,
     },
 }
@@ -54,7 +53,7 @@ fn end_in_words(largest_end_rpm: Option<f64>) -> String {
     largest_end_rpm.map_or_else(String::new, in_words)
 }
 
-/// All modes of one speed.
+/// Modes at one speed.
 #[derive(Debug, Clone)]
 pub struct SpeedSample {
     /// Ω.
@@ -66,7 +65,7 @@ pub struct SpeedSample {
 /// One mode followed over speed.
 #[derive(Debug, Clone, Default)]
 pub struct Branch {
-    /// (index of the sample, index of the mode in it), one a speed, without gaps.
+    /// (index of the sample, index of the mode in it), one for each speed, without gaps.
     pub points: Vec<(usize, usize)>,
 }
 
@@ -79,7 +78,7 @@ pub struct Campbell {
     pub branches: Vec<Branch>,
 }
 
-/// `count` speeds, evenly spread over a range, its ends included, in the unit of the range.
+/// `count` evenly spaced speeds over a range, including its ends, in the unit of the range.
 #[doc(hidden)]
 pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
     let last = count.max(2) - 1;
@@ -88,30 +87,29 @@ pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Memory that the modes of a chart may take. A saw needs a tenth of it at most.
+/// Memory allowed for the modes of a chart. A saw needs at most a tenth of it.
 const MEMORY_BUDGET_MB: usize = 1024;
 
-/// Memory that a mode of a chart takes: a shape and, at most as long, its projected coordinates; a share of each
-/// harmonic.
+/// Memory for a mode of a chart: its shape, its projected coordinates of at most the same length, and a share
+/// for each harmonic.
 fn bytes_of_mode(model: &SpectralModel) -> usize {
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
     size_of::<DescribedMode>() + shape + shares
 }
 
-/// Speeds of which so many modes each fit into the memory allowed.
+/// Number of speeds with this many modes each that fit into the allowed memory.
 fn most_speeds(model: &SpectralModel, modes: usize) -> usize {
     (MEMORY_BUDGET_MB << 20) / (modes.max(1) * bytes_of_mode(model))
 }
 
-/// As many speeds more as a chart has room for, beside those that it has.
+/// Number of speeds that a chart has room for in addition to its own.
 pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> usize {
     let modes = samples.iter().map(|sample| sample.modes.len()).max();
     most_speeds(model, modes.unwrap_or(0)).saturating_sub(samples.len())
 }
 
-/// What the modes of a chart will take, judged by the number of modes at the last speed, where
-/// there are most.
+/// Checks the memory for the modes of a chart by the number of modes at the last speed, which is the largest.
 fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(), CampbellError> {
     let most = most_speeds(model, modes);
     if speeds.len() <= most {
@@ -128,7 +126,7 @@ fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(
     })
 }
 
-/// Whether the modes of some speeds fit into the memory allowed, before anything else is searched at them.
+/// Checks that the modes at some speeds fit into the allowed memory, before any other search at them.
 ///
 /// # Errors
 /// [`CampbellError`] of the last speed, or [`CampbellError::TooLarge`].
@@ -139,12 +137,12 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     check_memory(model, model.drawn_modes(*last)?.len(), speeds)
 }
 
-/// At which critical speed a sweep may end of which so many speeds are charted: an earlier end leaves those beside later critical
-/// speeds out, and not the even ones, which move closer together. There are fewer modes there as well.
+/// Critical speed at which a sweep with this many charted speeds may end. An earlier end omits the speeds
+/// beside later critical speeds but keeps the even ones, closer together. There are fewer modes too.
 fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
     let last = *speeds.last()?;
     let first = *critical.first()?;
-    // Below the first critical speed there are even ones alone.
+    // Below the first critical speed there are only even speeds.
     let alone = speeds.partition_point(|speed| *speed < first * (1.0 - BESIDE)) as f64;
     let even = (alone * last / first).min(speeds.len() as f64);
     let charted = |end: f64| {
@@ -155,11 +153,11 @@ fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
     critical.iter().rfind(fits).copied()
 }
 
-/// No speed of a chart is farther from the critical speed that it is charted for.
+/// Largest relative distance of a charted speed from the critical speed that it belongs to.
 const BESIDE: f64 = 1e-3;
 
-/// Computes the modes at every speed, in parallel; the order of the result, and
-/// every bit in it, is that of the speeds.
+/// Computes the modes at every speed, in parallel. The result is in the order of the speeds and reproducible
+/// bit by bit.
 ///
 /// # Errors
 /// [`CampbellError`] of the last speed or of the lowest that fails; [`CampbellError::TooLarge`].
@@ -192,12 +190,12 @@ pub fn sample(
 }
 
 impl Campbell {
-    /// Follows the modes of samples up to the height of their chart: a branch begins and ends
-    /// at the first and the last speed or at that height.
+    /// Follows the modes of samples up to the height of their chart. A branch begins and ends at the first or
+    /// last speed or at that height.
     pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         let mut branches: Vec<Branch> = Vec::new();
-        // Branch that each mode of the previous sample belongs to.
+        // Branch of each mode of the previous sample.
         let mut current: Vec<usize> = Vec::new();
         for index in 0..samples.len() {
             let previous = index.checked_sub(1).map(|i| &samples[i]);
@@ -250,7 +248,7 @@ mod tests {
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
-        // The others leave the chart at its top.
+        // Other branches leave the chart at its top.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);
         let mut followed = 0;
         for branch in whole {
@@ -267,8 +265,8 @@ mod tests {
         assert!(followed >= 8, "{followed}");
     }
 
-    /// Fifty even speeds, and two beside each of 40 critical ones in the second half of the sweep: with room for 90 half of
-    /// these may stay.
+    /// Fifty even speeds, and two beside each of 40 critical speeds in the second half of the sweep: with
+    /// room for 90, half of the critical speeds may stay.
     #[test]
     fn a_sweep_that_does_not_fit_may_end_at_the_last_critical_speed_that_does() {
         let critical: Vec<f64> = (0..40).map(|k| 50.5 + 1.23 * f64::from(k)).collect();

@@ -1,4 +1,4 @@
-//! The cheapest pairing of two lists, each element at most once.
+//! Cheapest pairing of two lists, with each element used at most once.
 
 /// Column of each row in the assignment of least total cost, for a square matrix of finite
 /// costs: shortest augmenting paths with dual prices.
@@ -7,7 +7,7 @@
 /// Computing 38, 1987.
 pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
     let size = costs.len();
-    // Row and column 0 are a start that is not part of the matrix.
+    // Row and column 0 are a start outside the matrix.
     let (mut row_price, mut column_price) = (vec![0.0; size + 1], vec![0.0; size + 1]);
     let mut row_of = vec![0; size + 1];
     for row in 1..=size {
@@ -27,7 +27,7 @@ pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
                 }
             }
             if next == column {
-                // Costs that are no numbers: whatever is left stays unpaired.
+                // Costs are not numbers: the remaining rows stay unpaired.
                 break;
             }
             for k in 0..=size {
@@ -63,7 +63,7 @@ mod tests {
         columns.iter().enumerate().map(|(i, k)| costs[i][*k]).sum()
     }
 
-    /// The least total of all permutations, by trying them.
+    /// Least total cost over all permutations, by trying them.
     fn least(costs: &[Vec<f64>], row: usize, free: &mut Vec<usize>) -> f64 {
         if row == costs.len() {
             return 0.0;

@@ -1,11 +1,11 @@
-//! Which mode of a speed is which mode of the next one.
+//! Assignment of the modes at one speed to those at the next.
 
 use faer::{Col, c64};
 
 use super::assignment::cheapest;
 use crate::spectrum::{DescribedMode, Mode, ModeKind};
 
-/// A mode of each of two speeds, taken for the same.
+/// Modes at two speeds that are identified with each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Match {
     /// Index of the mode at the lower speed.
@@ -36,7 +36,7 @@ impl<'a> Sighted<'a> {
             .collect()
     }
 
-    /// Modes of a chart, whose projections change from speed to speed.
+    /// Modes of a chart, whose projection changes with the speed.
     pub fn of_described(modes: &'a [DescribedMode]) -> Vec<Self> {
         modes
             .iter()
@@ -48,26 +48,27 @@ impl<'a> Sighted<'a> {
     }
 }
 
-/// Weight of a frequency that is off by the chart's height, against shapes that are wholly
-/// unlike: shape decides between neighbours, and nothing leaps over the chart.
+/// Weight of a frequency difference as large as the chart's height, relative to completely different shapes:
+/// the shape decides between neighbours, and no branch jumps across the chart.
 const OFF: f64 = 4.0;
-/// Cost of a branch that ends or begins at the top of the chart or at no frequency at all, and of
-/// one that does so anywhere else, which no eigenvalue of a stable window does.
+/// Cost of a branch that ends or begins at the top of the chart or at zero frequency, and of one that does so
+/// elsewhere, which no eigenvalue of a stable window does.
 const AT_EDGE: f64 = 0.5;
 const INSIDE: f64 = 20.0;
-/// Share of the height that counts as its top, besides the way a mode goes in one step.
+/// Share of the height that counts as its top, in addition to the change of a frequency in one step.
 const TOP: f64 = 0.02;
-/// Frequencies below this share of the height are those of real λ, or of a free blade that drifts in turning air.
+/// Frequencies below this share of the height belong to real λ, or to a free blade that drifts in rotating
+/// air.
 const STOPPED: f64 = 1e-6;
-/// Weight of growth that has turned into decay, of damped modes: of two that have met the shapes
-/// are conjugate and the frequencies equal, and growth alone tells them apart. Of the two real λ
-/// into which a wave turns, the one that grows carries on its branch, as in an undamped blade.
+/// Weight of growth that turns into decay, for damped modes. Two that have coalesced have conjugate shapes
+/// and equal frequencies, so only growth distinguishes them. Of the two real λ that a wave turns into, the
+/// growing one continues its branch, as in an undamped blade.
 const REGROWN: f64 = 0.2;
-/// Cost of two modes that nothing can turn into each other.
+/// Cost of two modes that cannot turn into each other.
 const NEVER: f64 = 1e3;
 
-/// The pairs of least total cost, of two speeds that are `step` apart. A mode is left alone only where it leaves or enters the
-/// chart at its top, `height_rad_per_s`, or where one list is longer.
+/// Pairs of least total cost for two speeds that differ by `step`. A mode stays single only where it leaves
+/// or enters the chart at its top, `height_rad_per_s`, or where one list is longer.
 pub fn match_modes(
     [before, after]: [&[Sighted<'_>]; 2],
     step: f64,
@@ -76,8 +77,8 @@ pub fn match_modes(
     let old: Vec<Carrier<'_>> = before.iter().map(Carrier::new).collect();
     let new: Vec<Carrier<'_>> = after.iter().map(Carrier::new).collect();
     let height = height_rad_per_s.max(f64::MIN_POSITIVE);
-    // Where a mode goes within the step, seen from its own speed. A damped mode that comes to a
-    // stop turns into two real λ, of which one begins or ends there.
+    // Costs of ending within the step, by the slope at each mode's own speed. A damped mode that stops
+    // oscillating turns into two real λ, one of which begins or ends there.
     let leaving = |c: &Carrier<'_>, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
         match there >= (1.0 - TOP) * height || c.has_stopped(height) {
@@ -111,7 +112,7 @@ pub fn match_modes(
         .collect()
 }
 
-/// A mode brought to positive action.
+/// A mode converted to positive action.
 struct Carrier<'a> {
     frequency: f64,
     slope: f64,
@@ -137,7 +138,7 @@ impl<'a> Carrier<'a> {
         }
     }
 
-    /// The same motion as (−ω, q̄).
+    /// The same motion written as (−ω, q̄).
     fn mirrored(&self) -> Self {
         Carrier {
             frequency: -self.frequency,
@@ -147,7 +148,7 @@ impl<'a> Carrier<'a> {
         }
     }
 
-    /// Cost of taking both for one mode, and how alike their shapes are.
+    /// Cost of identifying two modes, and the likeness of their shapes.
     fn cost(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
         if self.component != other.component {
             return (NEVER, 0.0);
@@ -156,7 +157,7 @@ impl<'a> Carrier<'a> {
         if !self.damped {
             return direct;
         }
-        // The action of two damped modes that have all but merged is rounding.
+        // Near a coalescence the action of two damped modes is rounding.
         let turned = self.mirrored().cost_as_is(other, step, height);
         if turned.0 < direct.0 { turned } else { direct }
     }
@@ -164,9 +165,9 @@ impl<'a> Carrier<'a> {
     fn cost_as_is(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
         let likeness = self.likeness(other);
         let moved = other.frequency - self.frequency;
-        // Next to a merging the slope of a frequency has no bound, and one end says more.
+        // Next to a coalescence the slope of a frequency is unbounded, so one end is more reliable.
         let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
-        // Of two damped modes that have met the slope, which is that without damping, says nothing.
+        // For two damped modes that have coalesced, the slope, which neglects damping, is useless.
         let level = self.damped.then_some(0.0);
         let off = slopes
             .into_iter()
@@ -180,13 +181,13 @@ impl<'a> Carrier<'a> {
         (1.0 - likeness + OFF * off + regrown, likeness)
     }
 
-    /// A damped mode of real λ.
+    /// Whether a damped mode has a real λ.
     fn has_stopped(&self, height: f64) -> bool {
         self.damped && self.frequency.abs() <= STOPPED * height
     }
 
-    /// Difference of the growth rates relative to both, from 0 to 1; of a wave and a real λ, 1 for the λ that
-    /// grows less than the wave.
+    /// Relative difference of the growth rates, from 0 to 1; for a wave and a real λ, 1 if λ grows less than
+    /// the wave.
     fn regrown(&self, other: &Carrier<'_>, height: f64) -> f64 {
         match [self, other].map(|c| c.has_stopped(height)) {
             [true, false] => f64::from(u8::from(self.growth < other.growth)),
@@ -224,7 +225,7 @@ mod tests {
         }
     }
 
-    /// A damped mode comes to a stop below three that go on, the highest next to the top.
+    /// A damped mode stops oscillating below three others, the highest next to the top.
     #[test]
     fn of_two_real_eigenvalues_the_growing_one_carries_on_and_the_waves_above_go_on() {
         let waves = || [(40.0, 1), (70.0, 2), (97.0, 3)].map(|(im, k)| damped(-0.1, im, k));

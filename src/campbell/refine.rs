@@ -1,4 +1,4 @@
-//! Speeds between those of a chart, where a branch bends, turns into another, or leaves.
+//! Additional speeds of a chart where a branch bends, turns into another, or leaves the chart.
 
 use rayon::prelude::*;
 
@@ -6,29 +6,28 @@ use super::matching::{Match, Sighted, match_modes};
 use super::{CampbellError, SpeedSample, room_for_more, sample};
 use crate::spectrum::{DescribedMode, ModeKind, SpectralModel};
 
-/// How closely the lines of a chart follow its branches.
+/// Accuracy of the lines of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closeness {
-    /// Distance of a line from its branch, as a share of the chart's height.
+    /// Allowed distance of a line from its branch, as a share of the chart's height.
     pub chord: f64,
-    /// How far below the top of the chart a line may end, as a share of its height.
+    /// Distance below the top of the chart at which a line may end, as a share of its height.
     pub end: f64,
-    /// Likeness of two shapes from which they are surely the same mode.
+    /// Likeness of two shapes above which they belong to the same mode.
     pub alike: f64,
-    /// Times that a step may be halved.
+    /// Number of times that a step may be halved.
     pub halvings: usize,
 }
 
 impl Closeness {
-    /// What a figure of some hundred pixels shows.
+    /// Accuracy of a figure of some hundred pixels.
     pub const FIGURE: Closeness = Closeness {
         chord: 0.003,
         end: 0.01,
         alike: 0.7,
         halvings: 6,
     };
-    /// Of a sketch that is looked at for a moment: the branches are followed, but drawn with
-    /// corners.
+    /// Accuracy of a preview: branches are followed but drawn with corners.
     pub const SKETCH: Closeness = Closeness {
         chord: 0.02,
         end: 0.1,
@@ -37,11 +36,12 @@ impl Closeness {
     };
 }
 
-/// How far a square of a growth rate may be from the line between its neighbours, as a share
-/// of the larger one: a parabola that is known at five of its points is left as it is.
+/// Allowed difference of a squared growth rate from the line between its neighbours, as a share of the larger
+/// one: a parabola with five points is accurate enough.
 const GROWTH_CHORD: f64 = 0.13;
 
-/// Adds speeds to samples at ascending speeds until the lines between them are close, or there is no room for more.
+/// Adds speeds to samples at ascending speeds until the lines between them are accurate, or there is no room
+/// for more.
 ///
 /// # Errors
 /// [`CampbellError`] of a speed that fails.
@@ -79,7 +79,7 @@ pub fn refined(
     Ok(samples)
 }
 
-/// Whether a line from one speed to the next would say something else than the modes.
+/// Whether a line from one speed to the next would misrepresent the modes.
 fn is_doubtful(
     model: &SpectralModel,
     [before, after]: [&SpeedSample; 2],
@@ -105,7 +105,7 @@ fn is_doubtful(
         || matches.iter().any(doubtful)
 }
 
-/// How far the cubic through two frequencies with their slopes is from the line between them.
+/// Distance between the cubic through two frequencies with their slopes and the line between them.
 fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
     let is_wave = |m: &DescribedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
     if !ends.into_iter().all(is_wave) {
@@ -115,7 +115,7 @@ fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
     0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
 }
 
-/// The same of the square of a growth rate, which is nearly a parabola over a band.
+/// Whether squared growth rates deviate too far from a line; they are nearly parabolas over a band.
 fn growth_bends(model: &SpectralModel, ends: [&DescribedMode; 2], speeds: [f64; 2]) -> bool {
     let grows = |m: &DescribedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
     if !ends.into_iter().all(grows) {

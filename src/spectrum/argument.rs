@@ -1,14 +1,14 @@
-//! How far the argument of a function turns along a path: the argument principle counts roots by it.
+//! Change of the argument of a function along a path, by which the argument principle counts roots.
 
 use std::f64::consts::TAU;
 
-/// Turn between two neighbouring places beyond which there must be one in between.
+/// Largest change between two neighbouring points; beyond it a point is added between them.
 const LARGEST_TURN: f64 = 0.7;
 const MOST_HALVINGS: usize = 24;
 
-/// How far an angle, known but for whole turns, turns along a path from the first to the last of some
-/// ascending places, with as many in between as it takes to tell. `None` where it cannot be told: the
-/// path meets a root.
+/// Change of an angle, known up to whole turns, along a path from the first to the last of some ascending
+/// points; points are added between them as needed. `None` if the change is undetermined, because the path
+/// passes through a root.
 pub fn turn_along(places: &[f64], angle: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let mut before = (*places.first()?, angle(*places.first()?)?);
     let mut total = 0.0;
@@ -44,7 +44,7 @@ fn turned(
 mod tests {
     use super::*;
 
-    /// z³ around the unit circle, and a place where nothing can be told.
+    /// z³ around the unit circle, and an undetermined case.
     #[test]
     fn whole_turns_are_counted() {
         let places = [0.0, 1.0, TAU];

@@ -27,18 +27,18 @@ use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, unit};
 use crate::tuned::Tuned;
 
-/// Share of a vector that is left beside the span of the others, below which it is rounding.
+/// A vector whose part outside the span of the others is below this share is rounding.
 const BREAKDOWN: f64 = 1e-14;
-/// Relative residual at which a Krylov vector is good enough to span a mode.
+/// Relative residual at which a Krylov vector is accurate enough to represent a mode.
 const TOLERANCE: Tuned = Tuned::new("spectrum/arnoldi::TOLERANCE", 1e-10);
-/// Steps at least from one look to the next; later looks cost more, and are further apart.
+/// Smallest number of steps between two checks of convergence; later checks cost more and are further apart.
 const MORE_STEPS: usize = 16;
-/// Steps for each eigenvalue wanted, at most. A soft blade on a stiff bed has a cluster of
-/// modes next to its lowest one, where four are not enough.
+/// Largest number of steps per eigenvalue. A soft blade on a stiff bed has a cluster of modes near its lowest
+/// one, for which four are not enough.
 const STEPS_EACH: usize = 12;
 
-/// About `count` eigenpairs next to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1,
-/// ordered by |λ|. Fewer come back when the iteration stalls.
+/// About `count` eigenpairs nearest to the shift σ = `shift_per_s`, Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; fewer
+/// if the iteration stalls.
 ///
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
@@ -54,13 +54,14 @@ pub fn lowest_eigenpairs(
         false => nearest(&inverse, 2 * count, shift_per_s),
     };
     let mut pairs = found.map_err(|_| no_convergence(system, speed_rad_per_s))?;
-    // Free rigid motions are known exactly; these are their rounded doubles.
+    // Free rigid motions are known exactly; these pairs are their approximations.
     pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
     Ok(pairs)
 }
 
-/// The same by the structure of an undamped blade's matrices, in a time linear in its functions: exact but for
-/// what the columns of its guides leave out, so vectors to span modes with. `None` where there is no such structure.
+/// As [`lowest_eigenpairs`], by the structure of an undamped blade's matrices, in a time linear in the number
+/// of functions: exact except for the part of the guides that their columns neglect, so the vectors suffice
+/// for a reduced basis. `None` without such a structure.
 ///
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
@@ -84,7 +85,7 @@ pub(super) fn nearly_lowest_eigenpairs(
         .map_err(|_| no_convergence(system, speed_rad_per_s))
 }
 
-/// Free rigid motions are double zeros, of which the squares are defective.
+/// Free rigid motions are double zeros, for which the squares are defective.
 fn is_hamiltonian(system: &GyroscopicSystem) -> bool {
     system.is_conservative() && system.free_rigid.is_empty()
 }
@@ -96,7 +97,7 @@ fn no_convergence(system: &GyroscopicSystem, speed_rad_per_s: f64) -> SpectrumEr
     }
 }
 
-/// The pairs of the eigenvalues of largest magnitude of an operator, as many as wanted.
+/// The pairs of the eigenvalues of largest magnitude of an operator, as many as requested.
 fn nearest<O: Operator>(
     operator: &O,
     wanted: usize,
@@ -123,7 +124,7 @@ struct Krylov {
     vectors: Mat<f64>,
     hessenberg: Mat<f64>,
     steps: usize,
-    /// Whether the vectors span an invariant subspace: there is no next direction.
+    /// Whether the vectors span an invariant subspace, so that there is no next direction.
     exhausted: bool,
 }
 
@@ -144,14 +145,14 @@ impl Krylov {
         }
     }
 
-    /// Goes on to a number of steps; fewer where the space is exhausted.
+    /// Extends to a number of steps; fewer if the space is exhausted.
     fn extend(&mut self, operator: &impl Operator, steps: usize) {
         while self.steps < steps && !self.exhausted {
             let k = self.steps;
             let mut next = operator.apply(self.vectors.col(k));
             let size = next.norm_l2();
             let span = self.vectors.subcols(0, k + 1);
-            // Once is not enough where most of the vector lies in the span.
+            // One orthogonalization is not enough if most of the vector lies in the span.
             for _ in 0..2 {
                 let shares = span.transpose() * &next;
                 next -= span * &shares;
@@ -161,8 +162,8 @@ impl Krylov {
                 operator.clear(span, &mut next);
             }
             let rest = next.norm_l2();
-            // What the operator makes of the last vector lies in the span: its column of the
-            // Hessenberg matrix is complete, and belongs to the invariant subspace.
+            // The product of the operator and the last vector lies in the span: its column of the Hessenberg
+            // matrix is complete and belongs to the invariant subspace.
             self.exhausted = rest.is_nan() || rest <= BREAKDOWN * size;
             if !self.exhausted {
                 self.hessenberg[(k + 1, k)] = rest;
@@ -174,8 +175,8 @@ impl Krylov {
         }
     }
 
-    /// The pairs of the eigenvalues of largest magnitude, if all of the wanted ones, or as many as
-    /// there are in the end, have converged.
+    /// The pairs of the eigenvalues of largest magnitude, if all of the requested ones (or all that exist)
+    /// have converged.
     fn eigenpairs(
         &self,
         operator: &impl Operator,
@@ -243,7 +244,7 @@ mod tests {
             let dense = companion_eigenpairs(&system, rad_per_s(speed)).unwrap();
             let few = lowest_eigenpairs(&system, rad_per_s(speed), 10, 100.0).unwrap();
             assert!(few.len() >= 9);
-            // Two real λ, one the negative of the other, have no order.
+            // Two real λ of opposite sign have no order.
             let is_near = |x: &Eigenpair, y: &Eigenpair| (x.0 - y.0).norm() < 1e-7 * y.0.norm();
             for pairs in [[&few, &dense], [&dense, &few]] {
                 for pair in pairs[0].iter().take(8) {
@@ -254,7 +255,7 @@ mod tests {
         }
     }
 
-    /// A ring of rubber on a stiff bed with a damper: every mode next to the lowest.
+    /// A ring of rubber on a stiff bed with a damper, whose modes form a cluster near the lowest one.
     #[test]
     fn a_cluster_of_modes_is_found() {
         let scene = Scene::paper().edited(|saw| {
@@ -280,9 +281,9 @@ mod tests {
         }
     }
 
-    /// Uncoupled oscillators of which many are alike: the iteration from one vector sees one of
-    /// each kind and then has no next direction. With the last vector of the subspace dropped,
-    /// the frequencies of all kinds would be wrong.
+    /// Uncoupled oscillators of which many are alike: the iteration from one vector finds one of each kind
+    /// and then has no next direction. If the last vector of the subspace were dropped, the frequencies of
+    /// all kinds would be wrong.
     #[test]
     fn on_breakdown_the_last_direction_counts() {
         let order = 12;

@@ -1,4 +1,4 @@
-//! A plate put together: what it is asked before a range of speeds is prepared.
+//! An assembled plate, and computations that need no reduced model.
 
 use std::sync::OnceLock;
 
@@ -14,10 +14,10 @@ use super::structured::{LARGE, StructuredStiffness};
 use super::work::Cancellation;
 use crate::plate::Plate;
 
-/// Speed up to which critical speeds are asked for, by those found so far, ascending, in rad/s.
+/// Speed up to which critical speeds are needed, given those found so far, ascending, in rad/s.
 pub type SpeedLimit<'a> = &'a dyn Fn(&[f64]) -> f64;
 
-/// A plate with its matrices, and the structure of large ones once it is asked for.
+/// A plate with its matrices, and for large ones their structure, which is computed when first needed.
 #[derive(Debug)]
 pub struct Assembled {
     /// The plate.
@@ -38,12 +38,12 @@ impl From<Plate> for Assembled {
 }
 
 impl Assembled {
-    /// Whether what it is asked takes no dense eigenproblem of the order of the basis.
+    /// Whether its computations need no dense eigenproblem of the order of the basis.
     pub fn is_structured(&self) -> bool {
         self.structured().is_some() || self.components.len() > 1
     }
 
-    /// The structure and the one component that has it.
+    /// The structure and the only component that has it.
     fn structured(&self) -> Option<(&StructuredStiffness, &Component)> {
         let [only] = self.components.as_slice() else {
             return None;
@@ -57,14 +57,14 @@ impl Assembled {
         Some((self.structure.get_or_init(structure).as_ref()?, only))
     }
 
-    /// Number of critical speeds below a speed, where the structure tells it with certainty.
+    /// Number of critical speeds below a speed, if the structure determines it with certainty.
     pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
         let (structure, _) = self.structured()?;
         structure.full.critical_speeds_below(speed_rad_per_s)
     }
 
-    /// The critical speeds of the plate up to a limit, which may depend on those found so far, and the lowest; all
-    /// without a limit. Ascending.
+    /// The critical speeds of the plate up to a limit, which may depend on those found so far, and the lowest
+    /// one; without a limit, all. Ascending.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
@@ -90,8 +90,7 @@ impl Assembled {
         Ok(named(&self.plate, &self.components, found))
     }
 
-    /// The lowest `count` modes at rest, ascending; without damping, and without the rigid motions
-    /// that nothing holds.
+    /// The lowest `count` modes at rest, ascending, without damping and without free rigid motions.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
@@ -107,7 +106,7 @@ impl Assembled {
     }
 }
 
-/// `None` where the iteration or its count fails, or once the computation was asked to end.
+/// `None` if the iteration or its count fails, or if the computation was cancelled.
 fn critical_speeds_by(
     structure: &StructuredStiffness,
     component: &Component,
@@ -132,7 +131,7 @@ fn critical_speeds_by(
     Some(found.map(speed).collect())
 }
 
-/// `None` where the iteration or its count fails, or once the computation was asked to end.
+/// `None` if the iteration or its count fails, or if the computation was cancelled.
 fn modes_at_rest_by(
     structure: &StructuredStiffness,
     component: &Component,
@@ -163,8 +162,8 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::generalized::singular_multiples;
 
-    /// The stiffest pad has a million times the stiffness of the blade, and its columns are exact to the rounding of
-    /// that.
+    /// The stiffest pad has a million times the stiffness of the blade, and its columns are exact to the
+    /// rounding of that.
     const ROUNDING: f64 = 1e-9;
 
     fn pads(count: usize, stiffness_n_per_m: f64) -> Scene {
@@ -181,9 +180,9 @@ mod tests {
         scene.unwrap()
     }
 
-    /// Weak and stiff pads, and three at equal distances, whose pairs of equal waves have equal critical speeds and
-    /// equal frequencies: against every eigenvalue of the dense symmetric problems. Up to 6000 rpm 20 critical speeds and
-    /// more are found.
+    /// Weak and stiff pads, and three evenly spaced ones, for which pairs of equal waves have equal critical
+    /// speeds and frequencies, compared with all eigenvalues of the dense symmetric problems. More than 20
+    /// critical speeds up to 6000 rpm are found.
     #[test]
     fn by_structure_they_are_those_of_all_eigenvalues() {
         let top = rad_per_s(6000.0);
@@ -214,8 +213,8 @@ mod tests {
         }
     }
 
-    /// By the minimum principle no critical speed rises when functions are added: of a narrow ring, whose radial
-    /// polynomials of high degree lose most digits.
+    /// By the minimum principle no critical speed rises when functions are added. The test uses a narrow
+    /// ring, for which radial polynomials of high degree lose most digits.
     #[test]
     fn no_critical_speed_rises_with_the_basis() {
         let narrow = Scene::paper().edited(|saw| {

@@ -20,17 +20,17 @@ pub struct RestingMode {
 
 /// Below this order all eigenvectors cost less than an iteration.
 const SMALL: usize = 64;
-/// Vectors iterated beyond the number of modes wanted: the error of a frequency falls by the
-/// fourth power of its ratio to the first one left out, each time.
+/// Number of vectors beyond the number of requested modes: in each iteration the error of a frequency falls
+/// by the fourth power of its ratio to the first one omitted.
 const MORE: usize = 10;
-/// Residual ‖K₀⁻¹q − q/ω²‖ω² up to which the iteration goes: of the frequency the error is half its square, over
-/// the relative distance to the squares that the vectors do not span.
+/// Residual ‖K₀⁻¹q − q/ω²‖ω² at which the iteration ends: the error of the frequency is half its square,
+/// divided by the relative distance to the squares that the vectors do not represent.
 const RESIDUAL: f64 = 1e-5;
-/// Where it has not come so far after as many rounds, all eigenvectors are computed: eight are usual.
+/// Largest number of iterations, after which all eigenvectors are computed; eight are usual.
 const MOST_ROUNDS: usize = 40;
 
-/// The lowest `count` modes at rest of the components of a plate, ascending; without damping, and
-/// without the rigid motions that nothing holds.
+/// The lowest `count` modes at rest of the components of a plate, ascending, without damping and without free
+/// rigid motions.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
@@ -53,7 +53,7 @@ pub fn modes_at_rest(
     Ok(modes)
 }
 
-/// (ω², q), ascending: subspace iteration with K₀⁻¹, or all at once where there are few.
+/// (ω², q), ascending: by subspace iteration with K₀⁻¹, or by a dense solver for small orders.
 fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
     let order = system.order();
     let mut stiffness = system.stiffness.clone();
@@ -79,7 +79,7 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
     Ok(ritz.lowest(count))
 }
 
-/// Takes the rigid motions that nothing holds out of vectors.
+/// Removes free rigid motions from vectors.
 fn release(system: &GyroscopicSystem, vectors: &mut Mat<f64>) {
     for z in &system.free_rigid {
         let shares = z.transpose() * &*vectors;
@@ -87,7 +87,8 @@ fn release(system: &GyroscopicSystem, vectors: &mut Mat<f64>) {
     }
 }
 
-/// The subspace of `width` vectors on which the lowest `count` modes have converged; `None` where they do not.
+/// The subspace of `width` vectors on which the lowest `count` modes have converged; `None` if they do not
+/// converge.
 fn iterated(
     system: &GyroscopicSystem,
     factor: &Llt<f64>,
@@ -108,10 +109,10 @@ fn iterated(
     Ok(None)
 }
 
-/// What orthonormal vectors say of the modes that they span.
+/// Ritz pairs on orthonormal vectors.
 struct Ritz {
     span: Mat<f64>,
-    /// K₀⁻¹ times these.
+    /// K₀⁻¹ times the vectors.
     solved: Mat<f64>,
     /// 1/ω² and the vectors in the span, descending.
     modes: Vec<(f64, Col<f64>)>,
@@ -158,7 +159,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::spectrum::LowestModes;
 
-    /// Held, loose, and held at a point, which leaves rigid motions free.
+    /// Blades that are held, loose, and held at a point, which leaves rigid motions free.
     #[test]
     fn they_are_those_of_the_quadratic_problem() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();

@@ -1,4 +1,4 @@
-//! How much of a membrane stress a blade bears before a wave of it stands still, or it buckles.
+//! Multiples of a membrane stress at which a wave stands still or the blade buckles.
 
 use nalgebra::DMatrix;
 
@@ -16,23 +16,23 @@ use super::generalized::singular_multiples;
 pub struct SingularStress {
     /// The multiple.
     pub multiple: f64,
-    /// The waves of the shape.
+    /// Waves of the shape.
     pub name: EventName,
 }
 
-/// Stress added to that of a plate: from a multiple of a stress onwards, up or down.
+/// A stress added to that of a plate, starting from a multiple of it, in either direction.
 #[derive(Debug, Clone, Copy)]
 pub struct AddedStress<'a> {
     /// Geometric stiffness of the stress, of n = 0 … n_max, in 1/s².
     pub stiffness: &'a [DMatrix<f64>],
-    /// The multiple to begin with.
+    /// Initial multiple.
     pub from: f64,
     /// +1 or −1.
     pub direction: f64,
 }
 
-/// The smallest m > 0 at which K(Ω) + (from + direction · m) K_m is singular; `None` when it is
-/// not for any. A generalised symmetric eigenproblem, without a sweep.
+/// The smallest m > 0 at which K(Ω) + (from + direction · m) K_m is singular; `None` if there is none. It
+/// follows from a generalized symmetric eigenproblem, without a sweep.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when it is not positive definite at m = 0.
@@ -66,8 +66,8 @@ pub fn first_singular(
     Ok(first)
 }
 
-/// Says of a plate that is not stable at rest how much of its membrane stress it bears, where
-/// that is the reason.
+/// Adds to the error of a plate that is unstable at rest the share of its membrane stress at which it
+/// buckles, if that is the cause.
 pub fn explained(plate: &Plate, error: SpectrumError) -> SpectrumError {
     let SpectrumError::UnstableAtRest { .. } = error else {
         return error;

@@ -1,14 +1,14 @@
-//! Canonical coordinates: those in which a symplectic form is J again.
+//! Canonical coordinates, in which a symplectic form is J.
 
 use faer::Mat;
 
-/// Smallest pivot of the form between states of unit length. Canonical states are longer by the root of what it
-/// falls short of 1, and the square of their matrix loses the square of that. Of 23 projections of the paper's saw
+/// Smallest pivot of the form between states of unit length. Canonical states are longer by its inverse root,
+/// and the square of their matrix loses accuracy by the square of that. Of 23 projections of the paper's saw
 /// the smallest pivots are 0.018 to 0.7.
 const WELL_PAIRED: f64 = 5e-3;
 
-/// T with TᵀFT = [0 −I; I 0] for a skew F, by Gram and Schmidt's method with the largest entry of F as
-/// each pivot. `None` where states have no partner, or hardly one.
+/// T with TᵀFT = [0 −I; I 0] for a skew F, by the method of Gram and Schmidt with the largest entry of F as
+/// each pivot. `None` if a state has no partner, or nearly none.
 pub fn canonical_basis(mut form: Mat<f64>) -> Option<Mat<f64>> {
     let order = form.nrows();
     let mut basis = Mat::<f64>::identity(order, order);
@@ -62,8 +62,8 @@ pub fn turned(symmetric: Mat<f64>) -> Mat<f64> {
 mod tests {
     use super::*;
 
-    /// TᵀFT = [0 −I; I 0] of skew matrices without any other structure; none of one of odd order,
-    /// which is singular.
+    /// TᵀFT = [0 −I; I 0] for skew matrices without other structure; `None` for one of odd order, which is
+    /// singular.
     #[test]
     fn a_skew_form_becomes_the_canonical_one() {
         let form = |order: usize| {

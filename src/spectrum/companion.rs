@@ -12,9 +12,9 @@ use super::real_eigen::RealEigen;
 use super::vectors::{Eigenpair, by_magnitude, unit};
 use super::work::Cancellation;
 
-/// The power of two next to the root mean square of the natural frequencies.
-/// Dividing time by it is exact, and keeps the blocks of the companion matrix of
-/// one size: faer does not balance, and unscaled SI matrices cost six digits.
+/// The power of two nearest to the root mean square of the natural frequencies. Scaling time by it is exact
+/// and balances the blocks of the companion matrix: faer does not balance, and unscaled SI matrices lose six
+/// digits.
 pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     let mean_square = stiffness.norm_l2() / (stiffness.nrows().max(1) as f64).sqrt();
     let frequency = mean_square.sqrt();
@@ -59,7 +59,7 @@ pub(super) fn companion(
     Ok((state, scale))
 }
 
-/// The companion matrix on what is left beside the rigid motions that nothing holds.
+/// The companion matrix without the free rigid motions.
 pub(super) fn deflated_companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -74,8 +74,8 @@ pub(super) fn deflated_companion(
     Ok((state, scale, deflation))
 }
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Of
-/// each rigid motion that nothing holds there is one, with λ = 0 exactly.
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|; the others are their conjugates. Each free rigid motion
+/// has one, with λ = 0 exactly.
 ///
 /// # Errors
 /// [`SpectrumError::NotFinite`], [`SpectrumError::NoConvergence`] or [`SpectrumError::Cancelled`].

@@ -1,4 +1,4 @@
-//! The components of a blade that nothing couples, each with its reduced models.
+//! The decoupled components of a blade, with their reduced models.
 
 use std::sync::OnceLock;
 
@@ -22,24 +22,24 @@ pub struct Component {
     pub first: usize,
     /// The whole component.
     pub full: GyroscopicSystem,
-    /// How its modes are found.
+    /// Method by which its modes are computed.
     pub(super) solution: Solution,
     norms: OnceLock<MatrixNorms>,
 }
 
-/// How the modes of a component are found.
+/// Method by which the modes of a component are computed.
 #[derive(Debug)]
 pub(super) enum Solution {
     /// Every eigenvalue of the whole component.
     Whole(OnceLock<Projection>),
-    /// Those of one harmonic of an undamped free blade, a symmetric problem.
+    /// Modes of one harmonic of an undamped free blade, a symmetric problem.
     FreeWaves(Projection),
-    /// Those of projections on the low modes of a few speeds, by ascending speed.
+    /// Modes of projections on the low modes at a few speeds, by ascending speed.
     Projected(Vec<Interval>),
 }
 
 impl Component {
-    /// The independent components of a plate, to be solved whole.
+    /// The independent components of a plate, without reduced models.
     pub(crate) fn of(plate: &Plate) -> Vec<Component> {
         if !plate.is_axisymmetric() {
             return vec![Component::new(GyroscopicSystem::of_plate(plate), 0)];
@@ -68,12 +68,12 @@ impl Component {
         Col::from_fn(self.full.order(), |i| shape[self.first + i])
     }
 
-    /// Coordinates in this component of a mode of a speed.
+    /// A mode at a speed in the coordinates of this component.
     pub fn lifted(&self, speed_rad_per_s: f64, coordinates: &Col<c64>) -> Col<c64> {
         real_times(&self.at(speed_rad_per_s).basis, coordinates)
     }
 
-    /// The projection for a speed; the last one also beyond the range.
+    /// The projection for a speed; beyond the range, the last one.
     pub(super) fn at(&self, speed_rad_per_s: f64) -> &Projection {
         match &self.solution {
             Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),

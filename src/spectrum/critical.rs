@@ -21,11 +21,10 @@ pub struct CriticalSpeed {
 
 /// Every critical speed of a component of the blade, ascending.
 ///
-/// With A = K₀ = LLᵀ and B = N − K_σ (of a blade with free rigid motions see
-/// [`GyroscopicSystem::standing_spin`]) the values 1/Ω² are the positive
-/// eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are the
-/// most accurate. A and B both vanish on the rigid motions that no guide holds, so
-/// stiffening them makes A definite and moves nothing else.
+/// With A = K₀ = LLᵀ and B = N − K_σ (with free rigid motions see [`GyroscopicSystem::standing_spin`]) the
+/// values 1/Ω² are the positive eigenvalues of L⁻¹BL⁻ᵀ: the inverse problem, so that the lowest speeds are
+/// the most accurate. A and B both vanish on free rigid motions, so stiffening these makes A definite and
+/// changes nothing else.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
@@ -45,21 +44,20 @@ pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, 
 pub struct NamedCriticalSpeed {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// The waves that it is made by.
+    /// Waves of its shape.
     pub name: EventName,
-    /// Index of the component it belongs to.
+    /// Index of its component.
     pub component: usize,
     /// The standing wave in the unknowns of its component, ‖x‖ = 1.
     pub shape: Col<f64>,
 }
 
-/// Share of a speed by which it is clear of a critical speed: λ² passes through zero there, and is told from zero by far
-/// at half this distance, even where two waves of a free blade stand at once.
+/// Relative distance from a critical speed from which on λ², which passes through zero there, is well above
+/// rounding; half of it would suffice, even where two waves of a free blade stand still at the same speed.
 const CLEAR: f64 = 2e-4;
 
-/// The range over which bands are searched for that are asked for within another: a little wider, with ends at which
-/// no eigenvalue is next to zero and, but by chance, none is about to coalesce where the range asked for ends at a
-/// band's edge.
+/// Range of the search for bands within another range: slightly wider, with ends at which no eigenvalue is
+/// near zero and, except by chance, none is about to coalesce if the given range ends at the edge of a band.
 pub(crate) fn searched_range(
     critical: &[NamedCriticalSpeed],
     (from, to): (f64, f64),
@@ -68,7 +66,7 @@ pub(crate) fn searched_range(
     (clear_below(critical, below), clear_above(critical, above))
 }
 
-/// The speeds of a range from the first to the last at which no eigenvalue is next to zero.
+/// The part of a range between the first and the last speed at which no eigenvalue is near zero.
 pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64)) -> (f64, f64) {
     let clear = (clear_above(critical, from), clear_below(critical, to));
     match clear.0 < clear.1 {
@@ -77,7 +75,7 @@ pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64
     }
 }
 
-/// The lowest speed from one on that is clear of every critical speed.
+/// The lowest speed, from a given one on, that is not near a critical speed.
 fn clear_above(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
     let critical = critical.iter().map(|c| c.speed_rad_per_s);
     critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {
@@ -86,7 +84,7 @@ fn clear_above(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
     })
 }
 
-/// The highest speed up to one that is clear of every critical speed.
+/// The highest speed, up to a given one, that is not near a critical speed.
 fn clear_below(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
     let critical = critical.iter().rev().map(|c| c.speed_rad_per_s);
     critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {

@@ -1,11 +1,10 @@
-//! Eigenvalues without the zeros of rigid motions that nothing holds.
+//! Eigenvalues without the zeros of free rigid motions.
 //!
-//! Of each such motion z, K(Ω)z = 0, the companion matrix A of (q, q̇) has a zero with the
-//! right vector (z, 0) and the left vector (Dᵀz, z): the momentum zᵀ(q̇ + Dq) does not change.
-//! The zeros are mostly double and defective, so that rounding alone turns them into
-//! ±√ε: a slow wave or a slow divergence that is none. Here they are taken out exactly: A
-//! maps every state into those without momentum, and there the displacements z that have
-//! none themselves are split off (Marsden & Weinstein, Rep. Math. Phys. 5, 1974).
+//! For each such motion z, K(Ω)z = 0, the companion matrix A of (q, q̇) has a zero with the right vector (z,
+//! 0) and the left vector (Dᵀz, z): the momentum zᵀ(q̇ + Dq) is constant. The zeros are mostly double and
+//! defective, so that rounding alone turns them into ±√ε, which would appear as a slow wave or slow
+//! divergence. They are removed exactly: A maps every state to one without momentum, and from these states
+//! the displacements z without momentum are removed too (Marsden & Weinstein, Rep. Math. Phys. 5, 1974).
 
 use faer::{Col, Mat, Scale, c64};
 
@@ -13,20 +12,20 @@ use crate::system::GyroscopicSystem;
 
 use super::vectors::real_times;
 
-/// Below this share of the largest momentum of any displacement z it is rounding.
+/// A momentum below this share of the largest momentum of any displacement z is rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// States (q, q̇/s) without the momentum, and without the displacement, of free motions.
+/// States (q, q̇/s) without the momentum and the displacement of free motions.
 pub struct Deflation {
-    /// Orthonormal, 2N × (2N − those taken out).
+    /// Orthonormal basis of these states, 2N × (2N − number removed).
     pub kept: Mat<f64>,
-    /// The displacements split off, N × k₀.
+    /// Removed displacements, N × k₀.
     split_off: Mat<f64>,
 }
 
 impl Deflation {
-    /// For the companion matrix in units of time 1/s = 1/`scale`. `None` when every rigid
-    /// motion is held, be it by a stiffness that was added later.
+    /// For the companion matrix in units of time 1/s = 1/`scale`. `None` if every rigid motion is held, even
+    /// by a stiffness that was added later.
     pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, scale: f64) -> Option<Self> {
         let (size, free) = (system.order(), &system.free_rigid);
         if free.is_empty() {
@@ -57,8 +56,8 @@ impl Deflation {
         })
     }
 
-    /// q of an eigenvector w of A among the kept states, λ in units of s: the displacement
-    /// split off follows from λ(z, 0)-component = that of A(kept w), which is q̇.
+    /// q of an eigenvector w of A in the reduced states, λ in units of s: the removed displacement follows
+    /// from the condition that λ times the (z, 0)-component equals that of A(kept w), which is q̇.
     pub fn displacement(&self, lambda: c64, w: &Col<c64>) -> Col<c64> {
         let state = real_times(&self.kept, w);
         let size = self.split_off.nrows();

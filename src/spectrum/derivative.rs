@@ -1,5 +1,5 @@
-//! How an eigenvalue moves: dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x, with right and left vectors
-//! L(λ)x = 0, yᴴL(λ) = 0 (Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
+//! Derivatives of eigenvalues: dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x, with right and left vectors L(λ)x = 0, yᴴL(λ) = 0
+//! (Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
@@ -20,10 +20,10 @@ pub fn with_speed(
     along(system, speed_rad_per_s, (lambda, x), &change)
 }
 
-/// dλ/dΩ of every eigenvalue at once, from all eigenpairs of Im λ ≥ 0. `None` where they do not span the states (q, λq): two
-/// of them have coalesced, or rigid motions are left out.
+/// dλ/dΩ of every eigenvalue, from all eigenpairs of Im λ ≥ 0. `None` if they do not span the states (q, λq),
+/// because two of them have coalesced or rigid motions are missing.
 ///
-/// Of the matrix X of all states the rows of X⁻¹ are the left vectors.
+/// The rows of the inverse of the matrix of all states are the left vectors.
 pub fn of_all_with_speed(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -71,8 +71,8 @@ pub fn of_all_with_speed(
     all.iter().all(|slope| slope.is_finite()).then_some(all)
 }
 
-/// The eigenvalue next to an expected one and its slope, by Newton's method with the right and the left vector,
-/// λ ← λ − yᴴL(λ)x / yᴴL′(λ)x. `None` where it does not converge.
+/// The eigenvalue nearest to an expected one, with its slope, by Newton's method with the right and the left
+/// vector, λ ← λ − yᴴL(λ)x / yᴴL′(λ)x. `None` if it does not converge.
 pub fn next_to(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -83,7 +83,7 @@ pub fn next_to(
         system.velocity_at(speed_rad_per_s),
     );
     let transposed = velocity.transpose().to_owned();
-    // No vector of a blade is orthogonal to such a one.
+    // No vector of a blade is orthogonal to this start.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
     for step in 0..NEWTON_STEPS {
@@ -114,11 +114,11 @@ pub fn next_to(
     None
 }
 
-/// Steps of Newton's method at most: the correction is cubed by each.
+/// Largest number of Newton steps; convergence is cubic.
 const NEWTON_STEPS: usize = 6;
-/// A last correction of this share leaves nothing but rounding.
+/// Relative size of the last correction, after which only rounding remains.
 const NEWTON_TOLERANCE: f64 = 1e-9;
-/// Inverse iterations from a vector that knows nothing of the mode.
+/// Number of inverse iterations from an arbitrary vector.
 const FIRST_ITERATIONS: usize = 4;
 
 /// dλ for a small change of the matrices.
@@ -145,8 +145,8 @@ fn along(
     -(y.adjoint() * changed) / (y.adjoint() * slope)
 }
 
-/// dΩ of the speed at which two modes merge, where yᴴ(∂L/∂λ)x = 0, for a small change of the matrices, with the right
-/// and the left vector x, y: −yᴴ(dL)x / yᴴ(∂L/∂Ω)x. With λ = 0 it is that of a critical speed.
+/// dΩ of the speed at which two modes coalesce, where yᴴ(∂L/∂λ)x = 0, for a small change of the matrices,
+/// with the right and the left vector x, y: −yᴴ(dL)x / yᴴ(∂L/∂Ω)x. For λ = 0 it is that of a critical speed.
 pub fn of_merging(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -219,7 +219,7 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
     y
 }
 
-/// A hair off an eigenvalue, so that L is not singular to the last bit.
+/// The shift is slightly different from the eigenvalue, so that L is not exactly singular.
 fn beside(lambda: c64) -> c64 {
     lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0)
 }
@@ -248,7 +248,7 @@ mod tests {
         nearest.unwrap().0
     }
 
-    /// Against differences of eigenvalues at two speeds beside it.
+    /// Reference: differences of eigenvalues at two nearby speeds.
     #[test]
     fn slopes_of_all_eigenvalues_are_their_differences_over_the_speed() {
         let (system, speed, step) = (system(), rad_per_s(1000.0), 1e-3);
@@ -271,7 +271,7 @@ mod tests {
         }
     }
 
-    /// From a thousandth away, against all eigenvalues.
+    /// The start differs by a thousandth; the reference is all eigenvalues.
     #[test]
     fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
         let (system, speed) = (system(), rad_per_s(1000.0));

@@ -1,6 +1,6 @@
-//! Why an eigenproblem has no answer.
+//! Errors of eigenproblems.
 
-/// Why a spectrum could not be computed.
+/// Reason for which a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectrumError {
     /// The QR iteration did not converge.
@@ -20,17 +20,17 @@ pub enum SpectrumError {
         /// Order of the stiffness matrix.
         order: usize,
     },
-    /// Heat, roll tension or residual stress press the blade out of its plane.
+    /// The blade buckles under heat, roll tension or residual stress.
     #[error(
         "the blade buckles at rest, in {diameters} nodal diameters: it stays flat up to {share:.3} of the stress of `membrane` and no more; lower the temperature or the residual stress there, roll it otherwise (a hot rim and roll tension work against each other), or hold the blade by stiffer guides"
     )]
     Buckled {
-        /// Nodal diameters of the shape that it takes.
+        /// Nodal diameters of the buckling shape.
         diameters: usize,
-        /// Share of the scene's membrane stress under which it would buckle.
+        /// Share of the scene's membrane stress at which it buckles.
         share: f64,
     },
-    /// Numbers so far apart that their products overflow.
+    /// The numbers differ so much in size that their products overflow.
     #[error(
         "the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart"
     )]

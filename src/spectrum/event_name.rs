@@ -1,14 +1,15 @@
-//! What to call an event of the chart, a critical speed or a band: the waves that make it, at its own
-//! speed. No other place names one.
+//! Names of events, which are critical speeds and bands, by their waves at their own speed. Events are named
+//! nowhere else.
 //!
-//! - A shape that stands in space (λ real) is made by the waves that rotation softens: the waves of n nodal
-//!   diameters lose qᴴ(N − K_σ)q Ω² of their stiffness, K_σ the stiffening by the centrifugal stress. Of n = 0 and 1
-//!   that is never above zero, so that they have no critical speed.
-//! - Flutter is made by waves of both signs of the energy. With amplitudes f of e^{i(ωt − nθ)}, forward in space, and b
-//!   of e^{i(ωt + nθ)}, backward, the action (ω − nΩ)|f|² + (ω + nΩ)|b|² summed over n has the Krein sign, and is zero of
-//!   two modes that have coalesced. A free wave has the energy 2ω times its action; both are negative of a reflected one.
-//!   What a guide forces on the blade has either less energy than its action says (the rigid motions, which cost none)
-//!   or more (short waves, which are stiff). A wave counts with the smaller of the two, and where they agree in sign.
+//! - A shape that is fixed in space (λ real) is named by the waves that rotation softens: waves of n nodal
+//!   diameters lose qᴴ(N − K_σ)q Ω² of their stiffness, where K_σ is centrifugal stiffening. For n = 0 and 1
+//!   this is never positive, so they have no critical speed.
+//! - Flutter is named by waves of both signs of energy. With amplitudes f of e^{i(ωt − nθ)}, forward in
+//!   space, and b of e^{i(ωt + nθ)}, backward, the action (ω − nΩ)|f|² + (ω + nΩ)|b|² summed over n has the
+//!   Krein sign, and is zero for two coalesced modes. The energy of a free wave is 2ω times its action; both
+//!   are negative for a reflected one. The energy of motions that a guide forces on the blade is smaller than
+//!   this (for rigid motions) or larger (for short waves, which are stiff). A wave is weighted by the smaller
+//!   of the two if they have the same sign.
 
 use faer::{Col, c64};
 
@@ -17,32 +18,33 @@ use super::mode_name::{Direction, HarmonicShare, STANDING, in_words, mixed, shor
 use super::wave::{Wave, circles};
 use crate::plate::Plate;
 
-/// Waves that a name has at most, where none dominates.
+/// Largest number of waves in a name if none dominates.
 const MOST_NAMED: usize = 2;
-/// Waves with a smaller share are left out.
+/// Waves with a smaller share are omitted.
 const LEAST: f64 = 1e-3;
-/// A damped wave that grows by itself has met no other: the action of the others is less than this share of its own.
+/// A growing damped wave has not coalesced with another if the action of the others is less than this share
+/// of its own.
 const LEAST_PARTNER: f64 = 1.0 / 3.0;
 
-/// Waves of one direction that make an event together.
+/// Waves of one direction that belong to an event.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventWaves {
-    /// How they run in space.
+    /// Direction in space.
     pub direction: Direction,
-    /// Their shares in what they have together, largest first.
+    /// Shares of their sum, largest first.
     pub shares: Vec<HarmonicShare>,
 }
 
-/// The waves that make an event: of a critical speed or a divergence the shape that stands; of flutter the
-/// reflected waves, and those that they coalesce with.
+/// The waves of an event: for a critical speed or divergence, those of the shape fixed in space; for flutter,
+/// the reflected waves and those with which they coalesce.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EventName {
-    /// One or two, reflected ones first.
+    /// One or two groups, reflected waves first.
     pub waves: Vec<EventWaves>,
 }
 
 impl EventName {
-    /// Of a shape that stands in space, in the basis of the plate.
+    /// The name of a shape fixed in space, in the basis of the plate.
     pub fn standing(plate: &Plate, shape: &Col<c64>, speed_rad_per_s: f64) -> Self {
         let waves = waves(plate, c64::new(0.0, 0.0), shape, speed_rad_per_s);
         let softened = |wave: &Wave| {
@@ -52,7 +54,7 @@ impl EventName {
             lost.max(0.0)
         };
         let amplitude = |wave: &Wave| square(&wave.forward) + square(&wave.backward);
-        // At rest nothing is softened by rotation, and a load that follows the blade needs no softening.
+        // At rest there is no softening by rotation, and follower loads need none.
         let is_softened = speed_rad_per_s > 0.0 && waves.iter().any(|wave| softened(wave) > 0.0);
         let weight = |wave: &Wave| match is_softened {
             true => softened(wave),
@@ -66,7 +68,7 @@ impl EventName {
         }
     }
 
-    /// Of the mode that grows in a band, with its shape in the basis of the plate.
+    /// The name of the mode that grows in a band, with its shape in the basis of the plate.
     pub fn growing(plate: &Plate, mode: &Mode, shape: &Col<c64>, speed_rad_per_s: f64) -> Self {
         if mode.kind == ModeKind::Divergent || mode.lambda.im == 0.0 {
             return Self::standing(plate, shape, speed_rad_per_s);
@@ -131,7 +133,7 @@ impl EventName {
 }
 
 impl EventWaves {
-    /// Waves with their weights, and what gives nodal diameters and circles; `None` where no wave has weight.
+    /// Waves with their weights; `named` gives nodal diameters and circles. `None` if no wave has weight.
     fn new<W>(
         direction: Direction,
         mut weighed: Vec<(&W, f64)>,
@@ -156,7 +158,7 @@ impl EventWaves {
         })
     }
 
-    /// "2 diameters, forward", or the shares where no wave dominates: "3 (52 %) + 2 (41 %), reflected".
+    /// "2 diameters, forward", or shares if no wave dominates: "3 (52 %) + 2 (41 %), reflected".
     pub fn in_words(&self) -> String {
         let (diameters, circles) = self.first();
         let dominant = || in_words(diameters, circles, self.direction);
@@ -195,13 +197,13 @@ fn waves(plate: &Plate, lambda: c64, shape: &Col<c64>, speed_rad_per_s: f64) -> 
     (0..=plate.max_diameters()).map(wave).collect()
 }
 
-/// One of the two waves of a harmonic, or both where their energies agree in sign: what stands of them has next to
-/// no action.
+/// One of the two waves of a harmonic, or both if their energies have the same sign: their standing part has
+/// nearly no action.
 struct Part<'a> {
     wave: &'a Wave,
     forward: &'a [c64],
     backward: &'a [c64],
-    /// Twice the kinetic and the potential energy seen from space.
+    /// Twice the kinetic plus potential energy, seen from space.
     energy: f64,
 }
 
@@ -233,7 +235,7 @@ impl Part<'_> {
         (omega - carried) * square(self.forward) + (omega + carried) * square(self.backward)
     }
 
-    /// The smaller of the energy and of 2ω times the action, zero where they differ in sign.
+    /// The smaller of the energy and 2ω times the action; zero if their signs differ.
     fn weight(&self, omega: f64) -> f64 {
         let by_action = 2.0 * omega * self.action(omega);
         match by_action * self.energy > 0.0 {
@@ -253,7 +255,7 @@ impl Part<'_> {
     }
 }
 
-/// How waves run in space together, each with its weight. Those without nodal diameters do not run.
+/// Common direction of waves in space, weighted. Waves without nodal diameters have none.
 fn direction(parts: &[&Part<'_>], omega: f64) -> Direction {
     let [mut forward, mut backward, mut all] = [0.0; 3];
     for part in parts {

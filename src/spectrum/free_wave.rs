@@ -1,9 +1,9 @@
-//! The waves of one harmonic of an undamped blade that nothing holds in space.
+//! Waves of one harmonic of an undamped blade without anything fixed in space.
 //!
-//! Seen from the blade it is a symmetric problem, (K_b + K_m + Ω²K_σ) x = ω_b² x, of the radial
-//! functions alone. In space a forward wave has ω = ω_b + nΩ and q = (x, −ix) in (cos, sin), a
-//! backward one ω = ω_b − nΩ and q = (x, ix); past its critical speed, where nΩ > ω_b, it is
-//! reflected: ω = nΩ − ω_b and q = (x, −ix).
+//! In the body frame they are solutions of a symmetric problem, (K_b + K_m + Ω²K_σ) x = ω_b² x, of the radial
+//! functions alone. In space a forward wave has ω = ω_b + nΩ and q = (x, −ix) in (cos, sin), a backward one ω
+//! = ω_b − nΩ and q = (x, ix). Above its critical speed, where nΩ > ω_b, it is reflected: ω = nΩ − ω_b and q
+//! = (x, −ix).
 
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Col, Mat, Side, c64};
@@ -14,8 +14,8 @@ use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-/// Every eigenpair with Im λ ≥ 0 of n nodal diameters, ‖q‖ = 1, ordered by |λ|; of each rigid
-/// motion that nothing holds one with λ = 0 exactly. `system` is that of the harmonic.
+/// Every eigenpair with Im λ ≥ 0 of n nodal diameters, ‖q‖ = 1, ordered by |λ|; each free rigid motion has
+/// one with λ = 0 exactly. `system` is that of the harmonic.
 ///
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
@@ -26,7 +26,7 @@ pub fn eigenpairs(
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let radial = plate.basis.count();
-    // The rigid motion is decoupled to the last bit.
+    // The rigid motion is decoupled exactly.
     let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);
     let stiffness = plate.harmonics[n].body_frame_stiffness(speed_rad_per_s);
     let elastic = stiffness.get(rigid.., rigid..).to_owned();
@@ -50,7 +50,7 @@ pub fn eigenpairs(
         }
     }
     if rigid == 1 && n == 1 {
-        // The tilt stays in space, which is a free motion below, or turns twice a turn.
+        // The tilt is fixed in space, a free motion added below, or has twice the rotation frequency.
         let tilt = Col::from_fn(radial, |i| f64::from(u8::from(i == 0)));
         add(2.0 * speed_rad_per_s, forward, &tilt);
     }
@@ -60,9 +60,8 @@ pub fn eigenpairs(
     Ok(by_magnitude(pairs))
 }
 
-/// √(eigenvalue) and eigenvector of a positive definite matrix, from its inverse: the low ones
-/// are accurate to their own size, where the rounding of a direct solver is relative to the
-/// largest.
+/// √(eigenvalue) and eigenvector of a positive definite matrix, from its inverse, so that low ones have a
+/// small relative error; the rounding of a direct solver is relative to the largest.
 fn symmetric_modes(
     matrix: Mat<f64>,
     speed_rad_per_s: f64,
@@ -90,8 +89,8 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::companion_eigenpairs;
 
-    /// L(λ)q = 0 to the size of its terms, and the same eigenvalues as the quadratic problem of
-    /// the space-fixed frame, before and past critical speeds.
+    /// L(λ)q = 0 relative to the size of its terms, and the eigenvalues of the quadratic problem in the
+    /// space-fixed frame, below and above critical speeds.
     #[test]
     fn they_solve_the_quadratic_problem() {
         let scene = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();

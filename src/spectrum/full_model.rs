@@ -1,15 +1,15 @@
-//! The full model of a saw by its structure: blocks of one number of nodal diameters, and few columns.
+//! The full model of a saw by its structure: one block for each number of nodal diameters, and few columns.
 //!
-//! Seen from the blade, a wave of n nodal diameters that turns at frequency ω in space has frequency
-//! ω + nΩ, and −n for the opposite one. Without guides
+//! In the body frame a wave of n nodal diameters with the frequency ω in space has the frequency ω + nΩ; for
+//! the opposite wave n is negative. Without guides
 //!
 //! L(λ) = λ² + λ D(Ω) + K(Ω)
 //!
-//! is therefore block diagonal, with B_n(Ω) + μ² + ηK_b μ + c(λ + insΩ), μ = λ + inΩ, for the wave (c − is)/√2 of
-//! cosines c and sines s, and −n for the opposite one; B_n = K_b + K_m + Ω²K_σ. Guides add PWPᵀ, few columns P for all
-//! of them, W(λ) being 1 for springs and λ for dampers. So a solve, a determinant and an inertia cost O(NJ² + Nr²) for
-//! J functions of each harmonic and r columns, in place of O(N³). Loads at the rim couple every wave with every
-//! other: there only the inertia is known, by a factorization of the whole matrix.
+//! is therefore block diagonal, with B_n(Ω) + μ² + ηK_b μ + c(λ + insΩ), μ = λ + inΩ, for the wave (c −
+//! is)/√2 of cosines c and sines s, and −n for the opposite one; B_n = K_b + K_m + Ω²K_σ. Guides add PWPᵀ
+//! with few columns P, where W(λ) is 1 for springs and λ for dampers. A solve, a determinant and an inertia
+//! therefore cost O(NJ² + Nr²) for J functions of each harmonic and r columns, in place of O(N³). Loads at
+//! the rim couple all waves: then only the inertia is computed, by a factorization of the whole matrix.
 
 mod coupling;
 mod damping;
@@ -32,22 +32,23 @@ use self::harmonic::Harmonic;
 use super::scale::frequency_scale;
 use crate::plate::{HarmonicBlock, Plate};
 
-/// The blade, and what couples its harmonics.
+/// The blade, and the coupling of its harmonics.
 #[derive(Debug)]
 pub struct FullModel {
     harmonics: Vec<Harmonic>,
     coupling: Coupling,
-    /// `None` where what acts besides has no such structure: forces without a potential, and dampers of too many columns.
+    /// `None` if other terms have no such structure: forces without a potential, and dampers of too many
+    /// columns.
     damping: Option<Damping>,
 }
 
 impl FullModel {
-    /// Of a plate.
+    /// The full model of a plate.
     pub fn new(plate: &Plate) -> Self {
         Self::with_columns(plate, Kept::All)
     }
 
-    /// The same, to be solved and multiplied with to a millionth: in a third of the time.
+    /// As [`FullModel::new`], with solves and products accurate to a millionth, in a third of the time.
     pub fn nearly(plate: &Plate) -> Self {
         Self::with_columns(plate, Kept::Few)
     }
@@ -94,13 +95,13 @@ impl FullModel {
         !self.is_dense() && self.damping.is_some()
     }
 
-    /// Whether the columns leave out no more than rounding.
+    /// Whether the columns neglect no more than rounding.
     pub fn is_exact(&self) -> bool {
         matches!(&self.coupling, Coupling::Columns(columns) if columns.is_exact)
     }
 
-    /// L(λ) with its blocks eliminated, but for what the columns of the guides leave out. `None` where it is not
-    /// structured, and where a block is singular.
+    /// L(λ) with its blocks eliminated, without the part of the guides that their columns neglect. `None` if
+    /// it is not structured, or if a block is singular.
     pub fn eliminated<T: Shift>(&self, speed_rad_per_s: f64, lambda: T) -> Option<Elimination<T>> {
         let (Coupling::Columns(springs), Some(damping)) = (&self.coupling, &self.damping) else {
             return None;
@@ -117,9 +118,9 @@ impl FullModel {
         Elimination::new(blocks?, &parts)
     }
 
-    /// K₀ with all columns that there are: what a larger basis would change is small, and stiff guides take part in
-    /// it. Heave and tilt may have no stiffness but that of the guides: the blocks hold them, and columns take away
-    /// what they add. `None` where it is not structured, and where a block is singular.
+    /// K₀ with all columns, because changes by a larger basis are small and involve stiff guides. Heave and
+    /// tilt may have no stiffness except that of the guides: the blocks are stiffened, and further columns
+    /// subtract what was added. `None` if it is not structured, or if a block is singular.
     pub fn eliminated_at_rest(&self) -> Option<Elimination<f64>> {
         let Coupling::Columns(springs) = &self.coupling else {
             return None;
@@ -148,7 +149,7 @@ impl FullModel {
     }
 }
 
-/// Real blocks times a number, added to complex ones.
+/// Adds real blocks times a number to complex ones.
 fn add_scaled(sum: &mut DMatrix<c64>, factor: c64, block: &DMatrix<f64>) {
     if factor != c64::new(0.0, 0.0) {
         sum.zip_apply(block, |sum, own| *sum += factor * own);

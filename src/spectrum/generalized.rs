@@ -9,8 +9,8 @@ use faer::{Col, Mat, Par, Scale, Side};
 use super::error::SpectrumError;
 use super::work::Cancellation;
 
-/// Every m > 0 at which A − m B is singular, ascending, with x of (A − m B) x = 0, ‖x‖ = 1, for
-/// symmetric A and B. A is positive definite but for the motions `free`, on which both vanish.
+/// Every m > 0 at which A − m B is singular, ascending, with x of (A − m B) x = 0, ‖x‖ = 1, for symmetric A
+/// and B. A is positive definite except on the motions `free`, on which both vanish.
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
@@ -37,7 +37,7 @@ pub fn singular_multiples(
     let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower)
         .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
     let noise = 1e-14 * whitened.norm_l2();
-    // Ascending: the largest inverse comes last.
+    // Ascending order: the largest inverse comes last.
     let places: Vec<usize> = (0..order).rev().filter(|&i| eigen.S()[i] > noise).collect();
     let mut shapes = Mat::from_fn(order, places.len(), |i, k| eigen.U()[(i, places[k])]);
     solve_upper_triangular_in_place(lower.transpose(), shapes.as_mut(), Par::Seq);

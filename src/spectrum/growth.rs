@@ -1,4 +1,4 @@
-//! How fast the motion of a system grows at one speed, from eigenvalues alone: a third of the work of modes.
+//! Growth rates of a system at one speed from eigenvalues alone, which takes a third of the work of modes.
 
 use faer::c64;
 
@@ -10,7 +10,7 @@ use super::error::SpectrumError;
 use super::mode::{DAMPED_NOISE, GROWTH_NOISE};
 use super::real_eigen::real_eigenvalues;
 
-/// Every eigenvalue with Im λ ≥ 0, in 1/s, but for free rigid motions, in no order.
+/// Every eigenvalue with Im λ ≥ 0, in 1/s, without free rigid motions, in no order.
 ///
 /// # Errors
 /// [`SpectrumError`] when the eigenproblem fails.
@@ -23,7 +23,7 @@ pub fn eigenvalues(
         order: state.nrows(),
         rpm: rpm(speed_rad_per_s),
     })?;
-    // A maximum would pass over what is not a number.
+    // A maximum would ignore NaN.
     if !values.iter().all(|value| value.is_finite()) {
         return Err(SpectrumError::NotFinite {
             order: state.nrows(),
@@ -43,8 +43,8 @@ pub fn grows(lambda: c64, speed_rad_per_s: f64, is_undamped: bool) -> bool {
     lambda.re > noise
 }
 
-/// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system of which
-/// no motion grows beyond rounding.
+/// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system without growth beyond
+/// rounding.
 ///
 /// # Errors
 /// [`SpectrumError`] when the eigenproblem fails.

@@ -1,4 +1,4 @@
-//! The intervals of a range of speeds, each with few vectors that span its low modes.
+//! The intervals of a range of speeds, each with a small basis for its low modes.
 
 mod error;
 mod settled;
@@ -20,41 +20,42 @@ use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
 
-/// A reflected wave may meet modes up to this multiple of the highest one's frequency.
+/// Modes up to this multiple of the highest reflected wave's frequency may coalesce with it.
 const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
-/// Relative distance of the first speed of the search for bands from the lowest critical speed: more
-/// than the search itself keeps from it.
+/// Relative distance of the first speed of the search for bands from the lowest critical speed; larger than
+/// the distance that the search itself keeps.
 const BELOW_CRITICAL: f64 = 1e-3;
 
 /// The reduced models of a guided blade.
 pub struct Reduction {
-    /// By ascending speed.
+    /// Intervals by ascending speed.
     pub intervals: Vec<Interval>,
-    /// Frequency up to which every mode is right.
+    /// Frequency up to which every mode is accurate.
     pub complete_to_rad_per_s: f64,
-    /// Frequency up to which instabilities are searched for: a little above the highest reflected wave. 0 without one.
+    /// Frequency up to which instabilities are searched for, slightly above the highest reflected wave; 0 if
+    /// there is none.
     pub reflected_to_rad_per_s: f64,
-    /// Largest estimated error of a frequency above its tolerance, in rad/s: 0 unless the
-    /// snapshots ran out.
+    /// Largest estimated error of a frequency beyond its tolerance, in rad/s; 0 unless the number of
+    /// snapshots reached its limit.
     pub unsettled_rad_per_s: f64,
 }
 
-/// A guided blade, and what is known of it.
+/// A guided blade and its known data.
 pub struct Guided<'a> {
     pub system: &'a GyroscopicSystem,
-    /// Blocks and columns of its matrices, where it has such.
+    /// Blocks and columns of its matrices, if it has such a structure.
     pub structure: Option<&'a FullModel>,
-    /// Size of its frequencies.
+    /// Frequency scale.
     pub scale: f64,
     /// Every critical speed of the range.
     pub critical: &'a [NamedCriticalSpeed],
 }
 
-/// Modes of the guided blade at a few speeds, more of them until every mode up to
-/// the chart's height, and every reflected one, is right in between too.
+/// Computes modes of the guided blade at a few speeds, and at more until every mode up to the height of the
+/// diagram, and every reflected one, is accurate in between too.
 ///
-/// For bands alone the modes that only a chart shows are left out, and the speeds below the lowest critical one, where no
-/// wave is reflected: that costs a sixth.
+/// For bands alone, modes that only a diagram shows are omitted, and so are speeds below the lowest critical
+/// one, where no wave is reflected: this takes a sixth of the time.
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].
@@ -110,9 +111,9 @@ struct Builder<'a> {
     standing: Vec<StandingWave<'a>>,
     range: (f64, f64),
     counters: &'a WorkCounters,
-    /// Frequency up to which modes are wanted.
+    /// Frequency up to which modes are needed.
     window: f64,
-    /// Frequency up to which they are wanted for the search.
+    /// Frequency up to which the search needs modes.
     reflected: f64,
     snapshots: Vec<Snapshot>,
     unsettled_rad_per_s: f64,
@@ -133,7 +134,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The first snapshots, of which some may be known already.
+    /// Adds the first snapshots, some of which may be known.
     fn add_first_snapshots(&mut self, known: Vec<Snapshot>) -> Result<(), SpectrumError> {
         let mut speeds = first_speeds(self.range).to_vec();
         for known in known {
@@ -179,19 +180,19 @@ impl<'a> Builder<'a> {
                 let height = chart_height(&lambdas, is_conservative).unwrap_or(scale);
                 return Ok((height, Snapshot { speed, pairs }));
             }
-            // Those that decay without oscillating stand between.
+            // Modes that decay without oscillating are among the computed ones.
             count *= 2;
         }
     }
 
-    /// Whether a snapshot has every mode of the window.
+    /// Whether a snapshot contains every mode of the window.
     fn covers(&self, snapshot: &Snapshot) -> bool {
         let highest = snapshot.pairs.last();
         highest.is_some_and(|(lambda, _)| lambda.norm() > self.window)
     }
 
-    /// Highest reflected wave at the top speed, with a margin for what it may meet; of a damped
-    /// blade that of its undamped twin, for these are the waves that damping feeds.
+    /// Highest reflected wave at the top speed, with a margin for waves that may coalesce with it; for a
+    /// damped blade, that of the undamped one, because damping destabilizes these waves.
     fn reflected_height(&self, speed: f64) -> Result<(f64, Option<Snapshot>), SpectrumError> {
         let Guided {
             system,
@@ -226,7 +227,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Every mode below the chart's height at each speed, and one above it.
+    /// Adds every mode below the height of the diagram at each speed, and one above it.
     fn add_snapshots(&mut self, speeds: &[f64]) -> Result<(), SpectrumError> {
         let new: Result<Vec<Snapshot>, SpectrumError> = speeds
             .par_iter()
@@ -249,8 +250,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Where waves are first reflected: a little below the lowest critical speed, as far as the
-    /// range goes.
+    /// Speed from which on waves are reflected: slightly below the lowest critical speed, or the end of the
+    /// range.
     fn first_reflecting(&self) -> f64 {
         let (from, to) = self.range;
         let lowest = self.guided.critical.first();

@@ -1,11 +1,11 @@
-//! Every eigenpair of a Hamiltonian matrix by an eigenproblem of half its order.
+//! All eigenpairs of a Hamiltonian matrix by an eigenproblem of half its order.
 //!
-//! A is Hamiltonian where JA is symmetric, J = [0 I; −I 0]; then A² is skew-Hamiltonian, each λ² is
-//! double, and the Krylov vectors of A² are isotropic, vᵀJw = 0, so that n of them span an
-//! invariant subspace of a matrix of order 2n in which each λ² is once: A²V = VH, VᵀV = I (C. Van
-//! Loan, Linear Algebra Appl. 61, 1984; V. Mehrmann, D. Watkins, SIAM J. Sci. Comput. 22, 2001).
-//! Of a vector z of A², (A + λ)z belongs to λ. An eigenproblem takes 25 times the cube of its order, so this
-//! takes half the time of that of A. λ² is known to ε‖A‖², as it is where K is rounded.
+//! A is Hamiltonian if JA is symmetric, J = [0 I; −I 0]; then A² is skew-Hamiltonian, each λ² is double, and
+//! the Krylov vectors of A² are isotropic, vᵀJw = 0, so that n of them span an invariant subspace of a matrix
+//! of order 2n that contains each λ² once: A²V = VH, VᵀV = I (C. Van Loan, Linear Algebra Appl. 61, 1984; V.
+//! Mehrmann, D. Watkins, SIAM J. Sci. Comput. 22, 2001). For a vector z of A², (A + λ)z belongs to λ. An
+//! eigenproblem takes 25 times the cube of its order, so this takes half the time of that of A. λ² is
+//! accurate to ε‖A‖², as if K had been rounded.
 
 use faer::{Col, Mat, MatRef, Scale, c64};
 
@@ -17,14 +17,14 @@ use super::work::Cancellation;
 use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
-/// Share of a vector that is left beside the span of the others, below which it is rounding.
+/// A vector whose part outside the span of the others is below this share is rounding.
 const BREAKDOWN: f64 = 1e-14;
-/// Share of a vector beyond which what is left of it is orthogonal to rounding.
+/// If this share of a vector remains after orthogonalization, it is orthogonal to rounding.
 const MOSTLY_KEPT: f64 = 0.5;
 
-/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|, of a system that is Hamiltonian: undamped, and with no
-/// rigid motion free, whose double zero its square does not tell from a single one. Of any other
-/// those of the companion matrix.
+/// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|, of a Hamiltonian system: undamped, and without free
+/// rigid motions, whose double zero cannot be distinguished from a single one in the square. For other
+/// systems, those of the companion matrix.
 ///
 /// # Errors
 /// Those of [`companion_eigenpairs`].
@@ -65,8 +65,8 @@ fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f
     (matrix, scale)
 }
 
-/// Share of the square's norm from which it tells squares from zero and from one another. Rounding takes
-/// 1e-15 of the norm, and its root where two coalesce.
+/// Share of the norm of the square above which squares can be distinguished from zero and from one another.
+/// Rounding is 1e-15 of the norm, and the root of it where two coalesce.
 const LEAST_APART: f64 = 1e-8;
 
 /// λ with Im λ ≥ 0, and the real and imaginary parts of their vectors side by side, two columns each.
@@ -75,8 +75,9 @@ pub struct UpperPairs {
     pub halves: Mat<f64>,
 }
 
-/// Eigenpairs of a Hamiltonian matrix. `None` where squares are next to zero or to one another, at critical
-/// speeds and where waves coalesce: there only the matrix itself tells its eigenvalues; and once the computation was asked to end.
+/// Eigenpairs of a Hamiltonian matrix. `None` if squares are close to zero or to one another, at critical
+/// speeds and where waves coalesce, because there only the matrix itself determines its eigenvalues; also if
+/// the computation was cancelled.
 ///
 /// # Errors
 /// [`NoConvergence`] where the eigenproblem does not converge.
@@ -120,7 +121,7 @@ fn are_apart(squares: &[c64], least: f64) -> bool {
     })
 }
 
-/// Both roots of a positive λ², of any other the one with Im λ > 0.
+/// Both roots of a positive λ²; of any other, the one with Im λ > 0.
 fn upper_roots(square: c64) -> impl Iterator<Item = c64> {
     let roots = match square.im == 0.0 {
         true if square.re > 0.0 => {
@@ -136,8 +137,8 @@ fn upper_roots(square: c64) -> impl Iterator<Item = c64> {
     roots.into_iter().flatten()
 }
 
-/// V and H = VᵀWV of a skew-Hamiltonian matrix W. `None` once the computation was asked to end: of a large
-/// matrix this takes seconds.
+/// V and H = VᵀWV of a skew-Hamiltonian matrix W. `None` if the computation was cancelled, because for a
+/// large matrix this takes seconds.
 fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let cancellation = Cancellation::current();
     let order = square.nrows();
@@ -178,15 +179,15 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     Some((vectors, compressed))
 }
 
-/// Puts the shares in v₁, v₂, … into a column; those in Jv₁, Jv₂, … are rounding.
+/// Puts the components along v₁, v₂, … into a column; those along Jv₁, Jv₂, … are rounding.
 fn add(shares: &Col<f64>, compressed: &mut Mat<f64>, column: usize) {
     for i in 0..shares.nrows() / 2 {
         compressed[(i, column)] = shares[2 * i];
     }
 }
 
-/// Takes from a vector what lies in a span and gives it unit length. What is left of it before, 0 where
-/// that is rounding, and its shares in the span come back.
+/// Orthogonalizes a vector against a span and normalizes it. Returns its remaining length, 0 if that is
+/// rounding, and its components in the span.
 fn orthogonalise(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) {
     let size = next.norm_l2();
     let mut shares = Col::zeros(span.ncols());
@@ -207,7 +208,7 @@ fn orthogonalise(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) 
     }
 }
 
-/// A unit vector beside a span that is an invariant subspace; zero where nothing is left beside it.
+/// A unit vector outside an invariant subspace; zero if there is none.
 fn fresh(span: MatRef<'_, f64>) -> Col<f64> {
     let order = span.nrows();
     let attempts = (0..order).map(|k| {
@@ -220,7 +221,7 @@ fn fresh(span: MatRef<'_, f64>) -> Col<f64> {
         .map_or_else(|| Col::zeros(order), |(_, found)| found)
 }
 
-/// A vector with shares of everything, another for each `k`.
+/// A vector with components in all directions, different for each `k`.
 fn scattered(order: usize, k: usize) -> Col<f64> {
     let frequency = 0.7 + 0.31 * k as f64;
     Col::from_fn(order, |i| (frequency * i as f64 + 0.3).sin())
@@ -255,7 +256,7 @@ mod tests {
         (0..found.lambdas.len()).map(of).fold(0.0, f64::max)
     }
 
-    /// Against the eigenvalues of A itself, by faer.
+    /// Reference: the eigenvalues of A itself, by faer.
     #[test]
     fn the_eigenvalues_are_those_of_the_whole_matrix() {
         for half in [1, 2, 5, 12, 30] {
@@ -278,8 +279,8 @@ mod tests {
         }
     }
 
-    /// Oscillators of which many are alike: the Krylov space of one vector holds one of each kind. Their
-    /// squares are found, and left to the matrix itself.
+    /// Oscillators of which many are alike: the Krylov space of one vector contains one of each kind. Equal
+    /// squares are detected, and the matrix itself is used.
     #[test]
     fn equal_eigenvalues_are_left_to_the_whole_matrix() {
         let half = 8;
@@ -299,7 +300,7 @@ mod tests {
         assert!(hamiltonian_eigenpairs(matrix.as_ref()).unwrap().is_none());
     }
 
-    /// Within the Krylov vectors of one matrix, not after them.
+    /// The cancellation takes effect within the Krylov vectors of one matrix, not after them.
     #[test]
     fn a_cancelled_computation_ends_within_an_eigenproblem() {
         let matrix = hamiltonian(12);

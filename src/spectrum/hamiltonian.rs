@@ -1,11 +1,10 @@
-//! A few motions of an undamped blade, as states: the smallest system that has them.
+//! The smallest system with given motions of an undamped blade, in states.
 //!
-//! With p = q̇ + ΩGq the blade is Hamiltonian, H = ½|p − ΩGq|² + ½qᵀK(Ω)q, and a mode
-//! is a state z = (q, p) with Jᵀz λ = S(Ω)z, S = S₀ + ΩS₁ + Ω²S₂ the Hessian of H. The
-//! real and imaginary parts of m modes span 2m states, where a basis of deflections
-//! takes 2m of its own for velocities besides: half the order, an eighth of the time.
-//! Galerkin's projection zᵀJᵀz, zᵀSz keeps the system Hamiltonian, so its eigenvalues are
-//! wrong by the square of what the states lack, and none loses its Krein sign.
+//! With p = q̇ + ΩGq the blade is Hamiltonian, H = ½|p − ΩGq|² + ½qᵀK(Ω)q, and a mode is a state z = (q, p)
+//! with Jᵀz λ = S(Ω)z, S = S₀ + ΩS₁ + Ω²S₂ the Hessian of H. The real and imaginary parts of m modes span 2m
+//! states, whereas a basis of deflections needs 2m more for velocities: half the order takes an eighth of the
+//! time. Galerkin's projection zᵀJᵀz, zᵀSz preserves the Hamiltonian structure, so the error of eigenvalues
+//! is the square of that of the states, and none loses its Krein sign.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
@@ -45,9 +44,10 @@ impl State {
 /// A system projected on few states.
 #[derive(Debug, Clone)]
 pub struct HamiltonianReduction {
-    /// In orthonormal states.
+    /// Projection on orthonormal states.
     own: Coordinates,
-    /// In states W with WᵀJᵀW = Jᵀ, where they are good for an eigenproblem of half the order.
+    /// Projection on states W with WᵀJᵀW = Jᵀ, if they are well conditioned for an eigenproblem of half the
+    /// order.
     canonical: Option<Coordinates>,
     scale: f64,
 }
@@ -69,7 +69,7 @@ impl Coordinates {
     }
 }
 
-/// States closer than this to the span of the others are left out.
+/// States closer than this to the span of the others are omitted.
 const SPAN_TOLERANCE: f64 = 1e-9;
 /// Smallest pivot of the symplectic form that can be divided by.
 const LEAST_PIVOT: f64 = 1e-9;
@@ -77,9 +77,8 @@ const LEAST_PIVOT: f64 = 1e-9;
 const ORDER_OF_TWO_MODES: usize = 4;
 
 impl HamiltonianReduction {
-    /// Projects a system on the real and imaginary parts of states; `scale`, in 1/s, makes
-    /// momenta of the size of deflections. `None` where the symplectic form is singular on
-    /// them: then a state lacks its partner.
+    /// Projects a system on the real and imaginary parts of states; `scale`, in 1/s, gives momenta the size
+    /// of deflections. `None` if the symplectic form is singular on them, because a state lacks its partner.
     pub fn new(system: &GyroscopicSystem, scale: f64, states: &[State]) -> Option<Self> {
         let order = system.order();
         let stacked = |part: fn(&c64) -> f64, state: &State| {
@@ -118,7 +117,7 @@ impl HamiltonianReduction {
         if singular {
             return None;
         }
-        // Two modes are asked for their invariants alone.
+        // For two modes only their invariants are needed.
         let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
             true => canonical_basis(form),
             false => None,
@@ -176,8 +175,8 @@ impl HamiltonianReduction {
         Ok(by_magnitude(pairs.collect()))
     }
 
-    /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth
-    /// through a merging, where the eigenvalues themselves are not.
+    /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth through a coalescence,
+    /// where the eigenvalues are not.
     pub fn pair_invariants(&self, speed_rad_per_s: f64) -> (f64, f64) {
         let matrix = self.own.matrix(speed_rad_per_s);
         let square = &matrix * &matrix;

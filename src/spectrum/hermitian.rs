@@ -5,9 +5,9 @@ use faer::traits::ComplexField;
 use faer::traits::math_utils::{abs2, real};
 use faer::{Mat, Side};
 
-/// Number of negative eigenvalues of a Hermitian matrix, of which the lower triangle is read: by
-/// Sylvester's law that of B in A = PᵀLBLᴴP (J. R. Bunch & L. Kaufman, Math. Comp. 31, 1977).
-/// `None` where it is singular to working precision.
+/// Number of negative eigenvalues of a Hermitian matrix, whose lower triangle is read: by Sylvester's law
+/// that of B in A = PᵀLBLᴴP (J. R. Bunch & L. Kaufman, Math. Comp. 31, 1977). `None` if it is singular to
+/// working precision.
 pub fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: &Mat<T>) -> Option<usize> {
     let factors = Lblt::new(matrix.as_ref(), Side::Lower);
     let (diagonal, below) = (factors.B_diag(), factors.B_subdiag());
@@ -46,7 +46,8 @@ mod tests {
 
     use super::*;
 
-    /// Against all eigenvalues, of matrices of every size up to 40, some of which need pivots of order two.
+    /// Reference: all eigenvalues, for matrices of every size up to 40, some of which need pivots of order
+    /// two.
     #[test]
     fn the_signs_are_those_of_the_eigenvalues() {
         let mut state = 1.0_f64;

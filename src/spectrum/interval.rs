@@ -1,8 +1,9 @@
 //! The reduced models of a guided blade, one for each interval of speeds.
 //!
-//! Within an interval a blade is projected on real vectors: its low modes at both ends, and what the search for bands
-//! follows at all speeds. Of an undamped blade the states of the modes at both ends, projected once more, give every mode
-//! between them from half as many unknowns; what is read off these is corrected on the real vectors.
+//! Within an interval a blade is projected on real vectors: its low modes at both ends, and the modes that
+//! the search for bands follows at all speeds. For an undamped blade the states of the modes at both ends,
+//! projected once more, give every mode in between from half as many unknowns; these results are corrected on
+//! the real vectors.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -23,10 +24,10 @@ use super::vectors::{Eigenpair, real_times};
 use super::work::WorkCounters;
 use crate::tuned::Tuned;
 
-/// Modes up to this multiple of the window help to span those within it: some of them dip into it between two speeds.
+/// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
 
-/// The low modes of a speed, in the coordinates of a projection.
+/// The low modes at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]
 pub struct KnownModes {
     pub speed_rad_per_s: f64,
@@ -34,7 +35,7 @@ pub struct KnownModes {
 }
 
 impl KnownModes {
-    /// Those of a projection.
+    /// Low modes of a projection.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -52,7 +53,7 @@ impl KnownModes {
     }
 }
 
-/// A wave that stands still at its critical speed: q of the whole component.
+/// A wave that stands still at its critical speed: q of the component.
 pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
 
 /// The reduced model of an interval of speeds.
@@ -60,15 +61,15 @@ pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
 pub struct Interval {
     pub(super) to_rad_per_s: f64,
     pub(super) projection: Arc<Projection>,
-    /// The same on the states of the modes at both ends, where these span what is between: of those of the chart, and of
-    /// those that instabilities are made of.
+    /// This model on the states of the modes at both ends, if these represent the modes in between: for the
+    /// diagram, and for instabilities.
     pub(super) drawn: Option<HamiltonianReduction>,
     pub(super) searched: Option<HamiltonianReduction>,
 }
 
-/// A system on the states of the modes of two speeds up to a little above a frequency, and of the waves that stand still
-/// between the two. The error falls with the fourth power of the distance, and vanishes at both and where a wave stands.
-/// `None` where the states do not span what is between.
+/// A system on the states of the modes at two speeds up to slightly above a frequency, and of the waves that
+/// stand still between the two. The error falls with the fourth power of the distance, and vanishes at both
+/// speeds and where a wave stands still. `None` if the states do not represent the modes in between.
 pub(super) fn states_between(
     projection: &Projection,
     ends: [&KnownModes; 2],
@@ -76,7 +77,7 @@ pub(super) fn states_between(
     window_rad_per_s: f64,
 ) -> Option<HamiltonianReduction> {
     let system = &projection.reduced;
-    // Without the momentum of free rigid motions, which depends on the speed, two ends do not span what is between.
+    // Two ends do not represent the momentum of free rigid motions, which depends on the speed.
     if !system.is_conservative() || !system.free_rigid.is_empty() {
         return None;
     }
@@ -107,7 +108,7 @@ impl Interval {
     }
 }
 
-/// Eigenpairs from few states.
+/// Eigenpairs from the states.
 pub(super) fn states_at(
     states: &HamiltonianReduction,
     speed_rad_per_s: f64,
@@ -118,13 +119,13 @@ pub(super) fn states_at(
     states.eigenpairs(speed_rad_per_s)
 }
 
-/// The interval of a speed; the last one also beyond its end.
+/// The interval that contains a speed; beyond the end, the last one.
 pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Interval {
     let place = intervals.partition_point(|interval| interval.to_rad_per_s < speed_rad_per_s);
     &intervals[place.min(intervals.len() - 1)]
 }
 
-/// The intervals by which a search for the bands of an undamped blade goes.
+/// The reduced models that the search for bands of an undamped blade uses.
 #[derive(Debug, Clone)]
 pub struct SearchModel<'a> {
     intervals: Cow<'a, [Interval]>,
@@ -134,7 +135,8 @@ pub struct SearchModel<'a> {
 }
 
 impl<'a> SearchModel<'a> {
-    /// That of an undamped blade's reduced model. `None` for a blade whose harmonics nothing couples.
+    /// The search model of an undamped blade's reduced model. `None` for a blade whose harmonics are not
+    /// coupled.
     pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
         let (component, standing) = guided(model)?;
         let Solution::Projected(intervals) = &component.solution else {
@@ -148,7 +150,7 @@ impl<'a> SearchModel<'a> {
         })
     }
 
-    /// The same on the full model, with the modes of some ascending speeds as ends of the intervals.
+    /// The search model of the full model; the modes at some ascending speeds are the ends of the intervals.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -186,7 +188,7 @@ impl<'a> SearchModel<'a> {
         }))
     }
 
-    /// The same with one interval, between two speeds that are near each other.
+    /// The search model with a single interval between two close speeds.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -211,7 +213,7 @@ impl<'a> SearchModel<'a> {
         self.height_rad_per_s
     }
 
-    /// Last speeds of the intervals.
+    /// Ends of the intervals, in speed.
     pub fn ends_rad_per_s(&self) -> impl Iterator<Item = f64> {
         self.intervals.iter().map(|interval| interval.to_rad_per_s)
     }
@@ -227,8 +229,7 @@ impl<'a> SearchModel<'a> {
         }
     }
 
-    /// Its modes at a speed. Those above the height are there to tell what comes next, and not to
-    /// be trusted to many digits.
+    /// Its modes at a speed. Those above the height only show what follows, and are inaccurate.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -239,7 +240,7 @@ impl<'a> SearchModel<'a> {
         Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
-    /// The same without the error of few states.
+    /// As [`SearchModel::modes`], without the error of the states.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -250,7 +251,7 @@ impl<'a> SearchModel<'a> {
         Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
-    /// The same in the coordinates of the whole component, which all speeds share.
+    /// These modes in the coordinates of the component, which are common to all speeds.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -269,7 +270,7 @@ impl<'a> SearchModel<'a> {
         modes.iter().all(|mode| mode.coordinates.nrows() == order)
     }
 
-    /// Two such modes of a speed, refined on the projection.
+    /// Two of these modes, refined on the projection.
     pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
         let pairs = modes
             .each_ref()
@@ -283,7 +284,7 @@ impl<'a> SearchModel<'a> {
         ModePair::new(projection, speed_rad_per_s, self.height_rad_per_s, pairs)
     }
 
-    /// The two modes of a speed next to two eigenvalues, refined on the projection.
+    /// The two modes at a speed nearest to two eigenvalues, refined on the projection.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -310,7 +311,7 @@ impl<'a> SearchModel<'a> {
         Ok(self.refined(speed_rad_per_s, [first, second]))
     }
 
-    /// A pair at another speed, by a factorization in place of an eigenproblem.
+    /// A pair at another speed, by a factorization instead of an eigenproblem.
     pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let projection = &self.at(speed_rad_per_s).projection;

@@ -1,10 +1,10 @@
-//! What the functions that a basis lacks would change: its error, measured.
+//! The error of a basis, measured by the change that the functions of a larger one cause.
 //!
-//! On a larger basis L(λ) has the block L_cc that was solved, L_nn of the new functions and L_nc
-//! between them. A mode q leaves the residual L_nc q there, and what the larger basis takes off
-//! qᵀLq is (L_nc q)ᵀ S⁻¹ (L_nc q), S = L_nn − L_nc L_cc⁻¹ L_cn: the old functions give way too.
-//! Mass and gyroscopic matrix couple no two functions of different index, so L_nc = K_nc(Ω); in S
-//! the stiffness at rest stands for L, for it is ruled by functions of high frequency.
+//! On a larger basis L(λ) has the block L_cc that was solved, L_nn of the new functions and L_nc between
+//! them. A mode q leaves the residual L_nc q there, and the larger basis reduces qᵀLq by (L_nc q)ᵀ S⁻¹ (L_nc
+//! q), S = L_nn − L_nc L_cc⁻¹ L_cn, because the old functions respond too. Mass and gyroscopic matrix couple
+//! no two functions of different index, so L_nc = K_nc(Ω); in S the stiffness at rest approximates L, because
+//! functions of high frequency dominate it.
 
 use faer::{Col, Mat, Scale, c64};
 
@@ -24,15 +24,15 @@ use self::added::AddedFunctions;
 /// A larger basis that contains the one of a plate.
 #[derive(Debug)]
 pub struct LargerBasis {
-    /// Of each component of the plate.
+    /// Added functions of each component of the plate.
     added: Vec<AddedFunctions>,
 }
 
-/// Least slope of a mode whose frequency is told, relative to its frequency seen from the blade.
+/// Smallest slope, relative to the frequency in the body frame, of a mode whose frequency is smooth.
 const LEAST_SLOPE: f64 = 0.3;
 
 impl LargerBasis {
-    /// The functions that `larger` has beyond those of `plate`, the same saw on fewer.
+    /// The functions of `larger` that `plate`, the same saw in a smaller basis, lacks.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`] when the blade is unstable on the larger basis.
@@ -63,10 +63,10 @@ impl LargerBasis {
         0.5 * softening / stiffness
     }
 
-    /// Errors of the frequencies of modes of one speed, each relative to what it is seen from the
-    /// blade, ‖λq + ΩGq‖/‖q‖. qᴴL(ω)q has the slope 2 (ω + Ωγ), qᴴGq = iγ. `None` of a mode that
-    /// grows, and of one that is about to merge with another or to stand still: there the slope
-    /// vanishes, and what is smooth is not the frequency but the speed at which it happens.
+    /// Errors of the frequencies of modes at one speed, each relative to its frequency in the body frame, ‖λq
+    /// + ΩGq‖/‖q‖. qᴴL(ω)q has the slope 2 (ω + Ωγ), qᴴGq = iγ. `None` for a mode that grows, or is about to
+    /// coalesce with another or to stand still: there the slope vanishes, and not the frequency but the speed
+    /// of this event is smooth.
     pub fn frequency_errors(
         &self,
         components: &[Component],
@@ -106,7 +106,7 @@ impl LargerBasis {
         errors
     }
 
-    /// What eliminating the functions takes off the stiffness of a component, projected on columns.
+    /// Reduction of the stiffness of a component by eliminating the added functions, projected on columns.
     pub fn softening(
         &self,
         component: usize,
@@ -116,14 +116,14 @@ impl LargerBasis {
         self.added[component].softening(speed_rad_per_s, columns)
     }
 
-    /// What one part of the stiffness alone, given on the larger basis, would take off a frequency's square, qᵀK_cn S⁻¹ K_nc q.
-    /// `None` of a saw without the structure of a guided blade.
+    /// Reduction of the square of a frequency by one part of the stiffness alone, given on the larger basis,
+    /// qᵀK_cn S⁻¹ K_nc q. `None` for a saw without the structure of a guided blade.
     pub fn softening_by(&self, component: usize, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
         self.added[component].softening_by(part, shape)
     }
 }
 
-/// Whether a mode has a frequency that its functions determine smoothly.
+/// Whether the functions determine the frequency of a mode smoothly.
 fn oscillates(mode: &Mode) -> bool {
     match mode.kind {
         ModeKind::Positive | ModeKind::Negative => true,
@@ -143,7 +143,7 @@ mod tests {
     use crate::scene::Scene;
     use crate::spectrum::{SpectralModel, at_rest::modes_at_rest};
 
-    /// Against the differences of two bases that were both solved.
+    /// Reference: the differences of two bases that were both solved.
     #[test]
     fn it_tells_what_the_larger_basis_gives() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();

@@ -1,5 +1,5 @@
-//! The few lowest modes of one speed on the full model, where no range of speeds is worth
-//! preparing: a handful of speeds of many slightly different saws.
+//! The lowest modes at one speed on the full model, for a few speeds of many slightly different saws, for
+//! which preparing a range of speeds does not pay off.
 
 use crate::plate::Plate;
 
@@ -12,15 +12,15 @@ use super::model::SPLITTING;
 use super::scale::frequency_scale;
 use super::work::Cancellation;
 
-/// A plate that is asked for its lowest modes.
+/// A plate prepared for its lowest modes.
 #[derive(Debug)]
 pub struct LowestModes {
-    /// Independent components of the plate, whole.
+    /// Independent components of the plate, without reduced models.
     pub components: Vec<Component>,
     scale_rad_per_s: f64,
 }
 
-/// Eigenvalues come by magnitude, modes are counted by frequency: a growing one comes late.
+/// Eigenvalues are ordered by magnitude, modes by frequency, so that a growing mode has a late place.
 const MORE: usize = 4;
 /// Below this order all eigenvalues cost less than an iteration.
 const SMALL: usize = 40;
@@ -34,8 +34,8 @@ impl LowestModes {
         }
     }
 
-    /// The `count` modes of lowest |Im λ| at a speed, ascending, without rigid motions and
-    /// what decays without oscillation. Fewer where the basis has fewer.
+    /// The `count` modes of lowest |Im λ| at a speed, ascending, without rigid motions and without decay
+    /// without oscillation; fewer if the basis has fewer.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -70,7 +70,7 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::{SpectralModel, Strategy};
 
-    /// At rest, past critical speeds, in a band of divergence and in one of flutter.
+    /// The speeds are at rest, above critical speeds, in a band of divergence and in a flutter band.
     #[test]
     fn they_are_the_lowest_of_all_modes() {
         let resolution = Resolution {

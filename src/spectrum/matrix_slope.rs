@@ -1,27 +1,26 @@
-//! How the matrices move with a number of the scene.
+//! Derivatives of the matrices by a number of the scene.
 //!
-//! They are smooth in every number, so they are differentiated by differences of their assembly;
-//! eigenvalues are then differentiated exactly, with left and right vectors
-//! ([`derivative`](super::derivative)).
+//! They are smooth in every number, so they are computed by differences of the assembly; eigenvalues are then
+//! differentiated exactly, with left and right vectors ([`derivative`](super::derivative)).
 
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
 use super::component::Component;
 
-/// On which sides of a number the matrices are assembled.
+/// Sides of a number on which the matrices are assembled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Differences {
-    /// On both: of fourth order.
+    /// Both sides: fourth order.
     Central,
-    /// Above it alone, where less is not allowed: of third order.
+    /// Only above it, if smaller values are not allowed: third order.
     Above,
-    /// Below it alone, where more is not allowed: of third order.
+    /// Only below it, if larger values are not allowed: third order.
     Below,
 }
 
 impl Differences {
-    /// Places, in steps, and their weights.
+    /// Points, in steps, and their weights.
     fn stencil(self) -> [(f64, f64); 4] {
         let twelfth = 1.0 / 12.0;
         let above = [
@@ -62,7 +61,7 @@ pub fn matrix_slopes<E>(
         }
     }
     let combined = terms.iter_mut().map(|terms| {
-        // A step of the thickness that leaves the ring takes its functions with it: no slope.
+        // If a step of the thickness leaves the ring its functions vanish, and there is no derivative.
         let order = terms.first().map(|(_, system)| system.order());
         if terms
             .iter()

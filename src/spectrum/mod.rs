@@ -1,12 +1,12 @@
 //! One rotation speed: eigenvalues, modes, Krein signs, names.
 //!
-//! In goes a [`Plate`](crate::plate::Plate); out comes a [`SpectralModel`], which gives the modes of
+//! A [`Plate`](crate::plate::Plate) gives a [`SpectralModel`], which computes the modes of
 //!
 //! L(λ) q = (λ² + λ D(Ω) + K(Ω)) q = 0
 //!
-//! at any speed Ω of its range: λ in 1/s, q in the plate's basis with ‖q‖ = 1, the [`ModeKind`] with
-//! its Krein sign, the [`ModeName`] and the backward error on the full model. An undamped blade has
-//! D skew and K symmetric, so λ come in quadruples ±σ ± iω, and L(iω) is Hermitian.
+//! at any speed Ω of its range: λ in 1/s, q in the plate's basis with ‖q‖ = 1, the [`ModeKind`] with its
+//! Krein sign, the [`ModeName`] and the backward error on the full model. For an undamped blade D is skew and
+//! K symmetric, so λ occur in quadruples ±σ ± iω, and L(iω) is Hermitian.
 //!
 //! References: F. Tisseur & K. Meerbergen, *The quadratic eigenvalue problem*, SIAM Review 43 (2001),
 //! 235–286, for the eigenproblem; R. S. MacKay, *Stability of equilibria of Hamiltonian systems*

@@ -1,4 +1,4 @@
-//! What kind of mode an eigenpair is, and which sign its energy has.
+//! Kind of a mode, and sign of its energy.
 
 use faer::{Col, Mat, c64};
 
@@ -17,19 +17,19 @@ pub enum ModeKind {
     Negative,
     /// λ = σ + iω, σ > 0, of an undamped blade.
     Flutter,
-    /// λ = −σ + iω: the mirror image of a flutter mode, of no account by itself.
+    /// λ = −σ + iω: the mirror image of a flutter mode, which is not counted separately.
     Decaying,
     /// λ = σ > 0 of an undamped blade; its decaying partner is not listed.
     Divergent,
-    /// λ = 0 of a rigid motion that nothing holds. Never an instability.
+    /// λ = 0 of a free rigid motion; never an instability.
     Rigid,
     /// Any λ of a damped blade.
     Damped,
 }
 
 impl ModeKind {
-    /// What a mode of this kind takes of the Krein index, which is the number of negative
-    /// eigenvalues of K(Ω): k_real + 2 k_flutter + 2 k_negative.
+    /// Contribution of a mode of this kind to the Krein index, which is the number of negative eigenvalues of
+    /// K(Ω): k_real + 2 k_flutter + 2 k_negative.
     pub fn krein_index(self) -> usize {
         match self {
             ModeKind::Divergent => 1,
@@ -39,7 +39,7 @@ impl ModeKind {
     }
 }
 
-/// By Krein's theory the number of negative eigenvalues of K(Ω), from all modes of a speed.
+/// Number of negative eigenvalues of K(Ω) by Krein's theory, from all modes at a speed.
 pub fn krein_index(modes: &[Mode]) -> usize {
     modes.iter().map(|mode| mode.kind.krein_index()).sum()
 }
@@ -49,15 +49,14 @@ pub fn krein_index(modes: &[Mode]) -> usize {
 pub struct Mode {
     /// λ, in 1/s.
     pub lambda: c64,
-    /// What it is.
+    /// Kind.
     pub kind: ModeKind,
     /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
     pub frequency_slope: f64,
-    /// dλ/dΩ of a mode that grows, of an undamped blade; zero otherwise.
+    /// dλ/dΩ of a growing mode of an undamped blade; zero otherwise.
     pub growth_slope: c64,
-    /// Sign of the action, ω·κ: a reflected wave (ω, q) is the same motion as (−ω, q̄)
-    /// with positive action. The decaying partner of a flutter mode goes with the
-    /// negative one.
+    /// Sign of the action, ω·κ: a reflected wave (ω, q) is the same motion as (−ω, q̄) with positive action.
+    /// The decaying partner of a flutter mode is counted as negative.
     pub action: i8,
     /// Index of the component.
     pub component: usize,
@@ -65,26 +64,27 @@ pub struct Mode {
     pub coordinates: Col<c64>,
 }
 
-/// A growth rate below this share of |λ| + Ω is rounding: at a merging of two modes
-/// eigenvalues are known to √ε only.
+/// A growth rate below this share of |λ| + Ω is rounding: at a coalescence of two modes eigenvalues are
+/// accurate to √ε only.
 pub(super) const GROWTH_NOISE: f64 = 1e-7;
-/// A growth or decay of a damped mode below this share of |λ| is rounding of the eigenproblem, which is a small
-/// multiple of ε of its largest eigenvalue: of a free blade with damped material, which tilts without bending, Re λ was
-/// up to 3e-13 |λ|.
+/// Growth or decay of a damped mode below this share of |λ| is rounding of the eigenproblem, a small multiple
+/// of ε of its largest eigenvalue: for a free blade with material damping, which tilts without bending, |Re
+/// λ| was up to 3e-13 |λ|.
 pub(super) const DAMPED_NOISE: f64 = 1e-10;
-/// Eigenvalues below this share of the root mean square frequency are zero, where rigid
-/// motions are free: a double zero is known to √ε of it only.
+/// With free rigid motions, eigenvalues below this share of the root mean square frequency are zero, because
+/// a double zero is accurate to √ε of it only.
 pub(super) const RIGID_NOISE: f64 = 2e-7;
 
-/// A motion that changes by e to the power of 2π/1e-2 = 628 within a period does not oscillate: of a free tilt in air, of
-/// which the period is infinite, the speed at which the two waves of equal n are told apart at rest makes one.
+/// A motion that changes by e to the power of 2π/1e-2 = 628 within a period does not oscillate. An example is
+/// a free tilt in air, whose period is infinite; the small speed by which the two waves of equal n are
+/// separated at rest makes it finite.
 const LEAST_OSCILLATION: f64 = 1e-2;
 
 fn oscillates(lambda: c64) -> bool {
     lambda.im.abs() > LEAST_OSCILLATION * lambda.re.abs()
 }
 
-/// Whether a wave decays by less than e to the power of 2π within a period: it is seen as a line of a chart.
+/// Whether a wave decays by less than e to the power of 2π within a period, so that a diagram shows it.
 pub fn is_seen(lambda: c64) -> bool {
     lambda.im.abs() > -lambda.re
 }
@@ -95,7 +95,7 @@ impl Mode {
         self.lambda.im.abs()
     }
 
-    /// Krein sign: +1, −1, or 0 where there is none.
+    /// Krein sign: +1, −1, or 0 if there is none.
     pub fn krein_sign(&self) -> i8 {
         match self.kind {
             ModeKind::Positive => 1,
@@ -104,28 +104,28 @@ impl Mode {
         }
     }
 
-    /// ζ = −Re λ/|λ| of a damped blade.
+    /// ζ = −Re λ/|λ|; damped blades only.
     pub fn damping_ratio(&self) -> Option<f64> {
         let size = self.lambda.norm();
         let is_known = self.kind == ModeKind::Damped && size > 0.0;
         is_known.then(|| (0.0 - self.growth_per_s()) / size)
     }
 
-    /// Whether it decays without oscillating, of a damped blade.
+    /// Whether a mode of a damped blade decays without oscillating.
     pub fn is_overdamped(&self) -> bool {
         self.kind == ModeKind::Damped && self.lambda.re < 0.0 && !oscillates(self.lambda)
     }
 
-    /// −2π Re λ/|Im λ|, the logarithm of the ratio of two amplitudes a period apart, of a damped
-    /// blade; `None` where it does not oscillate.
+    /// −2π Re λ/|Im λ|, the logarithm of the ratio of two amplitudes a period apart; damped blades only,
+    /// `None` if the mode does not oscillate.
     pub fn logarithmic_decrement(&self) -> Option<f64> {
         let oscillates = self.kind == ModeKind::Damped && oscillates(self.lambda);
         let decay = 0.0 - self.growth_per_s();
         oscillates.then(|| std::f64::consts::TAU * decay / self.lambda.im.abs())
     }
 
-    /// Re λ beyond rounding: zero for undamped modes that neither grow nor decay, and for damped ones that only
-    /// rounding lets.
+    /// Re λ beyond rounding: zero for undamped modes that neither grow nor decay, and for damped ones whose
+    /// growth is rounding.
     pub fn growth_per_s(&self) -> f64 {
         let is_known = match self.kind {
             ModeKind::Flutter | ModeKind::Decaying | ModeKind::Divergent => true,
@@ -149,8 +149,8 @@ pub fn rigid_noise(system: &GyroscopicSystem) -> f64 {
     RIGID_NOISE * time_scale(&system.stiffness)
 }
 
-/// Sorts the eigenpairs of a component into kinds. The decaying partner of a divergent
-/// mode is dropped: it belongs to the same ±ω pair.
+/// Classifies the eigenpairs of a component. The decaying partner of a divergent mode is dropped, because it
+/// belongs to the same ±ω pair.
 pub fn classify(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -189,7 +189,7 @@ pub fn classify(
         .collect()
 }
 
-/// dλ/dΩ of each pair of an undamped system that grows beyond rounding, zero of the others.
+/// dλ/dΩ of each pair of an undamped system that grows beyond rounding, zero for the others.
 ///
 /// The transpose of L(λ) is L(−λ), so the left vector of λ is the right vector of −λ, the
 /// conjugate of that of the mirror image −λ̄: dλ/dΩ = −yᵀ(2λG + 2Ω(K_σ − N))x / yᵀ(2λ + 2ΩG)x.
@@ -255,7 +255,7 @@ struct Forms {
 }
 
 impl Forms {
-    /// Those of many vectors, by products of matrices.
+    /// Quadratic forms of many vectors, by matrix products.
     fn of(system: &GyroscopicSystem, pairs: &[Eigenpair]) -> Vec<Self> {
         let halves = halves(system.order(), pairs.iter().map(|(_, q)| q));
         let (turned, spun) = (&system.gyroscopic * &halves, &system.spin * &halves);
@@ -272,8 +272,8 @@ impl Forms {
         (0..pairs.len()).map(form).collect()
     }
 
-    /// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; of a damped one
-    /// what they would be without damping.
+    /// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values without
+    /// damping.
     ///
     /// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
     /// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
@@ -290,7 +290,7 @@ impl Forms {
 mod tests {
     use super::*;
 
-    /// 3.6e-12 1/s at 60 Hz is no growth, and no decay; 1e-5 1/s is.
+    /// 3.6e-12 1/s at 60 Hz is neither growth nor decay; 1e-5 1/s is.
     #[test]
     fn what_rounding_makes_of_a_damped_mode_is_no_growth() {
         let mode = |re: f64| Mode {

@@ -1,4 +1,4 @@
-//! What to call a mode: nodal diameters, nodal circles, and how it runs.
+//! Name of a mode: nodal diameters, nodal circles, and direction.
 
 use faer::{Col, c64};
 use schemars::JsonSchema;
@@ -25,7 +25,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// How the wave runs on the blade, where a reflected wave is a backward one.
+    /// Direction of the wave on the blade, where a reflected wave is a backward one.
     pub fn on_blade(self) -> Self {
         match self {
             Direction::Reflected => Direction::Backward,
@@ -34,15 +34,14 @@ impl Direction {
     }
 }
 
-/// Share of n nodal diameters in the kinetic energy of a mode.
+/// Share of n nodal diameters of the kinetic energy of a mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicShare {
     /// n.
     pub diameters: usize,
-    /// Nodal circles of its radial profile; not counted, and 0, where its share is below a
-    /// thousandth.
+    /// Nodal circles of its radial profile; 0 if its share is below a thousandth.
     pub circles: usize,
-    /// Between 0 and 1.
+    /// Share, between 0 and 1.
     pub share: f64,
 }
 
@@ -53,20 +52,20 @@ pub struct ModeName {
     pub diameters: usize,
     /// Nodal circles of the dominant harmonic.
     pub circles: usize,
-    /// How the whole motion runs in space.
+    /// Direction of the whole motion in space.
     pub direction: Direction,
     /// Shares of all harmonics, largest first.
     pub harmonics: Vec<HarmonicShare>,
-    /// Frequency of the dominant harmonic seen from the blade, in rad/s.
+    /// Frequency of the dominant harmonic in the body frame, in rad/s.
     pub body_frequency_rad_per_s: f64,
 }
 
-/// Where the squares of the amplitudes of all forward and of all backward waves differ by less
-/// than this share of both, the motion stands: the larger is less than twice the smaller.
+/// If the squared amplitudes of all forward and of all backward waves differ by less than this share of their
+/// sum, the motion is a standing wave: the larger is less than twice the smaller.
 pub(super) const STANDING: f64 = 1.0 / 3.0;
 /// A harmonic with this share of the energy names the mode alone.
 const DOMINANT: f64 = 2.0 / 3.0;
-/// Harmonics are named until they have this share together, and no more than so many.
+/// Harmonics are named until their shares reach this sum; their number is limited.
 const NAMED_SHARE: f64 = 0.75;
 const MOST_NAMED: usize = 3;
 /// Nodal circles of a harmonic with less of the energy are not counted.
@@ -103,8 +102,8 @@ impl ModeName {
         }
     }
 
-    /// "1 diameter", or the shares of the harmonics where none dominates: "0 (54 %) + 1 (45 %)";
-    /// "0/1" is one circle without diameters.
+    /// "1 diameter", or the shares of the harmonics if none dominates: "0 (54 %) + 1 (45 %)"; "0/1" is one
+    /// circle without diameters.
     pub fn in_shares(&self) -> String {
         match mixed(&self.harmonics, MOST_NAMED) {
             Some(shares) => shares,
@@ -112,7 +111,7 @@ impl ModeName {
         }
     }
 
-    /// The same as short as it can be: "1", "0/1", "0 (54 %) + 1 (45 %)".
+    /// Short form: "1", "0/1", "0 (54 %) + 1 (45 %)".
     pub fn in_short(&self) -> String {
         let dominant = || short(self.diameters, self.circles);
         mixed(&self.harmonics, 2).unwrap_or_else(dominant)
@@ -148,9 +147,9 @@ pub(super) fn short(diameters: usize, circles: usize) -> String {
     }
 }
 
-/// How the whole motion runs in space. Each pair of waves e^{i(ωt ∓ nθ)} counts with the
-/// squares of its amplitudes, for the energy of a wave that stands in space is mostly that of
-/// its backward half, against which the material runs.
+/// Direction of the whole motion in space. Each pair of waves e^{i(ωt ∓ nθ)} is weighted by its squared
+/// amplitudes, because the energy of a standing wave in space is mostly that of its backward half, against
+/// which the material moves.
 fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
     let square = |wave: &[c64]| wave.iter().map(|c| c.norm_sqr()).sum::<f64>();
     let [mut forward, mut backward, mut all] = [0.0; 3];
@@ -171,8 +170,8 @@ fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
     } else if backward > forward {
         Direction::Backward
     } else if dominant.body_frequency(mode) < 0.0 {
-        // Forward in space and backward on the blade as a reflected wave is, but the energy of the
-        // whole motion is positive: other waves in it outweigh this one.
+        // The dominant wave travels forward in space and backward on the blade, as a reflected wave does, but
+        // the energy of the whole motion is positive: other waves outweigh it.
         Direction::Standing
     } else {
         Direction::Forward

@@ -1,4 +1,4 @@
-//! Two modes next to each other, refined on the system that they are modes of.
+//! Two neighbouring modes, refined on the system to which they belong.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::hamiltonian::{HamiltonianReduction, State};
 use super::projection::Projection;
 use super::vectors::{Eigenpair, real_times};
 
-/// The invariant subspace of two modes at one speed, and what it says next to that speed.
+/// The invariant subspace of two modes at one speed, and its extrapolation to nearby speeds.
 #[derive(Debug)]
 pub struct ModePair {
     projection: Arc<Projection>,
@@ -19,22 +19,22 @@ pub struct ModePair {
     subspace: Subspace,
 }
 
-/// Two states (q, q̇) side by side, one a column.
+/// Two states (q, q̇), one in each column.
 #[derive(Debug, Clone)]
 struct Subspace {
     q: Mat<c64>,
     v: Mat<c64>,
 }
 
-/// Steps of inverse iteration, each with both shifts: it divides what is foreign by the ratio of
-/// the distances of other modes and of the pair from them.
+/// Number of steps of inverse iteration, each with both shifts: it reduces foreign components by the ratio of
+/// the distances of other modes and of the pair.
 const STEPS: std::ops::RangeInclusive<usize> = 2..=12;
 /// Relative residual beyond which the two states are not modes.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 impl ModePair {
-    /// The pair of two modes of a speed, refined there. `None` where block inverse iteration
-    /// does not settle on two modes.
+    /// The pair of two modes at a speed, refined. `None` if block inverse iteration does not converge to two
+    /// modes.
     pub(super) fn new(
         projection: &Arc<Projection>,
         speed_rad_per_s: f64,
@@ -50,7 +50,7 @@ impl ModePair {
         Self::iterated(projection, speed_rad_per_s, scale, start, lambdas)
     }
 
-    /// The same pair at another speed by the projection that is good there, from what it is here.
+    /// This pair at another speed, on the projection that is valid there.
     pub(super) fn moved(
         &self,
         projection: &Arc<Projection>,
@@ -75,8 +75,8 @@ impl ModePair {
         Self::iterated(projection, speed_rad_per_s, scale, start, lambdas)
     }
 
-    /// Block inverse iteration, shifted to both eigenvalues in turn: next to one of them alone
-    /// a foreign mode may be nearer than the other.
+    /// Block inverse iteration with both eigenvalues as shifts in turn, because near one of them alone
+    /// another mode may be closer than the partner.
     fn iterated(
         projection: &Arc<Projection>,
         speed_rad_per_s: f64,
@@ -89,11 +89,11 @@ impl ModePair {
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
         let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
-        // A hair off, so that L is not singular to the last bit.
+        // The shifts differ slightly from the eigenvalues, so that L is not exactly singular.
         let shifts = lambdas.map(|lambda| lambda * (1.0 + 1e-9));
         let factors = |shift: c64| dynamic_stiffness(&stiffness, &velocity, shift).partial_piv_lu();
         let first = factors(shifts[0]);
-        // Undamped, L(−λ̄) is L(λ)ᴴ.
+        // Without damping L(−λ̄) is L(λ)ᴴ.
         let are_mirrored = system.is_conservative() && shifts[1] == -shifts[0].conj();
         let second = (!are_mirrored).then(|| factors(shifts[1]));
         let solve = |which: usize, load: Mat<c64>| match (which, &second) {
@@ -143,9 +143,9 @@ impl ModePair {
         })
     }
 
-    /// σ² and ω² of the quadruple ±σ ± iω, smooth through both ends of its band: of two waves
-    /// −((ω₁ − ω₂)/2)² and ((ω₁ + ω₂)/2)², of two real λ ((λ₁ + λ₂)/2)² and −((λ₁ − λ₂)/2)².
-    /// Exact at the pair's speed, and to the square of the distance next to it.
+    /// σ² and ω² of the quadruple ±σ ± iω, smooth through both ends of its band: for two waves −((ω₁ −
+    /// ω₂)/2)² and ((ω₁ + ω₂)/2)², for two real λ ((λ₁ + λ₂)/2)² and −((λ₁ − λ₂)/2)². Exact at the pair's
+    /// speed, and of second order in the distance from it.
     pub fn squares(&self, speed_rad_per_s: f64) -> [f64; 2] {
         let (sum, product) = self.model.pair_invariants(speed_rad_per_s);
         [-0.25 * (sum - 2.0 * product), 0.25 * (sum + 2.0 * product)]
@@ -154,7 +154,7 @@ impl ModePair {
     /// Both eigenvalues with Im λ ≥ 0.
     fn eigenvalues(&self, speed_rad_per_s: f64) -> [c64; 2] {
         let [growth, frequency] = self.squares(speed_rad_per_s);
-        // Each square is one of a real or of an imaginary part.
+        // Each square belongs to a real or to an imaginary part.
         let half = |square: f64, positive: c64, negative: c64| {
             let part = if square >= 0.0 { positive } else { negative };
             part * square.abs().sqrt()
@@ -184,16 +184,16 @@ fn orthonormalise(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> 
     Some(())
 }
 
-/// How far A(q, v) leaves the span of the two states, relative to its length: only the
-/// velocities can, q̇ = v being met by both.
+/// Distance of A(q, v) from the span of the two states, relative to its length; only velocities contribute,
+/// because q̇ = v is satisfied exactly.
 fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>) -> f64 {
     let order = q.nrows();
     let complex = |part: Mat<f64>| Mat::from_fn(order, 2, |i, k| c64::new(part[(i, k)], 0.0));
     let re = complex(stiffness * Mat::from_fn(order, 2, |i, k| q[(i, k)].re));
     let im = complex(stiffness * Mat::from_fn(order, 2, |i, k| q[(i, k)].im));
     let force = re + Scale(c64::new(0.0, 1.0)) * im + damping * v;
-    // Coefficients of v in q by least squares are those of −force in v, if it is an
-    // invariant subspace: v = qB, −force = vB.
+    // If the subspace is invariant, v = qB and −force = vB with the same B, which is computed by least
+    // squares.
     let coefficients = q.qr().solve_lstsq(v);
     let left: Mat<c64> = &force + v * &coefficients;
     let kinematic: Mat<c64> = v - q * &coefficients;

@@ -1,8 +1,8 @@
-//! The spectrum of a saw as a function of speed, by the cheapest sound way.
+//! The spectrum of a saw as a function of speed.
 //!
-//! Components that nothing couples are solved apart. Each component is projected on the
-//! lowest modes of a few speeds, chosen until the residuals on the full model say
-//! that every mode up to `complete_to` is right at every speed.
+//! Decoupled components are solved separately. Each component is projected on the lowest modes at a few
+//! speeds, which are chosen until the residuals on the full model show that every mode up to `complete_to` is
+//! accurate at every speed.
 
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
@@ -30,19 +30,19 @@ mod described;
 #[cfg(test)]
 mod planted;
 
-/// How the modes of a speed are found.
+/// Method by which the modes at a speed are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strategy {
-    /// Projection on the low modes of a few speeds.
+    /// Projection on the low modes at a few speeds.
     #[default]
     Reduced,
-    /// The same for the modes that bands are made of alone: no chart can be drawn.
+    /// Projection on those modes alone that can form bands; no diagram is possible.
     Bands,
-    /// Every eigenvalue of the full model at every speed: slow, the test oracle.
+    /// Every eigenvalue of the full model at every speed: slow, a reference for tests.
     Dense,
 }
 
-/// A mode with everything that a reader wants to know of it.
+/// A mode with its name, shape and backward error.
 #[derive(Debug, Clone)]
 pub struct DescribedMode {
     /// The mode.
@@ -62,27 +62,26 @@ pub struct SpectralModel {
     pub plate: Plate,
     /// Independent components.
     pub components: Vec<Component>,
-    /// Every critical speed, ascending; each of a free blade is double and stands
-    /// here twice.
+    /// Every critical speed, ascending; those of a free blade are double and are listed twice.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Frequency up to which the modes are complete and accurate.
     pub complete_to_rad_per_s: f64,
     /// Frequency up to which instabilities are searched for.
     pub reflected_to_rad_per_s: f64,
-    /// Largest estimated error of a frequency of the reduced models above their tolerance, in
-    /// rad/s: 0 unless they would have needed more speeds than a reduction may take modes from.
+    /// Largest estimated error of a frequency of the reduced models beyond their tolerance, in rad/s; 0
+    /// unless they needed more speeds than allowed.
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
     full: OnceLock<FullModel>,
 }
 
-/// Modes a chart shows at the lowest speed.
+/// Number of modes that a diagram shows at the lowest speed.
 pub(super) const CHART_MODES: usize = 12;
 
-/// A little above the frequency of the twelfth of the modes of a speed, in order of their frequency or size, or of the
-/// last where there are fewer; of a damped blade of those that oscillate, or where none does of any in place of its
-/// frequency |λ|.
+/// A frequency slightly above that of the twelfth mode at a speed, in order of frequency, or of the last one
+/// if there are fewer. For a damped blade only oscillating modes count; if there are none, |λ| replaces the
+/// frequency.
 pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64> {
     let last = |sizes: Vec<f64>| sizes.get(CHART_MODES - 1).or(sizes.last()).copied();
     let of_seen = lambdas
@@ -98,13 +97,14 @@ pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64
 /// Below this order a factorization of the whole matrix costs less than one by blocks and columns.
 const STRUCTURED: usize = 200;
 
-/// At rest the two waves of equal n are degenerate. This share of the blade's
-/// frequency scale, as a rotation, splits them into forward and backward as at any
-/// other speed, and moves frequencies by no more than itself.
+/// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale
+/// separates them into forward and backward waves, as at any other speed, and changes frequencies by no more
+/// than itself.
 pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
-    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for a search of the bands within it.
+    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for a search for the bands within
+    /// it.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -113,7 +113,7 @@ impl SpectralModel {
         Self::with_critical(plate, critical, range, strategy)
     }
 
-    /// The same where the critical speeds are known, and perhaps more.
+    /// As [`SpectralModel::new`], with known critical speeds, which may exceed the range.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -145,7 +145,7 @@ impl SpectralModel {
         };
         match (strategy, model.plate.is_axisymmetric()) {
             (Strategy::Dense, _) => (),
-            // Harmonics that nothing couples are small enough to be solved whole.
+            // Decoupled harmonics are small enough to be solved without a reduced model.
             (_, true) if model.is_conservative() => model.use_free_waves(),
             (_, true) => (),
             (_, false) => model.reduce(range, strategy)?,
@@ -165,7 +165,7 @@ impl SpectralModel {
         }
     }
 
-    /// Projects each component on the low modes of a few speeds.
+    /// Projects each component on the low modes at a few speeds.
     fn reduce(&mut self, asked: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
         let range = searched_range(&self.critical, asked);
         let scale = frequency_scale(&self.plate);
@@ -198,15 +198,14 @@ impl SpectralModel {
         Assembled::from(plate.clone()).critical_speeds(None)
     }
 
-    /// Frequency of the twelfth mode at the lowest speed: what a chart shows.
+    /// Frequency of the twelfth mode at the lowest speed, the height of a diagram.
     fn twelfth_frequency(&self, range: (f64, f64)) -> Result<f64, SpectrumError> {
         let modes = self.all_modes(range.0)?;
         let lambdas: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
         Ok(chart_height(&lambdas, self.is_conservative()).unwrap_or(0.0))
     }
 
-    /// Every mode of the reduced model, ordered by |Im λ|; those above
-    /// `complete_to` are not to be trusted.
+    /// Every mode of the reduced model, ordered by |Im λ|; those above `complete_to` are inaccurate.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -214,8 +213,8 @@ impl SpectralModel {
         self.solve(speed_rad_per_s, f64::INFINITY)
     }
 
-    /// Modes up to `complete_to`, without the rigid motions at rest, and of a damped blade without those that decay
-    /// faster than that: a reduced model does not span them, and none is seen.
+    /// Modes up to `complete_to`, without the rigid motions at rest. For a damped blade modes that decay
+    /// faster than that are omitted: the reduced model does not represent them, and no diagram shows them.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -227,8 +226,8 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The same for drawing: of an undamped guided blade from few states, right to 1e-5 of
-    /// the chart's height.
+    /// These modes for a diagram: for an undamped guided blade from few states, accurate to 1e-5 of the
+    /// height.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -252,7 +251,7 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// Every mode of the full model, by brute force.
+    /// Every mode of the full model, by a dense solver.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -267,7 +266,7 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The blade and what couples its harmonics.
+    /// The blade and the coupling of its harmonics.
     pub(crate) fn full_model(&self) -> &FullModel {
         self.full.get_or_init(|| FullModel::new(&self.plate))
     }
@@ -279,8 +278,8 @@ impl SpectralModel {
             .all(|component| component.full.is_conservative())
     }
 
-    /// Whether some damping turns with the blade: a wave that stands still in space is strained by it, and no
-    /// eigenvalue is zero at the critical speeds, which are those of the blade without damping.
+    /// Whether some damping turns with the blade: it strains under a wave that stands still in space, so that
+    /// no eigenvalue is zero at the critical speeds, which are those of the blade without damping.
     pub(crate) fn has_turning_damping(&self) -> bool {
         let mut components = self.components.iter();
         components.any(|component| component.full.circulatory.is_some())
@@ -308,7 +307,8 @@ impl SpectralModel {
         })
     }
 
-    /// The eigenvalue of a component next to an expected one, and dλ/dΩ, without an eigenproblem. `None` where none is found.
+    /// The eigenvalue of a component nearest to an expected one, and dλ/dΩ, without an eigenproblem. `None`
+    /// if none is found.
     pub(crate) fn eigenvalue_next_to(
         &self,
         component: usize,
@@ -320,10 +320,9 @@ impl SpectralModel {
         derivative::next_to(system, speed_rad_per_s, expected)
     }
 
-    /// What rounding may change a frequency at rest by, relative to it: a backward stable
-    /// solver changes ω² by ε times the largest one. The inverse that gives the waves of a free
-    /// blade keeps low ones accurate to their own size; there the numbers of the matrix are
-    /// rounded, each by ε of itself.
+    /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
+    /// ε times the largest one. The inverse used for the waves of a free blade gives low ones with a small
+    /// relative error; then only the entries of the matrix are rounded, each by ε of itself.
     pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
         let component = &self.components[mode.component];
         let stiffness = &component.at(0.0).reduced.stiffness;
@@ -341,7 +340,7 @@ impl SpectralModel {
         0.5 * f64::EPSILON * size / square
     }
 
-    /// Every mode of one component of the reduced model; those above `complete_to` are not to be trusted.
+    /// Every mode of one component of the reduced model; those above `complete_to` are inaccurate.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -386,9 +385,9 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// Negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite
-    /// and K(Ω) = K₀ − Ω²(N − K_σ), so by Sylvester's law of inertia they are the
-    /// critical speeds below Ω: no factorization is needed.
+    /// Number of negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite and K(Ω) = K₀ −
+    /// Ω²(N − K_σ), so by Sylvester's law of inertia it is the number of critical speeds below Ω; no
+    /// factorization is needed.
     pub(crate) fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
         self.critical
             .partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)

@@ -1,10 +1,10 @@
-//! The lowest m of a large symmetric pencil A − mB, A = K₀ of a guided blade, by its structure.
+//! The lowest m of a large symmetric pencil A − mB, with A = K₀ of a guided blade, by its structure.
 //!
-//! Davidson's iteration in blocks: Ritz pairs (m, x) of the pencil on a growing span, which A⁻¹ of their
-//! residuals Ax − mBx joins. By the structure of K₀ one A⁻¹b costs O(N) in place of O(N²), and what its few
-//! columns leave out only slows the iteration: Ritz values come from the exact matrices, and their error
-//! is the square of that of their vectors. That none was overlooked says a count of
-//! the negative eigenvalues of A − mB by Sylvester's law of inertia.
+//! Davidson's iteration in blocks: Ritz pairs (m, x) of the pencil on a growing span, to which A⁻¹ times
+//! their residuals Ax − mBx is added. By the structure of K₀ one A⁻¹b costs O(N) instead of O(N²), and the
+//! part that its few columns neglect only slows the iteration: Ritz values follow from the exact matrices,
+//! and their error is the square of that of their vectors. A count of the negative eigenvalues of A − mB by
+//! Sylvester's law of inertia shows that none was missed.
 //!
 //! E. R. Davidson, J. Comput. Phys. 17 (1975), 87–94; Y. Saad, *Numerical Methods for Large Eigenvalue
 //! Problems*, 2nd ed. (2011), section 8.4.
@@ -20,7 +20,7 @@ use crate::system::GyroscopicSystem;
 pub struct Pencil<'a> {
     /// K₀ and K_σ − N.
     pub system: &'a GyroscopicSystem,
-    /// The same by its structure.
+    /// The structure of these matrices.
     pub structure: &'a StructuredStiffness,
     /// B.
     pub softening: Softening,
@@ -35,18 +35,19 @@ pub enum Softening {
     Mass,
 }
 
-/// Estimated relative error of a Ritz value that is good enough.
+/// Estimated relative error at which a Ritz value is accepted.
 const TOLERANCE: f64 = 1e-14;
-/// The same where rounding keeps it from falling on.
+/// Error that is accepted if rounding prevents a further decrease.
 const ROUNDING: f64 = 1e-11;
 const MOST_ROUNDS: usize = 20;
-/// Vectors that the span begins with, and that join it where some m are missing.
+/// Number of initial vectors of the span, and of those added if some m are missing.
 const BLOCK: usize = 25;
-/// Pairs beyond those sought that are improved with them.
+/// Number of pairs, beyond those requested, that are improved too.
 const GUARD: usize = 4;
-/// Multiples up to this one of the limit are found as well, so that there is a place to count at.
+/// Multiples up to this factor of the limit are computed too, so that a count between two of them is
+/// possible.
 const BEYOND: f64 = 1.01;
-/// Directions closer to the span than this are left out.
+/// Directions closer to the span than this are omitted.
 const INDEPENDENT: f64 = 1e-10;
 
 /// Pairs on a span.
@@ -57,9 +58,9 @@ struct Ritz {
 }
 
 impl Pencil<'_> {
-    /// Every m > 0 up to a limit, which may depend on those found (`None` where more are needed to tell),
-    /// ascending, with x of (A − mB)x = 0, ‖x‖ = 1. `count` is the number of m below one, where that is certain.
-    /// `None` where the iteration or the count fails, or once the computation was asked to end.
+    /// Every m > 0 up to a limit, which may depend on those found (`None` if more are needed to determine
+    /// it), ascending, with x of (A − mB)x = 0, ‖x‖ = 1. `count` is the number of m below a value, if it is
+    /// certain. `None` if the iteration or the count fails, or if the computation was cancelled.
     pub fn lowest(
         &self,
         limit: &dyn Fn(&[f64]) -> Option<f64>,
@@ -85,7 +86,7 @@ impl Pencil<'_> {
                 && sought == ritz.multiples.len()
                 && let Some(block) = blocks.next()
             {
-                // Waves that are missing need not wait until those on the span are found.
+                // Missing waves are added before those on the span have converged.
                 span.add(self, block);
                 continue;
             }
@@ -110,7 +111,7 @@ impl Pencil<'_> {
             let open = Mat::from_fn(corrections.nrows(), places.len(), |i, k| {
                 corrections[(i, places[k])]
             });
-            // One more step of the inverse iteration costs less than the Ritz pairs of another round.
+            // A further step of the inverse iteration costs less than the Ritz pairs of another iteration.
             let softened = span.add(self, open.as_ref());
             span.add(
                 self,
@@ -120,7 +121,7 @@ impl Pencil<'_> {
         None
     }
 
-    /// A⁻¹(Ax − mBx) of the first pairs, and how far their m are estimated to be off.
+    /// A⁻¹(Ax − mBx) of the first pairs, and the estimated errors of their m.
     fn corrections(&self, span: &Span, ritz: &Ritz, count: usize) -> (Mat<f64>, Vec<f64>) {
         let [x, ax, bx] = span.lifted(ritz, count);
         let mut residuals = Mat::zeros(x.nrows(), count);
@@ -139,7 +140,7 @@ impl Pencil<'_> {
     }
 }
 
-/// Whether there are as many m below some number a little above the limit as were found.
+/// Whether the number of m below some value slightly above the limit equals the number found.
 fn is_complete(found: &[f64], limit: f64, count: &dyn Fn(f64) -> Option<usize>) -> bool {
     let shares = [0.3, 0.7, 0.1, 0.5, 0.9];
     let places = shares.map(|share| limit * (1.0 + share * (BEYOND - 1.0)));
@@ -149,7 +150,7 @@ fn is_complete(found: &[f64], limit: f64, count: &dyn Fn(f64) -> Option<usize>) 
     counted.is_some_and(|(place, count)| found.partition_point(|m| *m <= place) == count)
 }
 
-/// The same columns of unit length; zeros stay zeros.
+/// The columns with unit length; zeros remain zeros.
 fn unit_columns(mut columns: Mat<f64>) -> Mat<f64> {
     for k in 0..columns.ncols() {
         let size = columns.col(k).norm_l2();
@@ -160,7 +161,7 @@ fn unit_columns(mut columns: Mat<f64>) -> Mat<f64> {
     columns
 }
 
-/// Orthonormal vectors with A and B times them.
+/// Orthonormal vectors, and A and B times them.
 struct Span {
     vectors: [Mat<f64>; 3],
 }
@@ -172,7 +173,7 @@ impl Span {
         }
     }
 
-    /// Adds what is new of some vectors, and gives back B times it.
+    /// Adds the new directions of some vectors, and returns B times them.
     fn add(&mut self, pencil: &Pencil<'_>, more: MatRef<'_, f64>) -> Mat<f64> {
         let span = &self.vectors[0];
         let mut new = more.to_owned();

@@ -1,7 +1,7 @@
-//! How far a computation has come, for a progress callback.
+//! Progress of a computation, for a progress callback.
 //!
-//! A loop over work of a known amount is a [`Work`]. Loops lie within loops: the one that was begun first is shown, and in
-//! between the number of eigenproblems moves, which counts wherever the cancellation flag is looked at.
+//! A loop over a known amount of work is a [`Work`]. Loops may be nested: the outermost one is shown; in
+//! between the number of eigenproblems rises, which is counted wherever the cancellation flag is read.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -10,16 +10,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::work::Cancellation;
 
-/// What a computation is at.
+/// Stage of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Stage {
-    /// What is counted; nothing between two steps.
+    /// Name of the counted items; empty between two steps.
     pub what: &'static str,
-    /// How many of them are done.
+    /// Number of finished items.
     pub done: usize,
-    /// How many there are, as far as is known yet.
+    /// Number of all items known so far.
     pub of: usize,
-    /// Eigenproblems, and pieces of work as small, since the computation began.
+    /// Number of eigenproblems, and of work items of similar size, since the computation began.
     pub eigenproblems: usize,
 }
 
@@ -31,17 +31,17 @@ struct Shared {
     callback: Box<dyn Fn(Stage) + Send + Sync>,
     stage: Mutex<Stage>,
     eigenproblems: AtomicUsize,
-    /// Whether a loop is being shown.
+    /// Whether a loop is shown.
     is_busy: AtomicBool,
 }
 
 thread_local! {
-    /// Of the computation that this thread works for.
+    /// The callback of the computation on this thread.
     static CURRENT: RefCell<Progress> = RefCell::default();
 }
 
 impl Progress {
-    /// Calls a function whenever a computation has come further.
+    /// Calls a function at every progress of a computation.
     pub fn new(callback: impl Fn(Stage) + Send + Sync + 'static) -> Self {
         Progress(Some(Arc::new(Shared {
             callback: Box::new(callback),
@@ -51,10 +51,10 @@ impl Progress {
         })))
     }
 
-    /// Does work with this progress callback: on threads of its own, as many as the current pool has.
+    /// Runs a function with this progress callback, on new threads, as many as the current pool has.
     ///
     /// # Errors
-    /// When the system gives no more threads.
+    /// The error of starting a thread.
     pub fn watched<T: Send>(
         &self,
         work: impl FnOnce() -> T + Send,
@@ -62,17 +62,17 @@ impl Progress {
         Cancellation::current().watched_with(self, work)
     }
 
-    /// That of the computation that this thread works for.
+    /// The callback of the computation on this thread.
     pub(super) fn current() -> Self {
         CURRENT.with_borrow(Clone::clone)
     }
 
-    /// Makes it that of the thread.
+    /// Sets it for this thread.
     pub(super) fn enter(&self) {
         CURRENT.set(self.clone());
     }
 
-    /// Shows a loop that counts itself by no `Work`: until it is done nothing within it is shown.
+    /// Shows a loop that has its own counter; nested loops are not shown until it is finished.
     pub fn show(&self, what: &'static str, done: usize, of: usize) {
         if let Some(shared) = &self.0 {
             shared.is_busy.store(done < of, Ordering::Relaxed);
@@ -99,7 +99,7 @@ impl Shared {
     }
 }
 
-/// One more eigenproblem is about to be solved for the computation of this thread.
+/// Counts an eigenproblem of the computation on this thread.
 pub(super) fn count_eigenproblem() {
     CURRENT.with_borrow(|progress| {
         if let Some(shared) = &progress.0 {
@@ -113,7 +113,7 @@ pub(super) fn count_eigenproblem() {
 /// A loop over work of a known amount.
 pub(crate) struct Work {
     shared: Option<Arc<Shared>>,
-    /// Whether it is this one that is shown.
+    /// Whether this loop is shown.
     is_shown: AtomicBool,
     what: &'static str,
     done: AtomicUsize,
@@ -121,7 +121,7 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Begins a step of so many parts.
+    /// Begins a loop of a number of parts.
     pub fn of(what: &'static str, parts: usize) -> Self {
         let step = Work {
             shared: Progress::current().0,
@@ -134,13 +134,13 @@ impl Work {
         step
     }
 
-    /// One more part is done.
+    /// Counts a finished part.
     pub fn advance(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
         self.show();
     }
 
-    /// It has so many parts more than it seemed.
+    /// Adds parts to the loop.
     pub fn extend(&self, parts: usize) {
         self.of.fetch_add(parts, Ordering::Relaxed);
     }
@@ -171,7 +171,7 @@ mod tests {
 
     use super::*;
 
-    /// What is told is the outer of two loops, part by part, and every eigenproblem.
+    /// The callback receives the outer of two loops, part by part, and every eigenproblem.
     #[test]
     fn the_outer_loop_is_shown_and_every_eigenproblem_counts() {
         let told = Arc::new(Mutex::new(Vec::new()));

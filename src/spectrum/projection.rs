@@ -1,4 +1,4 @@
-//! A component projected on few vectors, and what the projection leaves over.
+//! A component projected on few vectors, and the residual of the projection.
 
 use faer::{Col, Mat, c64};
 
@@ -21,7 +21,7 @@ pub struct Projection {
 }
 
 impl Projection {
-    /// Projects a component; by its structure where that is known.
+    /// Projects a component; by its structure if it is known.
     pub fn new(system: &GyroscopicSystem, structure: Option<&FullModel>, basis: Mat<f64>) -> Self {
         let products = structured::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());

@@ -1,10 +1,10 @@
-//! Every eigenvalue, and the eigenvectors, of a real matrix: the one way to them.
+//! Every eigenvalue, and the eigenvectors, of a real matrix. Other modules use this solver only.
 //!
-//! faer's blocked QR iteration orders the eigenvalues of a window by exchanging neighbours until none is out of order.
-//! Two conjugate pairs that are equal but for rounding cannot be exchanged (Z. Bai, J. Demmel, Linear Algebra Appl. 186,
-//! 1993), and it tries without end: seen of damped free blades at rest, where every wave stands twice. The double-shift
-//! iteration without such a window takes 30 steps for each eigenvalue at most. faer does not tell when that was not
-//! enough; the traces of the matrix and of its square do.
+//! faer's blocked QR iteration orders the eigenvalues of a window by exchanging neighbours. Two conjugate
+//! pairs that are equal except for rounding cannot be exchanged (Z. Bai, J. Demmel, Linear Algebra Appl. 186,
+//! 1993), and the iteration does not end; this occurs for damped free blades at rest, for which every wave is
+//! double. The double-shift iteration without such a window takes at most 30 steps for each eigenvalue. faer
+//! does not report if these were not enough, but the traces of the matrix and of its square show it.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -13,8 +13,8 @@ use faer::{Auto, Col, Mat, MatMut, MatRef, Par, Spec, c64};
 
 use super::vectors::joined;
 
-/// Error of a trace, relative to the size of the matrix, above which its eigenvalues are none. Those of a backward
-/// stable iteration are off by 1e-13.
+/// Error of a trace, relative to the size of the matrix, above which the eigenvalues are wrong. A backward
+/// stable iteration has errors of 1e-13.
 const TRACE_TOLERANCE: f64 = 1e-9;
 
 /// The QR iteration did not converge, or the matrix is not finite.
@@ -32,7 +32,7 @@ pub struct RealEigen {
 }
 
 impl RealEigen {
-    /// Of a matrix.
+    /// The eigenvalues and eigenvectors of a matrix.
     ///
     /// # Errors
     /// [`NoConvergence`].
@@ -42,7 +42,7 @@ impl RealEigen {
         Ok(RealEigen { values, columns })
     }
 
-    /// A vector.
+    /// An eigenvector.
     pub fn vector(&self, i: usize) -> Col<c64> {
         joined(&self.halves_of(&[i]), 0)
     }
@@ -61,7 +61,7 @@ impl RealEigen {
         })
     }
 
-    /// Places of the λ with Im λ ≥ 0.
+    /// Indices of the λ with Im λ ≥ 0.
     pub fn upper(&self) -> Vec<usize> {
         let all = 0..self.values.len();
         all.filter(|&i| self.values[i].im >= 0.0).collect()
@@ -108,7 +108,7 @@ fn solve(
     }
 }
 
-/// Whether the sums of the values and of their squares are the traces of the matrix and of its square.
+/// Whether the sums of the values and of their squares equal the traces of the matrix and of its square.
 fn are_all(matrix: MatRef<'_, f64>, values: &[c64]) -> bool {
     let unit = matrix.norm_max();
     if unit == 0.0 {
@@ -142,7 +142,7 @@ mod tests {
     use crate::spectrum::{Component, companion_eigenpairs};
     use crate::system::GyroscopicSystem;
 
-    /// A damped free blade of three thicknesses, a drawn one: every wave stands twice.
+    /// A damped free blade with three thicknesses, from a random test: every wave is double.
     fn twice_every_wave() -> Plate {
         let scene = Scene::paper().edited(|saw| {
             (saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None);
@@ -177,7 +177,7 @@ mod tests {
         Plate::new(&scene.unwrap(), resolution)
     }
 
-    /// The iteration ends, and finds what the harmonics have each by itself.
+    /// The iteration ends, and finds the eigenvalues of each harmonic.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn equal_pairs_do_not_keep_the_iteration_from_its_end() {
@@ -205,12 +205,12 @@ mod tests {
                 .min_by(|&i, &k| distance(&apart[i]).total_cmp(&distance(&apart[k])))
                 .unwrap();
             let error = distance(&apart.swap_remove(nearest));
-            // Rounding errs by ε of the largest eigenvalue, of a double one by its root.
+            // Errors are ε times the largest eigenvalue, and the root of ε for double ones.
             assert!(error <= 1e-7 * largest, "{lambda}: {error:e}");
         }
     }
 
-    /// Rounding may make two equal real eigenvalues complex.
+    /// Rounding may turn two equal real eigenvalues into a complex pair.
     fn with_conjugate((lambda, _): Eigenpair) -> impl Iterator<Item = c64> {
         let conjugate = (lambda.im > 0.0).then(|| lambda.conj());
         [Some(lambda), conjugate].into_iter().flatten()

@@ -1,8 +1,8 @@
-//! Eigenpairs of a reduced model, made right on the full model.
+//! Refinement of eigenpairs of a reduced model on the full model.
 //!
-//! Newton's method on L(λ)q = 0, qᴴδq = 0: δq = −L⁻¹r − δλ L⁻¹L′q, r = L(λ)q being the residual with the matrices of the
-//! full model. The solves by blocks and columns leave out what the guides' columns leave out, which slows the
-//! convergence and does not limit it.
+//! Newton's method on L(λ)q = 0, qᴴδq = 0: δq = −L⁻¹r − δλ L⁻¹L′q, where r = L(λ)q is the residual with the
+//! matrices of the full model. The solves by blocks and columns neglect a part of the guides, which slows the
+//! convergence but does not limit it.
 
 use faer::{Col, Mat, c64};
 
@@ -13,7 +13,7 @@ use super::model::SpectralModel;
 use super::residual::Lifted;
 use super::vectors::{real_times, unit};
 
-/// An eigenvalue and how right it is.
+/// An eigenvalue and its accuracy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RefinedPair {
     /// λ, in 1/s.
@@ -22,16 +22,16 @@ pub struct RefinedPair {
     pub backward_error: f64,
 }
 
-/// Steps at most: the first is mostly enough.
+/// Largest number of steps; one is usually enough.
 const STEPS: usize = 5;
 /// Backward error that is rounding.
 const ROUNDING: f64 = 1e-15;
-/// An eigenvalue found further away than this share of the distance to the next one is another one.
+/// An eigenvalue found at a distance of more than this share of that to the next one is another eigenvalue.
 const SAME: f64 = 0.1;
 
 impl SpectralModel {
-    /// The eigenvalue next to an expected one, refined on the full model. `None` where the reduced model has none
-    /// there, where the iteration leaves it, and of a saw whose full model has no blocks and columns.
+    /// The eigenvalue nearest to an expected one, refined on the full model. `None` if the reduced model has
+    /// none there, if the iteration leaves it, and for a saw whose full model has no blocks and columns.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -85,7 +85,7 @@ impl SpectralModel {
             let Some(next) = corrected else { break };
             (lambda, shape) = next;
         }
-        // A real eigenvalue stays real.
+        // A real eigenvalue remains real.
         if let (Some(best), true) = (&mut best, mode.lambda.im == 0.0) {
             best.lambda.im = 0.0;
         }

@@ -1,10 +1,10 @@
-//! What is left of the equation of motion when an eigenpair is put into it.
+//! The residual of the equation of motion for an eigenpair.
 
 use faer::{Col, Mat, c64};
 
 use crate::system::GyroscopicSystem;
 
-/// A mode of a projection on the whole component.
+/// A mode of a projection in the unknowns of its component.
 #[derive(Debug)]
 pub struct Lifted {
     /// Vq.
@@ -13,12 +13,12 @@ pub struct Lifted {
     pub residual: Col<c64>,
 }
 
-/// ‖D‖ and ‖K‖ at any speed, from the products of their terms: for residuals.
+/// ‖D‖ and ‖K‖ at any speed, from the products of their terms, for residuals.
 #[derive(Debug)]
 pub struct MatrixNorms {
-    /// Products of K₀, K_σ − N, K_circ and K_n, which K(Ω) has with 1, Ω², Ω and 1.
+    /// Products of K₀, K_σ − N, K_circ and K_n, whose factors in K(Ω) are 1, Ω², Ω and 1.
     stiffness: [[f64; 4]; 4],
-    /// Products of G and C, which D(Ω) has with 2Ω and 1.
+    /// Products of G and C, whose factors in D(Ω) are 2Ω and 1.
     velocity: [[f64; 2]; 2],
 }
 
@@ -54,7 +54,7 @@ impl MatrixNorms {
     }
 }
 
-/// Σ aᵢⱼ bᵢⱼ; zero for a term that is not there.
+/// Σ aᵢⱼ bᵢⱼ; zero for an absent term.
 fn product(left: Option<&Mat<f64>>, right: Option<&Mat<f64>>) -> f64 {
     let Some((left, right)) = left.zip(right) else {
         return 0.0;

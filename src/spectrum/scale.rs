@@ -1,4 +1,4 @@
-//! The frequency by which the numbers of a blade are scaled.
+//! Frequency scale of a blade.
 
 use crate::plate::Plate;
 

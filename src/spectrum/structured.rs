@@ -1,4 +1,4 @@
-//! K₀ of a guided blade by its structure: blocks of one number of nodal diameters, and few columns.
+//! K₀ of a guided blade by its structure: one block for each number of nodal diameters, and few columns.
 
 use faer::MatRef;
 
@@ -10,24 +10,24 @@ use crate::system::GyroscopicSystem;
 /// Below this order one dense factorization costs less.
 pub const LARGE: usize = 200;
 
-/// Blocks and columns of K₀, and what solves with them.
+/// Blocks and columns of K₀, and its factorization.
 #[derive(Debug)]
 pub struct StructuredStiffness {
     /// Blocks and columns.
     pub full: FullModel,
-    /// K₀, nearly.
+    /// K₀, with few columns.
     pub at_rest: Elimination<f64>,
 }
 
 impl StructuredStiffness {
-    /// Of a plate that guides hold; `None` where they take too many columns, where loads at the rim
-    /// couple every wave with every other, where K₀ is singular, and once the computation was asked to end.
+    /// The structure of a plate held by guides; `None` if they need too many columns, if loads at the rim
+    /// couple all waves, if K₀ is singular, or if the computation was cancelled.
     pub fn of(plate: &Plate) -> Option<Self> {
         Cancellation::current().check().ok()?;
         Self::by(FullModel::new(plate))
     }
 
-    /// The same to a millionth.
+    /// As [`StructuredStiffness::of`], accurate to a millionth.
     pub fn nearly(plate: &Plate) -> Option<Self> {
         Self::by(FullModel::nearly(plate))
     }
@@ -39,7 +39,7 @@ impl StructuredStiffness {
     }
 }
 
-/// The matrices of a system times the columns of V, by the structure of an undamped blade where that is exact.
+/// The matrices of a system times the columns of V, by the structure of an undamped blade if it is exact.
 pub fn times(
     system: &GyroscopicSystem,
     structure: Option<&FullModel>,

@@ -1,4 +1,4 @@
-//! Complex vectors, real matrices, and eigenpairs made of them.
+//! Operations on complex vectors, real matrices, and eigenpairs.
 
 use faer::{Col, ColRef, Mat, Scale, c64};
 
@@ -25,7 +25,7 @@ pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
     q.adjoint() * real_times(matrix, q)
 }
 
-/// Real and imaginary parts of vectors side by side, two columns each.
+/// Real and imaginary parts of vectors, in two columns each.
 pub fn halves<'a>(rows: usize, vectors: impl ExactSizeIterator<Item = &'a Col<c64>>) -> Mat<f64> {
     let mut halves = Mat::zeros(rows, 2 * vectors.len());
     for (k, q) in vectors.enumerate() {
@@ -44,7 +44,7 @@ pub fn joined(halves: &Mat<f64>, k: usize) -> Col<c64> {
     })
 }
 
-/// q/‖q‖; zero stays zero.
+/// q/‖q‖; zero remains zero.
 pub fn unit(q: ColRef<'_, c64>) -> Col<c64> {
     let norm = q.norm_l2();
     let factor = if norm > 0.0 { 1.0 / norm } else { 0.0 };
@@ -57,8 +57,8 @@ pub fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
     pairs
 }
 
-/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; those
-/// closer than `tolerance` to the span of the others are left out.
+/// Orthonormal basis of the span of unit vectors, by QR with column pivoting; vectors closer than `tolerance`
+/// to the span of the others are omitted.
 pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
     let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
     let qr = matrix.col_piv_qr();

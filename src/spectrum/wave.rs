@@ -1,19 +1,20 @@
-//! The waves in a motion: one harmonic at a time, split into the one that runs forward in space and the one
-//! that runs backward.
+//! The waves of a motion: each harmonic is the sum of a wave that travels forward in space and one that
+//! travels backward.
 
 use faer::{Col, c64};
 
 use super::mode::Mode;
 use crate::plate::Plate;
 
-/// A sign change of the radial profile counts where it leaves this share of its peak.
+/// A sign change of the radial profile is counted if the profile exceeds this share of its peak on both
+/// sides.
 const CIRCLE: f64 = 0.03;
 
-/// One harmonic, split into the two waves e^{i(ωt − nθ)} and e^{i(ωt + nθ)}.
+/// One harmonic, as the sum of the two waves e^{i(ωt − nθ)} and e^{i(ωt + nθ)}.
 ///
-/// Their weight is the kinetic energy of the lateral motion, in which the material
-/// moves at Dw/Dt = (λ + Ω∂θ)w. Of a standing wave in space, where ∂w/∂t says
-/// nothing, it is the n² that a rigid tilt would otherwise outweigh.
+/// Their weight is the kinetic energy of the lateral motion, with the velocity Dw/Dt = (λ + Ω∂θ)w of the
+/// material. For a standing wave in space, where ∂w/∂t contributes nothing, this is the factor n², without
+/// which a rigid tilt would dominate.
 pub struct Wave {
     pub diameters: usize,
     /// nΩ.
@@ -63,7 +64,7 @@ impl Wave {
         self.diameters > 0 && self.forward_energy >= self.backward_energy
     }
 
-    /// Frequency of the stronger wave on the blade, negative when it runs backward there.
+    /// Frequency of the stronger wave on the blade, negative if it travels backward there.
     pub fn body_frequency(&self, mode: &Mode) -> f64 {
         let omega = mode.frequency_rad_per_s();
         if self.runs_forward() {

@@ -1,4 +1,4 @@
-//! Counters of the work done, and the flag by which it is cancelled.
+//! Work counters, and the cancellation flag.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -7,47 +7,48 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use super::error::SpectrumError;
 use super::progress::{Progress, count_eigenproblem};
 
-/// Work done, so that a silent slow-down fails a test.
+/// Amount of work, with which tests detect a silent slow-down.
 #[derive(Debug, Default)]
 pub struct WorkCounters {
     /// Eigenproblems solved on the projected matrices.
     pub reduced_solves: AtomicUsize,
     /// Eigenproblems of the few states between two speeds.
     pub local_solves: AtomicUsize,
-    /// Pairs of modes, of a damped blade single modes, refined by inverse iteration on the projected matrices.
+    /// Pairs of modes (single modes of a damped blade) refined by inverse iteration on the projected
+    /// matrices.
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the full model: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
-    /// Those among them that went by blocks and columns.
+    /// Those of `full_solves` that used blocks and columns.
     pub structured_solves: AtomicUsize,
-    /// Symmetric eigenproblems of the full model under other temperatures.
+    /// Symmetric eigenproblems of the full model at other temperatures.
     pub heat_solves: AtomicUsize,
-    /// Looked at where work is counted.
+    /// Flag that is read when work is counted.
     pub cancellation: Cancellation,
 }
 
-/// A cancellation flag, shared by a computation and whoever may cancel it. The computation looks
-/// at it between two eigenproblems and then ends with [`SpectrumError::Cancelled`].
+/// A cancellation flag, shared by a computation and its caller. The computation reads it between two
+/// eigenproblems and then ends with [`SpectrumError::Cancelled`].
 #[derive(Debug, Clone, Default)]
 pub struct Cancellation(Arc<AtomicBool>);
 
 thread_local! {
-    /// The flag of the computation that this thread works for.
+    /// The flag of the computation on this thread.
     static CURRENT: RefCell<Cancellation> = RefCell::default();
 }
 
 impl Cancellation {
-    /// The flag of the computation that this thread works for, see [`Cancellation::watched`]; one that
-    /// nobody sets on other threads.
+    /// The flag of the computation on this thread, see [`Cancellation::watched`]; on other threads, one that
+    /// is never set.
     pub fn current() -> Self {
         CURRENT.with_borrow(Clone::clone)
     }
 
-    /// Does work that looks at this flag wherever it asks for [`Cancellation::current`]: on threads of its
-    /// own, as many as the current pool has, so that several computations can be watched at once.
+    /// Runs a function whose computations read this flag, on new threads, as many as the current pool has, so
+    /// that several computations can be watched at the same time.
     ///
     /// # Errors
-    /// When the system gives no more threads.
+    /// The error of starting a thread.
     pub fn watched<T: Send>(
         &self,
         work: impl FnOnce() -> T + Send,
@@ -55,10 +56,10 @@ impl Cancellation {
         self.watched_with(&Progress::current(), work)
     }
 
-    /// The same with another progress callback than that of this thread.
+    /// As [`Cancellation::watched`], with another progress callback than that of this thread.
     ///
     /// # Errors
-    /// When the system gives no more threads.
+    /// The error of starting a thread.
     pub fn watched_with<T: Send>(
         &self,
         progress: &Progress,
@@ -71,7 +72,7 @@ impl Cancellation {
     /// Threads of which this is the current flag, with the progress callback of this thread.
     ///
     /// # Errors
-    /// When the system gives no more threads.
+    /// The error of starting a thread.
     pub(crate) fn pool(
         &self,
         threads: usize,
@@ -101,15 +102,15 @@ impl Cancellation {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it was asked to.
+    /// Whether the computation was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Looks whether the next eigenproblem is to be solved, and counts it.
+    /// Checks whether the next eigenproblem is to be solved, and counts it.
     ///
     /// # Errors
-    /// [`SpectrumError::Cancelled`] once the computation was asked to end.
+    /// [`SpectrumError::Cancelled`] if the computation was cancelled.
     pub fn check(&self) -> Result<(), SpectrumError> {
         count_eigenproblem();
         match self.is_cancelled() {
@@ -125,7 +126,7 @@ mod tests {
 
     use super::*;
 
-    /// Every thread of a watched computation sees its flag and no other's.
+    /// Every thread of a watched computation reads its own flag.
     #[test]
     fn two_computations_are_stopped_apart() {
         let (first, second) = (Cancellation::default(), Cancellation::default());

@@ -1,4 +1,4 @@
-//! From a scene to its stability chart: the library's main call.
+//! Stability analysis of a scene: the main call of the library.
 
 use faer::c64;
 
@@ -20,23 +20,22 @@ use crate::campbell::{CampbellError, Progress};
 use crate::scene::{Accuracy, Scene, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
-/// A saw is run at no more than this share of its lowest critical speed: the
-/// usual rule of thumb of saw makers.
+/// Saw makers run a saw at no more than this share of its lowest critical speed.
 pub const OPERATING_LIMIT: f64 = 0.85;
-/// Speeds of the chart of a free blade, of which one costs next to nothing.
+/// Speeds in the chart of a free blade, which cost almost nothing.
 const FREE_CHART_SPEEDS: usize = 101;
 
-/// The same of a sketch.
+/// Speeds in the sketch of a free blade.
 const SKETCH_SPEEDS: usize = 25;
 
-/// How an analysis is carried out.
+/// Options of an analysis.
 #[derive(Clone, Copy)]
 pub struct AnalysisOptions<'a> {
     /// How closely the chart is drawn.
     pub detail: Detail,
-    /// Progress callback: speeds of the chart that are done, and all of them.
+    /// Progress callback: number of speeds done and number of speeds in total.
     pub progress: Progress<'a>,
-    /// Called with what a long sweep is expected to take, before anything else.
+    /// Called before anything else with the expected work of a long sweep.
     pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
 }
 
@@ -64,8 +63,7 @@ fn charted(
     }
 }
 
-/// The eigenvalues of the flutter band that begins at a speed; `None` with damping, where no pair
-/// coalesces.
+/// Eigenvalues of the flutter band that begins at a speed; `None` with damping, where no pair coalesces.
 fn root_loci(
     model: &SpectralModel,
     chart: &StabilityChart,
@@ -81,7 +79,7 @@ fn root_loci(
     }
 }
 
-/// Of the chart, where it begins at rest.
+/// Modes at rest of a chart that begins at rest.
 fn modes_at_rest(
     model: &SpectralModel,
     chart: &StabilityChart,
@@ -92,45 +90,45 @@ fn modes_at_rest(
     }
 }
 
-/// Everything about the stability of one saw.
+/// Stability of one saw: critical speeds, bands, estimated errors and certificate.
 #[derive(Debug)]
 pub struct Analysis {
     /// The saw.
     pub scene: Scene,
-    /// Modes at any speed of the range.
+    /// Model that gives the modes at any speed of the range.
     pub model: SpectralModel,
     /// Range of speeds, in rad/s.
     pub range_rad_per_s: (f64, f64),
     /// Branches, bands and certificate.
     pub chart: StabilityChart,
-    /// Flutter speed: the lowest speed at which flutter counts, in rad/s, see
-    /// [`Instability::counted`].
+    /// Flutter speed: lowest speed of flutter that counts, in rad/s, see [`Instability::counted`].
     pub flutter_speed_rad_per_s: Option<f64>,
-    /// Onset of the first flutter band, weak ones included, in rad/s.
+    /// Onset of the first flutter band, including bands that do not count, in rad/s.
     pub first_merge_rad_per_s: Option<f64>,
-    /// The eigenvalues of the band at the flutter speed, or of the first of all.
+    /// Eigenvalues of the band at the flutter speed, or of the first flutter band.
     pub root_loci: Option<RootLoci>,
     /// Estimated relative error of the critical speeds within the range, from what a larger basis would change.
     pub estimated_relative_error: Option<f64>,
-    /// Estimated errors of single numbers.
+    /// Estimated errors of single results.
     pub estimates: Option<Estimates>,
-    /// What keeps the estimated errors above the tolerance of the scene, where they are and the chart is drawn in full.
+    /// Reason why the estimated errors exceed the tolerance of the scene, if they do and the chart is drawn
+    /// in full.
     pub out_of_reach: Option<OutOfReach>,
-    /// The modes at rest that oscillate, ascending.
+    /// Oscillating modes at rest, ascending.
     pub modes_at_rest: Vec<DescribedMode>,
-    /// How many others are as slow, but decay without oscillating.
+    /// Number of overdamped modes at rest below the last of these.
     pub overdamped_at_rest: usize,
-    /// λ of the mode that grows fastest at the operating speed, or decays most slowly, where
-    /// the scene gives one within the sweep.
+    /// λ of the fastest growing or slowest decaying mode at the operating speed, if that speed is within the
+    /// sweep.
     pub fastest_operating: Option<c64>,
-    /// Largest backward error of the eigenvalues listed, of reference accuracy: those at rest, at the peaks of bands
-    /// and at the operating speed.
+    /// Largest backward error of the listed eigenvalues: at rest, at the peaks of bands and at the operating
+    /// speed.
     pub listed_backward_error: Option<f64>,
-    /// How hot the blade may become, of a scene with temperature.
+    /// Temperature limits of the blade, for a scene with temperature.
     pub heat: Option<HeatLimits>,
-    /// The same saw without the forces of the cut, where the scene has them on the chart.
+    /// Results for the same saw without cutting forces, if the chart includes them.
     pub idling: Option<Onsets>,
-    /// Where the lines of the scene's excitation cross branches, by line and speed.
+    /// Crossings of the excitation lines with branches, by line and speed.
     pub crossings: Vec<Crossing>,
 }
 
@@ -145,10 +143,10 @@ impl Analysis {
         Self::with_options(scene, AnalysisOptions::default())
     }
 
-    /// The same with a progress callback, or drawn less closely.
+    /// Analyses a saw with a progress callback and a chosen detail.
     ///
     /// # Errors
-    /// Those of [`Analysis::new`].
+    /// The errors of [`Analysis::new`].
     pub fn with_options(
         scene: &Scene,
         options: AnalysisOptions<'_>,
@@ -159,7 +157,7 @@ impl Analysis {
         let chosen = ChosenBasis::new(scene, scene.tolerance())?;
         let least = chosen.saw.plate.resolution;
         let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
-            // The end of the sweep is the program's choice: it chooses one that it can chart.
+            // The scene gives no end of the sweep, so the program chooses one that it can chart.
             Err(AnalysisError::Campbell(CampbellError::TooLarge {
                 largest_end_rpm: Some(end),
                 ..
@@ -231,7 +229,7 @@ impl Analysis {
         analysis.completed(detail, listed)
     }
 
-    /// With what is told of an analysis as a whole.
+    /// Adds the results that belong to the whole analysis.
     fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
         if let Some(speed) = self.scene.operating_rad_per_s() {
             self.look_at_operating(speed)?;
@@ -245,14 +243,15 @@ impl Analysis {
         Ok(self)
     }
 
-    /// Largest estimated relative error of what the tolerance is promised for: critical speeds within the range and
-    /// frequencies at rest.
+    /// Largest estimated relative error of the critical speeds within the range and the frequencies at rest,
+    /// for which the tolerance holds.
     pub fn promised_error(&self) -> Option<f64> {
         let at_rest = self.estimates.as_ref().map_or(0.0, |e| e.at_rest);
         Some(self.estimated_relative_error?.max(at_rest))
     }
 
-    /// Whether the estimated errors are within the tolerance of the scene: the largest basis may fall short of it.
+    /// Whether the estimated errors are within the tolerance of the scene, which even the largest basis may
+    /// miss.
     pub fn reaches_tolerance(&self) -> bool {
         let error = self.promised_error();
         error.is_some_and(|error| error <= self.scene.tolerance())
@@ -281,8 +280,8 @@ impl Analysis {
         Ok(())
     }
 
-    /// Finds the mode that grows fastest at the operating speed, or decays most slowly, and holds the bands against the
-    /// modes there: the verdict follows from the bands alone. Nothing outside the sweep.
+    /// Finds the fastest growing or slowest decaying mode at the operating speed, and compares the bands with
+    /// the modes there, because the verdict follows from the bands alone. Does nothing outside the sweep.
     fn look_at_operating(&mut self, speed_rad_per_s: f64) -> Result<(), SpectrumError> {
         if self.verdict(speed_rad_per_s).state == StabilityState::OutsideSweep {
             return Ok(());
@@ -302,33 +301,32 @@ impl Analysis {
         &self.chart.instabilities
     }
 
-    /// Lowest critical speed, at which a wave stands still in space; `None` where the blade has
-    /// none, or none within the range that a blade bears.
+    /// Lowest critical speed, at which a wave stands still in space; `None` if the blade has none below the
+    /// speed at which it would yield.
     pub fn lowest_critical_rpm(&self) -> Option<f64> {
         let lowest = self.model.critical.first()?;
         Some(rpm(lowest.speed_rad_per_s))
     }
 
-    /// Lowest speed at which flutter counts: that grows as fast as the scene's
-    /// `flutter_threshold_per_s`.
+    /// Lowest speed at which flutter grows faster than the scene's `flutter_threshold_per_s`.
     pub fn flutter_speed_rpm(&self) -> Option<f64> {
         self.flutter_speed_rad_per_s.map(rpm)
     }
 
-    /// What becomes of the saw at a speed.
+    /// Verdict at a speed.
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
         self.evidence(&self.critical_rad_per_s())
             .verdict(speed_rad_per_s)
     }
 
-    /// The speeds around one at which no instability counts, in rad/s, short of critical speeds by 5 %; `None`
-    /// where the saw is unstable or at a critical speed.
+    /// Range of speeds around a speed without an instability that counts, in rad/s, at least 5 % away from
+    /// critical speeds; `None` where the saw is unstable or at a critical speed.
     pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
         self.evidence(&self.critical_rad_per_s())
             .window_without_instability(speed_rad_per_s)
     }
 
-    /// The critical speed that a speed is nearer to than 5 %.
+    /// Critical speed within 5 % of a speed.
     pub fn critical_rpm_at(&self, speed_rad_per_s: f64) -> Option<f64> {
         let place = self.verdict(speed_rad_per_s).critical?;
         Some(rpm(self.model.critical[place].speed_rad_per_s))

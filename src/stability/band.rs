@@ -42,7 +42,7 @@ pub struct Instability {
     pub curve: Vec<CurvePoint>,
 }
 
-/// "flutter 2255.9 to 2266.1 rpm, up to 0.487 1/s at 6.01 Hz".
+/// Writes for instance "flutter 2255.9 to 2266.1 rpm, up to 0.487 1/s at 6.01 Hz".
 impl fmt::Display for Instability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (from, to) = (rpm(self.from_rad_per_s), rpm(self.to_rad_per_s));
@@ -75,9 +75,8 @@ pub struct CurvePoint {
 }
 
 impl Instability {
-    /// Whether it counts as an instability of the saw. Flutter that grows more slowly than the
-    /// threshold (1/s) is suppressed by damping that the scene does not name; divergence always
-    /// counts.
+    /// Whether the band counts as an instability of the saw. Damping that the scene does not model suppresses
+    /// flutter that grows more slowly than the threshold (1/s); divergence always counts.
     pub fn counts(&self, threshold_per_s: f64) -> bool {
         self.kind == InstabilityKind::Divergence || self.peak_growth_per_s >= threshold_per_s
     }

@@ -1,31 +1,32 @@
-//! What was checked of a list of bands, and what did not agree.
+//! Checks of a list of bands and the contradictions that they found.
 
 use super::band::{Instability, InstabilityKind};
 use super::mode_counts::Miscount;
 use super::signature::Signature;
 
-/// Checks of a list of bands: the Krein index against the spectrum, counts of modes on the full
-/// model, and what of the range is proven free of bands that are not listed.
+/// Checks of a list of bands: Krein index against spectrum, mode counts on the full model, and the part of
+/// the range that is proven free of unlisted bands.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.
     pub speeds_checked: usize,
-    /// Speeds at which it did not match, not even on the full model, in rad/s.
+    /// Speeds at which it did not match even on the full model, in rad/s.
     pub violations_rad_per_s: Vec<f64>,
-    /// Speeds at which the list of bands contradicts the eigenvalues found there.
+    /// Speeds at which the bands contradict the eigenvalues.
     pub(crate) mismatches: Vec<Mismatch>,
-    /// Whether the search ran out of its allowance of speeds.
+    /// Whether the search used up its allowed number of speeds.
     pub gave_up: bool,
-    /// Counts of modes on the full model that were certain.
+    /// Number of conclusive mode counts on the full model.
     pub full_basis_counts: usize,
-    /// Counts that were not, for an eigenvalue lies on their path.
+    /// Number of inconclusive counts, because an eigenvalue lies on their path.
     pub uncertain_counts: usize,
-    /// Where they contradict the spectra.
+    /// Counts that contradict the spectra.
     pub(crate) miscounts: Vec<Miscount>,
-    /// Whether they did so at first, and the bands were searched again on the full model.
+    /// Whether counts contradicted the spectra at first, so that the bands were searched again on the full
+    /// model.
     pub searched_again: bool,
-    /// Stretches of speed, in rad/s, that were searched and not proven to be free of bands that are
-    /// not listed; `None` where no proof was tried.
+    /// Intervals of speed, in rad/s, that were searched but not proven free of unlisted bands; `None` if no
+    /// proof was tried.
     pub unproven_rad_per_s: Option<Vec<(f64, f64)>>,
 }
 
@@ -39,33 +40,32 @@ impl Certificate {
     }
 }
 
-/// A contradiction between the list of bands and the eigenvalues of one speed.
+/// Contradiction between the list of bands and the eigenvalues at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Mismatch {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Which kind of band.
+    /// Kind of the band.
     pub kind: InstabilityKind,
-    /// Unstable modes of that kind, of divergence 1 or 0.
+    /// Number of unstable modes of that kind; for divergence 1 or 0.
     pub unstable_modes: usize,
-    /// Bands of that kind that cover the speed.
+    /// Number of bands of that kind at that speed.
     pub bands: usize,
-    /// Growth of the fastest of the modes, in 1/s.
+    /// Growth rate of the fastest of the modes, in 1/s.
     pub growth_per_s: f64,
     /// Largest peak of the bands, in 1/s.
     pub peak_per_s: f64,
 }
 
-/// A speed this close to an edge of a band, relatively, may be on either side of it: the coarser
-/// models of the search and the chart shift edges by 1e-5.
+/// A speed this close to the edge of a band, relatively, may be on either side of it: the coarser models of
+/// search and chart shift edges by 1e-5.
 const EDGE_TOLERANCE: f64 = 5e-5;
-/// A mode may grow this much faster than the peak of its band: coarse models of the search are
-/// off by as much, see `LIKENESS` of the continuation.
+/// A mode may grow this much faster than the peak of its band, because the coarse models of the search have
+/// errors of this size, see `LIKENESS` of the continuation.
 const PEAK_TOLERANCE: f64 = 0.03;
 
-/// Holds a list of bands against the modes of a speed: as many bands of each kind as unstable
-/// modes, none that grows faster than the peak of its band. `floor_per_s` is the growth below
-/// which a mode may be rounding.
+/// Compares bands with the modes at a speed: each kind must have as many bands as unstable modes, and no mode
+/// may grow faster than the peak of its band. `floor_per_s` is the growth below which a mode may be rounding.
 pub fn mismatches(bands: &[Instability], signature: &Signature, floor_per_s: f64) -> Vec<Mismatch> {
     let speed = signature.speed_rad_per_s;
     let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;

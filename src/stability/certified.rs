@@ -1,4 +1,4 @@
-//! The bands of an undamped blade, and everything that they are held against.
+//! Bands of an undamped blade and their checks.
 
 use super::band::{Instability, InstabilityKind};
 use super::certificate::{Certificate, Mismatch, mismatches};
@@ -13,36 +13,37 @@ use super::proof::Proof;
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
-/// How much a list of bands is held against.
+/// Depth of the checks of a list of bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Depth {
-    /// Krein index and list at every speed, and counts on the full model at a few: for many saws.
+    /// Krein index and bands at every speed, and counts on the full model at a few: for studies of many saws.
     Counts,
-    /// The same with counts beside and within every band, and a proof for the speeds between.
+    /// As `Counts`, plus counts beside and within every band and a proof for the speeds between.
     Proof,
 }
 
-/// Relative error allowed of the square of an eigenvalue between two speeds of the search, and of a growth: what a band is
-/// made of is computed where the pieces say that it is.
+/// Relative error allowed for the square of an eigenvalue between two speeds of the search, and for a growth
+/// rate. The bands themselves are then computed where the pieces locate them.
 const SQUARE_TOLERANCE: f64 = 1e-3;
 const GROWTH_TOLERANCE: f64 = 0.05;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_NOISE: f64 = 1e-7;
-/// Even speeds at which modes are counted on the full model.
+/// Number of even speeds at which modes are counted on the full model.
 const ANCHORS: usize = 12;
 /// The same, drawn at random from a fixed seed: speeds that no rule of the search prefers.
 const DRAWN: u64 = 8;
-/// Factorizations of the order of the basis cost a hundred times as much as counts by blocks.
+/// Number for dense factorizations, which cost a hundred times as much as counts by blocks.
 const DENSE_ANCHORS: usize = 3;
-/// Distance from the edges of a band at which its modes are counted, as a share of its width.
+/// Distance from the edges of a band at which its modes are counted, as a share of the band's width.
 const BESIDE: f64 = 0.02;
-/// The least distance from an edge, as a share of its speed.
+/// Least distance from an edge, as a share of its speed.
 const LEAST_BESIDE: f64 = 6e-5;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
-/// Every band within a range, searched for between the first and the last of some speeds, which begin no later than
-/// the range or the lowest critical speed. Where modes are miscounted the bands are searched again on the full model.
+/// Finds every band within a range by a search between the first and the last of `speeds`, which begin no
+/// later than the range or the lowest critical speed. Searches again on the full model if modes are
+/// miscounted.
 pub(super) fn bands(
     model: &SpectralModel,
     range: (f64, f64),
@@ -79,8 +80,8 @@ fn searched(
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let Some(full) = full else {
         evaluator.at_all(speeds)?;
-        // Nothing couples the waves of a free blade, so they cross and never coalesce.
-        // In the frame of the blade each harmonic is a symmetric problem.
+        // The waves of a free blade are uncoupled, so they cross and never coalesce. In the frame of the
+        // blade each harmonic is a symmetric problem.
         let certificate = Certificate {
             unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
             ..evaluator.certificate()
@@ -120,7 +121,7 @@ fn searched(
     Ok((within, certificate))
 }
 
-/// Pieces between the first and the last of some speeds.
+/// Pieces of a search between the first and the last of some speeds.
 fn searched_pieces(
     evaluator: &SignatureEvaluator<'_>,
     speeds: &[f64],
@@ -138,7 +139,7 @@ fn searched_pieces(
     search.pieces(&evaluator.with_ends_of_intervals(speeds))
 }
 
-/// What of a range lies outside the speeds of a search. Below the lowest critical speed there is nothing to search for.
+/// Part of a range outside the speeds of a search. Below the lowest critical speed no search is needed.
 fn unsearched(
     model: &SpectralModel,
     (from, to): (f64, f64),
@@ -154,7 +155,7 @@ fn unsearched(
     [(from.max(lowest), first.min(to)), (last.max(from), to)].into_iter()
 }
 
-/// Stretches within a range, ascending and joined where they touch.
+/// Intervals clipped to a range, ascending and merged where they touch.
 fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
     let mut clipped: Vec<(f64, f64)> = stretches
         .iter()
@@ -172,7 +173,7 @@ fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
     clipped
 }
 
-/// A list of bands, and what it is held against.
+/// A list of bands with the data for its checks.
 pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub full: &'a ModeCounts<'a>,
@@ -181,7 +182,7 @@ pub(super) struct Checks<'a> {
 }
 
 impl Checks<'_> {
-    /// What agrees and what does not.
+    /// Carries out the checks.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -240,7 +241,7 @@ impl Checks<'_> {
             .miscounts(&anchors, self.evaluator.height_rad_per_s())
     }
 
-    /// Both sides and the peak of every flutter band, and speeds drawn at random.
+    /// Speeds on both sides and at the peak of every flutter band, and random speeds.
     fn chosen_speeds(&self) -> Vec<f64> {
         let signatures = self.signatures;
         let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
@@ -277,11 +278,11 @@ pub(super) fn drawn_share(k: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Share of |ω| + Ω below which growth is not held against the list of bands: next to a
-/// coalescence eigenvalues are known to √ε of the largest frequency of the reduced model.
+/// Share of |ω| + Ω below which growth is not compared with the bands: next to a coalescence eigenvalues are
+/// accurate to √ε of the largest frequency of the reduced model.
 pub(super) const GROWTH_FLOOR: f64 = 1e-5;
 
-/// Where a list of bands contradicts the modes found at some speeds.
+/// Contradictions between bands and modes at some speeds.
 pub(super) fn contradictions(
     bands: &[Instability],
     signatures: &[Signature],

@@ -1,4 +1,4 @@
-//! The stability chart of a saw: samples, branches and bands of a range of speeds.
+//! Stability chart of a saw: samples, branches and bands over a range of speeds.
 
 use super::band::Instability;
 use super::certificate::Certificate;
@@ -11,10 +11,10 @@ use super::undamped;
 use crate::campbell::{Campbell, Progress};
 use crate::spectrum::{Mode, SpectralModel, SpectrumError};
 
-/// Speeds of a chart, before those that its events add.
+/// Speeds of a chart, not counting those added at events.
 pub(super) const CHART_SPEEDS: usize = 51;
 
-/// Campbell diagram, bands of instability and certificate of a range of speeds.
+/// Campbell diagram, bands of instability and certificate over a range of speeds.
 #[derive(Debug, Clone)]
 pub struct StabilityChart {
     /// Modes and branches.
@@ -26,7 +26,8 @@ pub struct StabilityChart {
 }
 
 impl StabilityChart {
-    /// Holds the bands against the modes of one more speed: what grows there and is in no band contradicts them.
+    /// Compares the bands with the modes at one more speed: a growing mode outside all bands is a
+    /// contradiction.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -52,7 +53,7 @@ impl StabilityChart {
     }
 }
 
-/// Charts a range of speeds, sampled at `count` even speeds and where it matters.
+/// Charts a range of speeds, sampled at `count` even speeds and near events.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
@@ -65,7 +66,7 @@ pub fn chart(
     drawn(model, range, count, Detail::Full, progress)
 }
 
-/// The same, drawn more or less closely.
+/// Charts a range of speeds with a chosen detail.
 pub(super) fn drawn(
     model: &SpectralModel,
     range: (f64, f64),

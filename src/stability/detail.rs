@@ -1,11 +1,11 @@
-//! How closely a chart is drawn.
+//! Detail of a chart.
 
-/// How closely a chart is drawn. Critical speeds and bands do not depend on it.
+/// Detail of a chart. Critical speeds and bands do not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Detail {
-    /// As the figures show it.
+    /// Detail of the figures.
     #[default]
     Full,
-    /// At fewer speeds, without root loci: for a chart that is looked at for a moment.
+    /// Fewer speeds and no root loci: for a quick preview.
     Sketch,
 }

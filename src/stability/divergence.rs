@@ -1,4 +1,4 @@
-//! Divergence: a real λ > 0, from one critical speed to the next.
+//! Divergence: a real λ > 0 between critical speeds.
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
@@ -8,8 +8,8 @@ use super::pair_continuation::VICINITY;
 use super::signature::Signature;
 use crate::spectrum::{SpectralModel, SpectrumError};
 
-/// Stretches of speed with a real λ > 0, by ascending signatures. They begin and end at critical speeds, or at
-/// `coalescences`, where two real λ coalesce and go on as flutter.
+/// Intervals of speed with a real λ > 0, from signatures in ascending order. They begin and end at critical
+/// speeds or at `coalescences`, where two real λ coalesce and continue as flutter.
 pub(super) fn divergence(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
@@ -42,7 +42,7 @@ pub(super) fn divergence(
     Ok(bands)
 }
 
-/// Parts of a stretch that are sampled for its largest growth, besides where the search looked.
+/// Parts of an interval that are sampled for its largest growth, in addition to the speeds of the search.
 const PARTS: usize = 8;
 
 fn band(
@@ -70,7 +70,7 @@ fn band(
     for speed in parts.filter(is_clear) {
         samples.extend(at(speed)?);
     }
-    // λ² passes linearly through zero at a critical speed: the chord is its slope.
+    // λ² passes linearly through zero at a critical speed, so its chord gives the slope.
     let zero = |at: f64| Sample {
         at,
         value: 0.0,
@@ -86,7 +86,7 @@ fn band(
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximise(samples, at)?;
-    // The few states between two speeds say where growth is largest, the projection how large.
+    // The few states between two speeds locate the largest growth; the projection gives its size.
     let peak_growth_per_s = match found {
         Some(found) if found.value > 0.0 => {
             let exact = evaluator.divergence(found.at)?;
@@ -110,8 +110,8 @@ fn band(
     })
 }
 
-/// Divergence between two critical speeds that the search passes in one step. Where the
-/// number of negative directions of K(Ω) is odd there is a real λ > 0.
+/// Divergence between two critical speeds that the search passes in one step. An odd number of negative
+/// directions of K(Ω) implies a real λ > 0.
 pub(super) fn close_pairs(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
@@ -132,7 +132,7 @@ pub(super) fn close_pairs(
         .collect()
 }
 
-/// The band between two critical speeds as close as that, within limits: its growth hardly changes.
+/// Band between two such close critical speeds, clipped to the range. Its growth is nearly constant.
 fn between(
     evaluator: &SignatureEvaluator<'_>,
     critical: &[f64],
@@ -152,25 +152,25 @@ fn between(
     })
 }
 
-/// What a stretch of divergence begins or ends at.
+/// Begin or end of divergence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Edge {
     /// A critical speed: λ passes through zero.
     Critical,
-    /// The coalescence of two real λ, which go on as flutter: neither is zero.
+    /// Coalescence of two real λ, which continue as flutter.
     Coalescence,
-    /// The range ends inside.
+    /// End of the range inside the band.
     Range,
 }
 
-/// Where divergence begins or ends between a stable and an unstable speed: at the
-/// critical speed or the coalescence of two real λ between them, or at the end of the range.
+/// Begin or end of divergence between a stable and an unstable speed: the critical speed or the coalescence
+/// of two real λ between them, or the end of the range.
 fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f64) -> (f64, Edge) {
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
-    // Of several coalescences the one that is next to what diverges. That of a stable speed may lie just beyond it, by as
-    // much as the states are off from which the speed is known.
+    // Among several coalescences, takes the one nearest to the divergence. The coalescence may lie slightly
+    // beyond a stable speed, by the error of the states that gave it.
     let coalescence = |to: f64| {
         let beyond = stable + (stable - to).signum() * VICINITY * stable;
         let between = |speed: &&f64| (beyond.min(to)..=beyond.max(to)).contains(*speed);
@@ -183,7 +183,7 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
         .iter()
         .copied()
         .find(|speed| (low..=high).contains(speed));
-    // Beside a critical speed at which one of two real λ turns stable, both go on to where they coalesce.
+    // Beside a critical speed at which one of two real λ turns stable, both continue up to their coalescence.
     let (to, otherwise) = match critical {
         Some(speed) => (speed, (speed, Edge::Critical)),
         None => (unstable, (unstable, Edge::Coalescence)),
@@ -195,7 +195,8 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
 mod tests {
     use super::*;
 
-    /// Flutter turns into two real λ at 3, of which one passes zero at 4: divergence lasts from 3 on, not from 4.
+    /// Flutter turns into two real λ at 3, one of which passes zero at 4: divergence lasts from 3 on, not
+    /// from 4.
     #[test]
     fn divergence_begins_where_two_real_eigenvalues_part() {
         let begin =
@@ -204,13 +205,13 @@ mod tests {
         assert_eq!(begin(&[4.0], &[]), (4.0, Edge::Critical));
         assert_eq!(begin(&[3.0], &[4.0]), (3.0, Edge::Critical));
         assert_eq!(begin(&[], &[3.0, 4.0]), (4.0, Edge::Coalescence));
-        // The same on the way down, and without a speed at which nothing diverges.
+        // Same with falling speed, and without a speed at which nothing diverges.
         assert_eq!(
             edge(&[3.0], &[4.0], Some(5.0), 2.0),
             (4.0, Edge::Coalescence)
         );
         assert_eq!(edge(&[3.0], &[4.0], None, 2.0), (2.0, Edge::Range));
-        // Of a speed that the states show on the wrong side of the coalescence.
+        // A speed that the states place on the wrong side of the coalescence.
         assert_eq!(
             edge(&[], &[5.0001], Some(5.0), 2.0),
             (5.0001, Edge::Coalescence)

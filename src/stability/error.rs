@@ -1,24 +1,24 @@
-//! Why a saw could not be analysed.
+//! Errors of an analysis.
 
 use crate::campbell::CampbellError;
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 
-/// Why a saw could not be analysed: an eigenproblem without an answer, or a sweep that the model
-/// does not hold for.
+/// Reason why a saw could not be analysed: a failed eigenproblem, or a sweep beyond the validity of the
+/// model.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
-    /// The saw without the forces of its cut is refused.
+    /// The saw without its cutting forces is refused.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The chart would not fit into the memory allowed.
+    /// The chart does not fit into the allowed memory.
     #[error(transparent)]
     Campbell(CampbellError),
-    /// The blade would be torn long before the end of the sweep.
+    /// The blade would yield long before the end of the sweep.
     #[error(
         "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
     )]
@@ -28,14 +28,14 @@ pub enum AnalysisError {
         /// Fastest speed allowed.
         limit_rpm: f64,
     },
-    /// Waves that the basis does not hold become critical within the sweep.
+    /// Waves missing from the basis become critical within the sweep.
     #[error(
         "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that the largest basis holds, are critical there; end the sweep earlier"
     )]
     Unresolved {
         /// End of the sweep.
         to_rpm: f64,
-        /// Lowest critical speed of the most diameters.
+        /// Lowest critical speed of the waves with most diameters.
         limit_rpm: f64,
         /// Largest number of nodal diameters in the basis.
         diameters: usize,

@@ -1,4 +1,4 @@
-//! How far off the numbers of an analysis may be, each of its own.
+//! Estimated errors of the results of an analysis, one by one.
 
 mod damped;
 mod hump;
@@ -19,35 +19,35 @@ use crate::spectrum::{
 };
 use crate::system::GyroscopicSystem;
 
-/// Estimated errors, from what a larger basis would change.
+/// Estimated errors, from the changes that a larger basis would make.
 #[derive(Debug)]
 pub struct Estimates {
     larger: LargerBasis,
-    /// Of each critical speed within the range, relative to it.
+    /// Relative error of each critical speed within the range.
     pub critical: Vec<f64>,
-    /// Largest of the lowest frequencies at rest, relative.
+    /// Largest relative error of the lowest frequencies at rest.
     pub at_rest: f64,
-    /// Largest error of a frequency that is drawn, relative to what it is seen from the blade.
+    /// Largest error of a drawn frequency, relative to its value in the frame of the blade.
     pub drawn: f64,
-    /// Of each band.
+    /// Errors of each band.
     pub bands: Vec<BandError>,
 }
 
-/// Estimated errors of a band; `None` where the larger basis tells nothing.
+/// Estimated errors of a band; `None` where the larger basis gives no estimate.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BandError {
-    /// Of its speeds, relative.
+    /// Relative error of its speeds.
     pub speed: Option<f64>,
-    /// Of its largest growth rate, relative.
+    /// Relative error of its largest growth rate.
     pub growth: Option<f64>,
 }
 
 impl BandError {
-    /// From what the larger basis changes. A band is the meeting of two waves, whose errors may
-    /// cancel by chance: that of the critical speeds is added; and its edges are known no better
-    /// than its growth, in units of its width.
+    /// Error of a band, from the changes that the larger basis makes. A band is the coalescence of two waves
+    /// whose errors may cancel by chance, so the error of the critical speeds is added. Its edges are no more
+    /// accurate than its growth, in units of its width.
     fn of(self, band: &Instability, critical: f64) -> Self {
-        // A band may begin at rest, never end there.
+        // A band may begin at rest but never ends there.
         let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
         let of_width = match band.kind {
             InstabilityKind::Divergence => WIDTH_REMAINDER * critical / width,
@@ -64,18 +64,19 @@ impl BandError {
     }
 }
 
-/// What the larger basis in its turn leaves out of a growth rate, which converges less evenly than
-/// speeds do: on twelve drawn saws the true error was up to 2.9 times what it tells.
+/// Factor for the error of growth rates that the larger basis leaves. Growth rates converge less evenly than
+/// speeds: on twelve random saws the true error was up to 2.9 times the estimate.
 const GROWTH_REMAINDER: f64 = 3.0;
-/// Share of the error of a critical speed that the difference of two of them keeps where what a larger basis tells of both cancels:
-/// of 176 bands of drawn saws the growth of two, less than a hundredth of their speed wide, was off by 0.07 of it.
+/// Share of the error of a critical speed that remains in the difference of two of them even if the estimates
+/// of both cancel. Of 176 bands of random saws, the growth of two (narrower than a hundredth of their speed)
+/// was wrong by 0.07 of it.
 const WIDTH_REMAINDER: f64 = 0.1;
-/// Where the drawn frequencies are looked at, as shares of the range: speeds that a chart has
-/// however closely it is drawn.
+/// Speeds, as shares of the range, at which errors of drawn frequencies are estimated; every chart contains
+/// them.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];
 
 impl Estimates {
-    /// Measures the errors of a chart.
+    /// Estimates the errors of a chart.
     ///
     /// # Errors
     /// [`SpectrumError`] when a small eigenproblem fails.
@@ -130,7 +131,7 @@ impl Estimates {
         Ok(estimates)
     }
 
-    /// Relative errors of the frequencies of modes of one speed, seen from the blade.
+    /// Relative errors of the frequencies of modes at one speed, in the frame of the blade.
     pub fn frequencies(
         &self,
         model: &SpectralModel,
@@ -160,8 +161,8 @@ impl Estimates {
         }
     }
 
-    /// A component at the peak of a band on the span of some of its vectors, and the same softened by what the larger
-    /// basis would change there. The vectors of the span come with them.
+    /// Projects a component at the peak of a band on some of its vectors, without and with the softening by
+    /// the larger basis. Returns the vectors too.
     fn projected(
         &self,
         model: &SpectralModel,
@@ -179,7 +180,7 @@ impl Estimates {
         (basis, [found, larger])
     }
 
-    /// Flutter of an undamped blade, on the two waves that have merged.
+    /// Estimates flutter of an undamped blade on the two waves that coalesce.
     fn merging(
         &self,
         model: &SpectralModel,
@@ -200,8 +201,8 @@ impl Estimates {
         merged([&found, &larger], &states, band)
     }
 
-    /// Growth of a damped blade, on the mode that grows and those next to it: the larger basis moves the band, so that
-    /// the largest growth of both is compared, wherever it is.
+    /// Estimates growth of a damped blade on the growing mode and its neighbours. The larger basis shifts the
+    /// band, so the largest growth rates are compared wherever they occur.
     fn damped(
         &self,
         model: &SpectralModel,
@@ -227,8 +228,8 @@ impl Estimates {
         })
     }
 
-    /// Divergence between two critical speeds, on the waves that stand there and the one that
-    /// grows: the larger basis moves both speeds, and what grows between them.
+    /// Estimates divergence between two critical speeds on the waves that stand still there and the growing
+    /// mode. The larger basis shifts both speeds and changes the growth between them.
     fn standing(
         &self,
         model: &SpectralModel,
@@ -255,19 +256,19 @@ impl Estimates {
     }
 }
 
-/// The size of a relative difference, if it is one.
+/// Magnitude of a relative difference, if it is a number.
 fn told(difference: f64) -> Option<f64> {
     difference.is_finite().then_some(difference.abs())
 }
 
-/// Divergence of a small system: between two critical speeds.
+/// Divergence of a small system between two critical speeds.
 struct Lean {
     from: f64,
     growth: f64,
 }
 
 impl Lean {
-    /// The band of a small system that lies where a band was found.
+    /// Band of a small system at the position of a known band.
     fn new(system: &GyroscopicSystem, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let critical = critical_speeds(system)?;
         let speeds: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
@@ -289,16 +290,16 @@ impl Lean {
     }
 }
 
-/// Ends of a band that are critical speeds are so to this.
+/// Relative tolerance within which the end of a band is a critical speed.
 const SAME_SPEED: f64 = 1e-6;
-/// Components that a band of divergence is divided into to find its fastest growth.
+/// Parts of a band of divergence in the search for its largest growth.
 const LEANING_LOOKS: usize = 16;
-/// Modes that the growth of a damped band is estimated with.
+/// Number of modes in the estimate for a damped band.
 const NEAR_MODES: usize = 6;
 /// Vectors closer than this to the span of the others are left out.
 const INDEPENDENT: f64 = 1e-6;
 
-/// The growing mode of a band and the one that it has merged with, or next to it.
+/// The growing mode of a band and the mode that it coalesced with or that is nearest to it.
 fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a DescribedMode; 2]> {
     let distance =
         |m: &&DescribedMode| (m.mode.frequency_rad_per_s() - band.frequency_rad_per_s).abs();

@@ -1,4 +1,4 @@
-//! The signature of an undamped blade at any speed, held against its Krein index.
+//! Signature of an undamped blade at any speed, checked by its Krein index.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,40 +16,41 @@ use crate::spectrum::{
 };
 use crate::tuned::Tuned;
 
-/// Relative distance kept from a critical speed: λ² passes through zero there, and is
-/// known to 1e-15 of the stiffness only.
+/// Relative distance kept from a critical speed: λ² passes through zero there and is accurate only to 1e-15
+/// of the stiffness.
 pub const CRITICAL_GAP: Tuned = Tuned::new("stability/evaluator::CRITICAL_GAP", 5e-6);
-/// Critical speeds closer than this are passed in one step. The divergence between them
-/// grows by less than a hundredth of 1/s; that it is there follows from the inertia.
+/// Critical speeds closer than this are passed in one step. The divergence between them grows by less than
+/// 0.01 1/s; the inertia shows that it exists.
 pub const CRITICAL_GROUP: f64 = 2e-5;
-/// Speeds that a search may look at: twenty times what a saw needs. It bounds the time
-/// where modes cannot be told apart.
+/// Largest number of speeds in a search: twenty times what a saw needs. It limits the time if modes cannot be
+/// distinguished.
 const MOST_SPEEDS: usize = 20_000;
 
-/// Speeds that may be solved on a full model of at most [`USUAL_ORDER`] functions, each in the time of a whole sweep on
-/// a reduced model: more than any saw of the tests needs by ten times.
+/// Largest number of solves on a full model of at most [`USUAL_ORDER`] functions. Each takes as long as a
+/// whole sweep on a reduced model; the saws of the tests need a tenth of this.
 const MOST_FULL_SOLVES: f64 = 200.0;
-/// The time of one grows with the cube of the order: beyond this fewer may be solved, and none of the largest basis, where one
-/// would take minutes.
+/// The time of a solve grows with the cube of the order. Above this order fewer solves are allowed, and none
+/// on the largest basis, where one would take minutes.
 const USUAL_ORDER: f64 = 300.0;
 
-/// Speeds that may be solved on the full model.
+/// Number of solves allowed on the full model.
 fn most_full_solves(model: &SpectralModel) -> usize {
     let smaller = (USUAL_ORDER / model.plate.degrees_of_freedom() as f64).min(1.0);
     (MOST_FULL_SOLVES * smaller.powi(3)) as usize
 }
 
-/// A search on the full model begins with so many.
+/// Least number of allowed solves for a search on the full model.
 const LEAST_FOR_A_SEARCH: usize = 25;
-/// Relative distance from a speed at which the Krein index contradicts the modes, to the speeds at which it is asked again.
-/// At a coalescence the Krein signs of the two modes are rounding: squares of frequencies that are known to 1e-15 of the
-/// highest differ by so little within 1e-9 of it (a pad of 100 N/m, bands of 2e-6 of the speed).
+/// Relative distance from a speed at which the Krein index contradicts the modes to the speeds at which it is
+/// computed again. At a coalescence the Krein signs of the two modes are rounding: squares of frequencies
+/// that are accurate to 1e-15 of the highest differ by this little within 1e-9 of it (a pad of 100 N/m, bands
+/// of 2e-6 of the speed).
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// Speeds at which a search on the full model solves it; between two of them it goes by their modes.
+/// Speeds at which a search solves the full model; between two of them it uses their modes.
 const ANCHORS: usize = 13;
 
-/// Where the Krein index was compared, and where it did not match.
+/// Speeds at which the Krein index was compared and at which it did not match.
 #[derive(Debug, Default)]
 struct Tally {
     checked: AtomicUsize,
@@ -57,21 +58,21 @@ struct Tally {
     violations: Mutex<Vec<f64>>,
 }
 
-/// Modes above the highest frequency that is sound among which a search finds a gap to end in.
+/// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
 const BESIDES: usize = 8;
 
-/// Evaluates signatures, checks the Krein index of each, and counts.
+/// Evaluates signatures, checks the Krein index of each, and counts them.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
     low: Option<SearchModel<'a>>,
     tally: Tally,
     seen: Seen,
-    /// Whether its solves take the place of a reduced model that lacks something, and are few.
+    /// Whether its solves replace an insufficient reduced model and are limited in number.
     is_second_search: bool,
 }
 
 impl<'a> SignatureEvaluator<'a> {
-    /// An evaluator on an undamped blade, for the speeds between the first and the last given.
+    /// An evaluator for an undamped blade between the first and the last speed given.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -83,12 +84,12 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(Self::of(model, low))
     }
 
-    /// Whether the full model is small enough to be solved at every speed of a search.
+    /// Whether the full model is small enough for a solve at every speed of a search.
     pub fn has_full_model_within_reach(model: &SpectralModel) -> bool {
         most_full_solves(model) > LEAST_FOR_A_SEARCH
     }
 
-    /// The same by modes of the full model, whatever the projections of the model lack: slow.
+    /// An evaluator that uses the modes of the full model instead of the projections: slow.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -110,7 +111,7 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// Some ascending speeds, and those at which one interval ends and the next begins.
+    /// The given ascending speeds and the boundaries between intervals of the model.
     pub fn with_ends_of_intervals(&self, speeds: &[f64]) -> Vec<f64> {
         let mut all = speeds.to_vec();
         if let [first, .., last] = speeds {
@@ -122,7 +123,7 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// The speeds checked so far.
+    /// Checks of the speeds so far.
     pub fn certificate(&self) -> Certificate {
         let violations = self.tally.violations.lock();
         let mut violations =
@@ -136,14 +137,14 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// Whether it has looked at as many speeds as it may.
+    /// Whether the allowed number of speeds is used up.
     pub fn is_exhausted(&self) -> bool {
         self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
             || self.tally.solved_in_full.load(Ordering::Relaxed) > most_full_solves(self.model)
     }
 
-    /// The signature at a speed. Where it contradicts the Krein index it is read
-    /// again off the full model, and the index is asked beside it; what contradicts even then is a violation.
+    /// Computes the signature at a speed. If it contradicts the Krein index, it is computed again on the full
+    /// model and the index beside it; a remaining contradiction is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -152,7 +153,7 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
     }
 
-    /// The modes of that signature.
+    /// Modes of the signature at a speed.
     fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
         if let Some(low) = &self.low {
@@ -188,7 +189,7 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(modes)
     }
 
-    /// Those of the projections.
+    /// Modes of the projections at a speed.
     fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         match &self.low {
             Some(low) => low.projected_modes(speed_rad_per_s),
@@ -196,8 +197,8 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// The signature by the smallest model, counted and checked nowhere: for a guess that is proven
-    /// or refuted by other means.
+    /// Signature of the smallest model, neither counted nor checked: a guess that other means prove or
+    /// refute.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -209,8 +210,8 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
     }
 
-    /// The squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where their signs
-    /// are rounding, and once no more speeds may be looked at.
+    /// Squares of the eigenvalues at a speed, for a search by pieces. `None` next to a critical speed, where
+    /// their signs are rounding, and once the allowed number of speeds is used up.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -229,7 +230,7 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(Some(sample))
     }
 
-    /// λ² with its slope and Krein sign of every mode up to a few above the height.
+    /// λ² with slope and Krein sign for every mode up to a few above the highest frequency.
     fn squares(&self, modes: &[Mode]) -> Vec<((c64, c64), i8)> {
         let mut followed: Vec<&Mode> = modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
@@ -255,12 +256,12 @@ impl<'a> SignatureEvaluator<'a> {
         squares
     }
 
-    /// Signatures of the speeds of which samples were taken, ascending.
+    /// Signatures at the sampled speeds, ascending.
     pub fn signatures(&self) -> Vec<Signature> {
         self.seen.signatures()
     }
 
-    /// The quadruple at a speed next to an expected eigenvalue.
+    /// Quadruple at a speed next to an expected eigenvalue.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -287,7 +288,7 @@ impl<'a> SignatureEvaluator<'a> {
         )
     }
 
-    /// The growing and the decaying mode of a quadruple at a speed, to rounding.
+    /// The growing and the decaying mode of a quadruple at a speed, accurate to rounding.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -307,13 +308,13 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// A pair followed to another speed.
+    /// Follows a pair to another speed.
     pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
         self.low.as_ref()?.moved(pair, speed_rad_per_s)
     }
 
-    /// Largest growth of a divergent mode next to a critical speed, where the Krein index
-    /// cannot be read off rounded eigenvalues.
+    /// Largest growth of a divergent mode next to a critical speed, where rounded eigenvalues do not give the
+    /// Krein index.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -333,13 +334,13 @@ impl<'a> SignatureEvaluator<'a> {
         below(from_rad_per_s) != below(to_rad_per_s)
     }
 
-    /// Holds the spectrum against the inertia of the stiffness, which comes from
-    /// another, symmetric eigenproblem on the full model.
+    /// Compares the spectrum with the inertia of the stiffness, which comes from a separate symmetric
+    /// eigenproblem on the full model.
     fn match_index(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
         krein_index(modes) == self.model.negative_stiffness_directions(speed_rad_per_s)
     }
 
-    /// The signatures of many speeds, in parallel.
+    /// Signatures at many speeds, in parallel.
     ///
     /// # Errors
     /// [`SpectrumError`] of the lowest speed that fails.
@@ -349,7 +350,7 @@ impl<'a> SignatureEvaluator<'a> {
     }
 }
 
-/// Of ascending speeds the first, the last, and some about evenly spread between.
+/// The first and the last of ascending speeds and some about evenly spaced between.
 fn anchors(speeds: &[f64]) -> Vec<f64> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Vec::new();

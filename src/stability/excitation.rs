@@ -1,9 +1,9 @@
-//! Where excitation at multiples of the rotation speed meets the natural frequencies.
+//! Crossings of natural frequencies with excitation at multiples of the rotation frequency.
 //!
-//! On the line of order k the frequency seen from space is kΩ. Between two speeds of the chart at
-//! which a branch lies on different sides of it, the crossing is a root of ω(Ω) − kΩ, found on the
-//! modes of the speeds between. It makes L(ikΩ) singular: without damping
-//! K₀x = Ω²[k² − 2ikG − (K_σ − N)]x, of which a critical speed is the case k = 0.
+//! On the line of order k, the frequency in the fixed frame is kΩ. If a branch lies on different sides of it
+//! at two speeds of the chart, the crossing is a root of ω(Ω) − kΩ, found on the modes at speeds between.
+//! There L(ikΩ) is singular: without damping K₀x = Ω²[k² − 2ikG − (K_σ − N)]x, which for k = 0 gives the
+//! critical speeds.
 
 use rayon::prelude::*;
 
@@ -15,21 +15,21 @@ use crate::spectrum::{SpectralModel, SpectrumError};
 /// A speed at which a mode has the frequency of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// The line.
+    /// Excitation line.
     pub line: ExcitationLine,
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// The point of the chart before it: speed and mode.
+    /// Point of the chart before it: speed and mode.
     pub point: (usize, usize),
 }
 
 /// Relative error of a crossing's speed.
 const TOLERANCE: f64 = 1e-9;
-/// A branch that stays this close to a line is the line: a rigid tilt that nothing holds turns with
-/// twice the speed, whatever the speed.
+/// A branch that stays this close to a line coincides with it: a free rigid tilt turns with twice the
+/// rotation speed at every speed.
 const ON_THE_LINE: f64 = 1e-7;
 
-/// Every crossing of the lines with the branches of a chart, by line and speed.
+/// Crossings of the lines with the branches of a chart, by line and speed.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -82,8 +82,8 @@ pub fn crossings(
     Ok(found)
 }
 
-/// The speed between two at which a frequency of a component is that of the line; `ends` are the
-/// speeds and frequencies of a branch.
+/// Speed between two others at which a frequency of a component equals that of the line. `ends` are speeds
+/// and frequencies of a branch.
 fn root(
     model: &SpectralModel,
     line: ExcitationLine,

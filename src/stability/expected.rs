@@ -1,4 +1,4 @@
-//! How long a chart may take, estimated before it begins.
+//! Estimate of the time for a chart before it begins.
 
 use std::fmt;
 
@@ -8,19 +8,20 @@ use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::Assembled;
 
-/// Work that a user should hear of before it begins, in seconds of processor time.
+/// Work that is announced to the user before it begins, in seconds of processor time.
 const LONG_S: f64 = 10.0;
-/// Processor time for ten critical speeds, and the power of their number by which it grows. Each pair of waves that are
-/// reflected within the sweep may couple, and the order of the reduced model that a pair is looked at in grows with their
-/// number, its eigenproblem with the cube of this order. The guided saw of the paper took 7 s for 22 of them and 198 s for 42, by these
-/// numbers 8 s and 196 s.
+/// Processor time for ten critical speeds, and the power of their number by which it grows. Each pair of
+/// waves reflected within the sweep may couple; the order of the reduced model for a pair grows with their
+/// number, and the eigenproblem with the cube of this order. The guided saw of the paper took 7 s for 22
+/// critical speeds and 198 s for 42; these numbers give 8 s and 196 s.
 const GUIDED: (f64, i32) = (0.15, 2 + 3);
-/// The same with damping, which took 67 s for 22.
+/// Same with damping, which took 67 s for 22 critical speeds.
 const DAMPED: (f64, i32) = (1.3, 2 + 3);
-/// Waves of a free blade do not couple: that of the paper took 0.5 s for 26 of them, 2.5 s for 46 and 6.9 s for 68.
+/// Waves of a free blade are uncoupled: the paper's took 0.5 s for 26 critical speeds, 2.5 s for 46 and 6.9 s
+/// for 68.
 const FREE: (f64, i32) = (0.022, 3);
 
-/// What a chart takes, as far as that is known before it begins.
+/// Expected work for a chart, as far as it is known before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedWork {
     /// Critical speeds within the sweep.
@@ -32,9 +33,10 @@ pub struct ExpectedWork {
 }
 
 impl ExpectedWork {
-    /// Of the sweep that a scene names, from the number of critical speeds in the first size of basis that holds them. In
-    /// large bases the inertia of the stiffness tells it: finding hundreds of them takes minutes itself. `None` where the
-    /// smallest basis holds them all, which makes a short search, and where they cannot be computed.
+    /// Expected work for the sweep of a scene, from the number of critical speeds in the first basis that
+    /// contains them. In large bases, the inertia of the stiffness gives this number, because finding
+    /// hundreds of them takes minutes. `None` if the smallest basis contains them all, so that the search is
+    /// short, and where they cannot be computed.
     pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
         let mut counted = None;
@@ -69,7 +71,7 @@ impl ExpectedWork {
         })
     }
 
-    /// Whether a user should hear of it before it begins.
+    /// Whether to announce the work to the user.
     pub fn is_long(&self) -> bool {
         self.seconds > LONG_S
     }

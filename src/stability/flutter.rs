@@ -1,4 +1,4 @@
-//! Flutter bands: what a quadruple does from the speed at which it begins to that at which it ends.
+//! Flutter bands: a quadruple from the speed at which it begins to the speed at which it ends.
 
 use faer::c64;
 use rayon::prelude::*;
@@ -13,13 +13,14 @@ use super::quadruples::{Bound, Stretch, stretches};
 use super::signature::SignedMode;
 use crate::spectrum::SpectrumError;
 
-/// Share of a band's width from its end at which a peak at the end is said to be.
+/// Distance from its end, as a share of a band's width, of a peak at the end.
 const BESIDE_END: f64 = 1e-3;
-/// Share of a stretch from its expected end at which a quadruple is asked for, to be followed to its end.
+/// Distance from its expected end, as a share of an interval, at which following a quadruple to its end
+/// starts.
 const INSIDE: f64 = 0.02;
-/// An end that is found further than this share of the way from what the pieces say is another's.
+/// An end further than this share of the way from the prediction belongs to another quadruple.
 const SAME_END: f64 = 0.1;
-/// One that is found nearer than this share of the way is certain.
+/// An end nearer than this share of the way is certain.
 const CERTAIN_END: f64 = 0.01;
 
 /// A quadruple followed over speed.
@@ -27,18 +28,18 @@ const CERTAIN_END: f64 = 0.01;
 pub(super) struct Quadruple {
     begin: End,
     end: End,
-    /// It at ascending speeds.
+    /// Its modes at ascending speeds.
     points: Vec<(f64, SignedMode)>,
 }
 
-/// Where a band begins or ends.
+/// Begin or end of a band.
 #[derive(Debug, Clone, Copy)]
 enum End {
-    /// At a coalescence.
+    /// A coalescence.
     Edge(Edge),
-    /// Inside the band, at the end of the range.
+    /// End of the range inside the band.
     Range(f64),
-    /// It is not followed to its end.
+    /// Unknown end: the quadruple could not be followed to it.
     Unknown(f64),
 }
 
@@ -50,7 +51,7 @@ impl End {
         }
     }
 
-    /// σ² there, where no signature says so.
+    /// σ² there, if no signature gives it.
     fn sample(&self) -> Option<Sample> {
         match self {
             End::Edge(edge) => Some(edge.sample()),
@@ -59,7 +60,7 @@ impl End {
     }
 }
 
-/// Every quadruple that pieces of a search tell, by its begin.
+/// Quadruples in the pieces of a search, by their begin.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -91,30 +92,30 @@ pub(super) fn flutter(
     bands.collect()
 }
 
-/// The part of a quadruple between two speeds.
+/// Part of a quadruple between two speeds.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     from: f64,
     to: f64,
-    /// Whether it ends before the quadruple does.
+    /// Whether the part ends before the quadruple does, at each side.
     is_cut: [bool; 2],
 }
 
 impl Part {
-    /// The speeds at which the quadruple is cut.
+    /// Speeds at which the quadruple is cut.
     fn cuts(&self) -> impl Iterator<Item = f64> {
         let ends = [self.from, self.to].into_iter().zip(self.is_cut);
         ends.filter_map(|(speed, is_cut)| is_cut.then_some(speed))
     }
 }
 
-/// A quadruple at a speed at which it is cut.
+/// A quadruple at a speed of a cut.
 struct Cut {
     sample: Sample,
     growth_and_frequency: (f64, f64),
 }
 
-/// A quadruple is another's where it is further from what the pieces say than this share of its growth.
+/// Quadruples that differ from the prediction by more than this share of its growth are others.
 const SAME_QUADRUPLE: f64 = 0.7;
 
 fn is_expected(mode: &SignedMode, square: c64) -> bool {
@@ -124,7 +125,7 @@ fn is_expected(mode: &SignedMode, square: c64) -> bool {
 }
 
 impl Quadruple {
-    /// That of a stretch; `None` where none is computed within it.
+    /// Quadruple of an interval; `None` if none was computed within it.
     fn new(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
@@ -158,7 +159,7 @@ impl Quadruple {
         Ok(Some(Quadruple { begin, end, points }))
     }
 
-    /// An end of a stretch, of which the quadruple is known at speeds inside, the nearest to the end first.
+    /// End of an interval whose quadruple is known at the given inner speeds, the nearest to the end first.
     fn end(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
@@ -186,11 +187,11 @@ impl Quadruple {
         if let Some(edge) = from_inside.filter(is_certain) {
             return Ok(End::Edge(edge));
         }
-        // The nearest speed may be nearer to the end than the states that it is known from are right.
+        // The nearest speed may be nearer to the end than the accuracy of the states that gave it.
         if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
             from_inside = followed(*speed, mode)?;
         }
-        // On a long way the pair may be taken for another that ends next to it.
+        // On a long way the pair may be mistaken for another that ends next to it.
         let beside = expected + INSIDE * (inside - expected);
         let near = match stretch.square(beside) {
             Some(square) => evaluator
@@ -220,7 +221,7 @@ impl Quadruple {
         }))
     }
 
-    /// Its ends as two real eigenvalues.
+    /// Its ends that are coalescences of two real eigenvalues.
     pub fn real_ends(&self) -> impl Iterator<Item = f64> {
         let ends = [self.begin, self.end].into_iter();
         ends.filter_map(|end| match end {
@@ -238,7 +239,7 @@ impl Quadruple {
         }
     }
 
-    /// Its band between two speeds.
+    /// Band of the quadruple between two speeds.
     fn band(
         &self,
         evaluator: &SignatureEvaluator<'_>,
@@ -259,7 +260,7 @@ impl Quadruple {
         })
     }
 
-    /// Speed of the largest growth in a part, with growth rate and frequency there.
+    /// Speed of the largest growth in a part, with growth rate and frequency.
     fn fastest(
         &self,
         evaluator: &SignatureEvaluator<'_>,
@@ -292,7 +293,7 @@ impl Quadruple {
         if let Some(cut) = cuts.iter().find(|cut| cut.sample.at == at) {
             return Ok((at, cut.growth_and_frequency));
         }
-        // Where two real λ coalesce growth does not end, and is often largest: just inside.
+        // Where two real λ coalesce growth does not vanish and is often largest just inside.
         for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at
@@ -305,13 +306,14 @@ impl Quadruple {
             }
         }
         let (speed, mode) = nearest(&known, at);
-        // To rounding, where the search goes by coarser models.
+        // Accurate to rounding, where the search uses coarser models.
         let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
         let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
         Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))
     }
 
-    /// It at a speed: followed from the nearest at which it is known, or else as the cubic between these says.
+    /// Quadruple at a speed: followed from the nearest known speed, or else from the cubic between its
+    /// neighbours.
     fn cut(
         &self,
         evaluator: &SignatureEvaluator<'_>,
@@ -340,7 +342,7 @@ impl Quadruple {
     }
 }
 
-/// Of a quadruple at some speeds that at the one nearest to another.
+/// The quadruple at the known speed nearest to a given one.
 fn nearest(known: &[(f64, SignedMode)], speed: f64) -> (f64, SignedMode) {
     let away = |x: &&(f64, SignedMode)| (x.0 - speed).abs();
     let nearest = known.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
@@ -356,7 +358,7 @@ fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
     }
 }
 
-/// The quadruple at another speed, next to what it is at those beside it.
+/// Quadruple at another speed, estimated from the neighbouring speeds.
 fn continued(
     evaluator: &SignatureEvaluator<'_>,
     known: &[(f64, SignedMode)],

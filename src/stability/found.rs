@@ -1,22 +1,22 @@
-//! Bands of a search, and what of them lies within the range asked for: the search goes a little beyond it, so that
-//! no event at an end of the range is an end of the search.
+//! Bands of a search and their part within the requested range. The search goes slightly beyond the range, so
+//! that no event at an end of the range is an end of the search.
 
 use super::band::Instability;
 use crate::spectrum::SpectrumError;
 
-/// A band over all speeds of the search.
+/// Band over all speeds of the search.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
     pub whole: Instability,
-    /// Its part within the range asked for, if there is one.
+    /// Its part within the requested range, if any.
     pub within: Option<Instability>,
 }
 
 impl Found {
-    /// From what gives the part of a band between two speeds, with the largest growth there.
+    /// A band, from a function that gives its part between two speeds with the largest growth there.
     ///
     /// # Errors
-    /// Those of `part`.
+    /// The errors of `part`.
     pub fn new(
         range: (f64, f64),
         part: impl Fn((f64, f64)) -> Result<Instability, SpectrumError>,

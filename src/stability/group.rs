@@ -1,10 +1,10 @@
-//! Neighbouring eigenvalues as one group: what they are between two speeds at which they are known.
+//! Groups of neighbouring eigenvalues, interpolated between two speeds.
 //!
-//! An eigenvalue λ is a branch of an analytic function of the speed Ω, with branch points where eigenvalues coalesce. The
-//! coefficients of the monic polynomial ∏(x − λ_k) of all that coalesce with one another are analytic there as well
-//! (T. Kato, *Perturbation theory for linear operators*, 1966, chapter II), so that cubic interpolation of them by values
-//! and slopes at two speeds serves for waves that cross, veer or coalesce, and for a pair that becomes two real eigenvalues,
-//! alike. Of two eigenvalues
+//! An eigenvalue λ is a branch of an analytic function of the speed Ω, with branch points where eigenvalues
+//! coalesce. The coefficients of the monic polynomial ∏(x − λ_k) of all eigenvalues that coalesce with one
+//! another are analytic there too (T. Kato, *Perturbation theory for linear operators*, 1966, chapter II).
+//! Cubic interpolation of these coefficients by values and slopes at two speeds therefore serves for waves
+//! that cross, veer or coalesce, and for a pair that turns into two real eigenvalues. For two eigenvalues
 //!
 //! λ₁,₂ = T/2 ± √D,  T = λ₁ + λ₂,  D = ((λ₁ − λ₂)/2)².
 
@@ -20,12 +20,12 @@ pub type Sloped = (c64, c64);
 #[derive(Debug, Clone, Copy)]
 struct Cubic {
     values: [c64; 2],
-    /// Slopes times the width of the piece.
+    /// Slopes multiplied by the width of the piece.
     rises: [c64; 2],
 }
 
 impl Cubic {
-    /// At a share t of the piece, by Hermite's formula.
+    /// Value at a share t of the piece, by Hermite's formula.
     fn at(&self, t: f64) -> c64 {
         let s = 1.0 - t;
         let ([from, to], [first, last]) = (self.values, self.rises);
@@ -33,7 +33,7 @@ impl Cubic {
             - last * (t * t * s)
     }
 
-    /// Its derivative by t.
+    /// Derivative with respect to t.
     fn rise_at(&self, t: f64) -> c64 {
         let s = 1.0 - t;
         let ([from, to], [first, last]) = (self.values, self.rises);
@@ -57,11 +57,12 @@ pub struct Group {
     from_rad_per_s: f64,
     width_rad_per_s: f64,
     mean: Cubic,
-    /// Coefficients of ∏(x − λ_k), x and λ_k from the mean on, of x^(size−2) and below: that of x^(size−1) is zero.
+    /// Coefficients of ∏(x − λ_k), with x and λ_k measured from the mean, for x^(size−2) and below: that of
+    /// x^(size−1) is zero.
     coefficients: Vec<Cubic>,
 }
 
-/// Coefficients below the first of ∏(x − λ_k), and their slopes.
+/// Coefficients of ∏(x − λ_k) below the leading one, and their slopes.
 fn monic(eigenvalues: &[Sloped]) -> Vec<Sloped> {
     let zero = c64::new(0.0, 0.0);
     let mut product: Vec<Sloped> = vec![(c64::new(1.0, 0.0), zero)];
@@ -83,7 +84,7 @@ fn mean(eigenvalues: &[Sloped]) -> Sloped {
 }
 
 impl Group {
-    /// From the same eigenvalues at both ends, in any order.
+    /// A group from the same eigenvalues at both ends, in any order.
     pub fn new((from, to): (f64, f64), ends: [&[Sloped]; 2]) -> Self {
         let width_rad_per_s = to - from;
         let cubic = |[first, last]: [Sloped; 2]| Cubic {
@@ -134,7 +135,7 @@ impl Group {
         }
     }
 
-    /// The eigenvalues at a speed of the piece with their slopes, which have no bound next to a coalescence: of
+    /// Eigenvalues at a speed of the piece with their slopes, which are unbounded next to a coalescence: from
     /// p(λ, Ω) = 0, dλ/dΩ = −p_Ω/p_λ.
     pub fn sloped_at(&self, speed_rad_per_s: f64) -> Vec<Sloped> {
         let t = self.share(speed_rad_per_s);
@@ -172,14 +173,14 @@ impl Group {
     }
 }
 
-/// Steps in which a group of more than two is looked at for the speeds at which two become complex.
+/// Steps in which a group of more than two is searched for speeds at which two become complex.
 const STEPS: usize = 32;
 /// Share of the size of a group below which an imaginary part is rounding.
 const REAL: f64 = 1e-9;
 
 impl Group {
-    /// Of a group of which the numbers are real or conjugates the stretches of the piece, by their shares from 0 to 1, over
-    /// which it has a pair of conjugates; then those over which it has two, and so on.
+    /// Intervals of the piece, as shares from 0 to 1, over which the group has one pair of conjugates, then
+    /// those over which it has two, and so on. The numbers of the group must be real or conjugates.
     pub fn complex_stretches(&self) -> Vec<Vec<(f64, f64)>> {
         let pairs = |t: f64| self.complex_pairs(t);
         let mut bounds = match self.coefficients.as_slice() {
@@ -215,7 +216,7 @@ impl Group {
         (1..=self.size() / 2).map(of_level).collect()
     }
 
-    /// Pairs of conjugates at a share of the piece.
+    /// Number of pairs of conjugates at a share of the piece.
     fn complex_pairs(&self, t: f64) -> usize {
         if let [last] = self.coefficients.as_slice() {
             return usize::from(last.at(t).re > 0.0);
@@ -229,7 +230,7 @@ impl Group {
 /// Roots of xⁿ + c₂xⁿ⁻² + … + c_n, as eigenvalues of the companion matrix.
 fn roots(coefficients: &[c64]) -> Vec<c64> {
     let size = coefficients.len() + 1;
-    // Brings the roots near one.
+    // Scales the roots to about one.
     let unit = coefficients
         .iter()
         .enumerate()
@@ -253,7 +254,7 @@ fn roots(coefficients: &[c64]) -> Vec<c64> {
 mod tests {
     use super::*;
 
-    /// Of eigenvalues in closed form by their values at both ends.
+    /// Checks the interpolation of eigenvalues given in closed form.
     fn assert_told(eigenvalues: impl Fn(f64) -> Vec<Sloped>, (from, to): (f64, f64)) {
         let group = Group::new((from, to), [&eigenvalues(from), &eigenvalues(to)]);
         for k in 1..20 {
@@ -271,7 +272,7 @@ mod tests {
         }
     }
 
-    /// 2i + 0.1Ω ± √(Ω − 1): a pair that stops oscillating against each other at Ω = 1.
+    /// 2i + 0.1Ω ± √(Ω − 1): two frequencies that coalesce at Ω = 1.
     #[test]
     fn a_pair_is_followed_through_its_coalescence() {
         let pair = |speed: f64| {
@@ -285,7 +286,7 @@ mod tests {
         assert_told(pair, (0.3, 1.9));
     }
 
-    /// ±√(Ω − 1): from the imaginary axis through zero to the real one.
+    /// ±√(Ω − 1): from the imaginary axis through zero to the real axis.
     #[test]
     fn a_pair_is_followed_through_zero() {
         let pair = |speed: f64| {
@@ -307,7 +308,7 @@ mod tests {
         assert_told(three, (0.25, 1.77));
     }
 
-    /// Two waves of which the frequencies cross: nothing but their mean and the square of their distance is needed.
+    /// Two waves with crossing frequencies: their mean and squared distance are enough.
     #[test]
     fn waves_that_cross_keep_their_slopes() {
         let waves = |speed: f64| {

@@ -1,8 +1,8 @@
-//! Growing modes of one speed, held against counts on the full model: for a saw that is looked at once, as in a cut.
+//! Growing modes at one speed, checked by counts on the full model: for a saw at a single speed, as in a cut.
 //!
-//! Of an undamped saw the lowest modes are enough, where the Krein index, n₋(K) by a factorization, says that no other
-//! grows and the counts between modes of opposite sign say that none is passed over. Of any other all eigenvalues are
-//! taken, and the lowest counted by the argument principle.
+//! For an undamped saw the lowest modes are enough if the Krein index, with n₋(K) from a factorization, shows
+//! that no other mode grows, and the counts between modes of opposite sign show that none is missed. For
+//! other saws all eigenvalues are computed, and the lowest are counted by the argument principle.
 
 use faer::c64;
 
@@ -16,26 +16,26 @@ use crate::spectrum::{
 };
 use crate::system::GyroscopicSystem;
 
-/// Growing modes of a plate at a speed, and what was checked of them.
+/// Growing modes of a plate at a speed, and their checks.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct GrowingModes {
-    /// How many modes grow; a pair of conjugate eigenvalues is one.
+    /// Number of growing modes; a pair of conjugate eigenvalues is one mode.
     pub modes: usize,
-    /// The eigenvalue of largest real part, Im λ ≥ 0; `None` of an undamped saw of which no mode grows.
+    /// Eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped saw without a growing mode.
     pub fastest: Option<c64>,
-    /// n₋(K) and the Krein index of the modes, of an undamped saw.
+    /// n₋(K) and the Krein index of the modes, for an undamped saw.
     pub krein: Option<[usize; 2]>,
-    /// Counts of modes on the full model that were certain.
+    /// Number of conclusive mode counts on the full model.
     pub full_basis_counts: usize,
-    /// Where they contradict the modes.
+    /// Counts that contradict the modes.
     pub miscounts: Vec<Miscount>,
 }
 
-/// Modes looked at first: a saw run past more critical speeds has more that matter.
+/// Modes computed at first; a saw past more critical speeds needs more.
 const LOOKED_AT: usize = 16;
 
 impl GrowingModes {
-    /// Of a plate at a speed.
+    /// Growing modes of a plate at a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -63,7 +63,7 @@ impl GrowingModes {
         self.miscounts.is_empty() && self.matches_krein()
     }
 
-    /// Whether the Krein index of an undamped saw matches.
+    /// Whether the Krein index matches, for an undamped saw.
     pub fn matches_krein(&self) -> bool {
         self.krein
             .is_none_or(|[stiffness, modes]| stiffness == modes)
@@ -155,7 +155,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::{ModeKind, companion_eigenpairs};
 
-    /// The paper's saw pushed at its rim, idle, and with a damper.
+    /// The paper's saw pushed at its rim, idling, and with a damper.
     fn plates() -> [Plate; 3] {
         let resolution = Resolution::of(Accuracy::Draft);
         let idle = Plate::new(&Scene::paper(), resolution);
@@ -168,7 +168,7 @@ mod tests {
         [pushed, idle, Plate::new(&damped.unwrap(), resolution)]
     }
 
-    /// Against every eigenvalue of the full model.
+    /// Compares with all eigenvalues of the full model.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn growing_modes_of_a_speed_are_those_of_all_eigenvalues() {
@@ -195,8 +195,8 @@ mod tests {
         assert!(growing > 6, "{growing}");
     }
 
-    /// A growing mode that is left out is missed by the index of an undamped saw and by the count of a damped one;
-    /// a wave left out by the counts between the others.
+    /// The index of an undamped saw and the count of a damped one reveal a missing growing mode; the counts
+    /// between other modes reveal a missing wave.
     #[test]
     fn a_mode_that_is_left_out_is_noticed() {
         let [pushed, idle, damped] = plates();

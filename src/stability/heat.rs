@@ -1,11 +1,10 @@
-//! How hot a blade may become.
+//! Temperature limits of a blade.
 //!
-//! With K_T the geometric stiffness of one kelvin of the scene's temperature profile, the first
-//! critical speed has fallen to the operating speed at the first rise at which
-//! K₀ + Ω²(K_σ − N) + rise K_T is singular, and the blade buckles at rest where K₀ + rise K_T is.
-//! Both are generalised symmetric eigenproblems in the rise. Between the two speeds
-//! nothing else can happen: the speeds squared and rises at which K is positive definite form a
-//! convex set.
+//! Let K_T be the geometric stiffness per kelvin of the scene's temperature profile. The first critical speed
+//! has fallen to the operating speed at the lowest rise that makes K₀ + Ω²(K_σ − N) + rise K_T singular; the
+//! blade buckles at rest where K₀ + rise K_T is singular. Both are generalised symmetric eigenproblems in the
+//! rise. No other limit can lie between the two speeds, because the squared speeds and rises with positive
+//! definite K form a convex set.
 
 use std::sync::atomic::Ordering;
 
@@ -20,20 +19,20 @@ use crate::spectrum::{
 };
 use crate::system::spread;
 
-/// A temperature rise at which the blade buckles or loses the speed asked for, and the shape of the
-/// mode.
+/// Temperature rise at which the blade buckles or its critical speed falls to a given speed, with the shape
+/// of the mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimit {
     /// Peak of the temperature profile.
     pub rise_k: f64,
-    /// The waves of the shape.
+    /// Waves in the shape.
     pub name: EventName,
 }
 
-/// Critical speed of one wave over the temperature.
+/// Critical speed of one wave as a function of temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatCurve {
-    /// The waves that stand still, at the last peak.
+    /// Waves that stand still, at the last peak.
     pub name: EventName,
     /// Peaks of the temperature profile.
     pub rise_k: Vec<f64>,
@@ -41,30 +40,30 @@ pub struct HeatCurve {
     pub speed_rad_per_s: Vec<f64>,
 }
 
-/// Which temperature rises the blade tolerates: the profile of the scene, scaled to other peaks.
+/// Temperature rises that the blade tolerates, for the profile of the scene scaled to other peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimits {
-    /// Where the lowest critical speed falls to the operating speed, if the scene gives one and
-    /// the blade does not buckle before.
+    /// Limit at which the lowest critical speed falls to the operating speed, if the scene gives one and the
+    /// blade does not buckle first.
     pub operating: Option<HeatLimit>,
-    /// Whether the operating speed is past a critical speed of the cold blade already.
+    /// Whether the operating speed is above a critical speed of the cold blade.
     pub past_critical: bool,
-    /// Where the blade buckles at rest, if it does.
+    /// Limit at which the blade buckles at rest, if any.
     pub buckling: Option<HeatLimit>,
-    /// Whether it does so before a critical speed is down at the operating speed.
+    /// Whether the blade buckles before a critical speed falls to the operating speed.
     pub buckles_first: bool,
-    /// Where the blade becomes flat, if it is buckled when cold: roll tension alone may do that.
+    /// Limit above which a blade that is buckled when cold is flat; roll tension alone may buckle it.
     pub flat_from: Option<HeatLimit>,
-    /// Lowest critical speeds over the peak of the profile.
+    /// Lowest critical speeds as functions of the peak of the profile.
     pub curves: Vec<HeatCurve>,
 }
 
-/// Peaks of the curves, and their number: the squares of critical speeds are nearly straight.
+/// Number of peaks on the curves: the squares of critical speeds are nearly straight.
 const RISES: usize = 17;
 const CURVES: usize = 5;
-/// The curves go on past the operating limit by this factor.
+/// Factor by which the curves extend past the operating limit.
 const BEYOND: f64 = 1.25;
-/// They end so close to buckling, where speeds tend to zero.
+/// Share of the buckling limit at which the curves end, because speeds tend to zero there.
 const BEFORE_BUCKLING: f64 = 1.0 - 1e-6;
 
 impl HeatLimits {
@@ -93,7 +92,7 @@ impl HeatLimits {
                 && operating.as_ref().is_none_or(later)
         };
         let buckles_first = buckling.as_ref().is_some_and(before);
-        // At speed the rotation still holds flat what has buckled at rest.
+        // At speed, rotation still keeps a blade flat that has buckled at rest.
         let operating = operating.filter(|_| !buckles_first);
         let curves = heating.curves(operating.as_ref(), buckling.as_ref())?;
         Ok(Some(HeatLimits {
@@ -107,10 +106,10 @@ impl HeatLimits {
     }
 }
 
-/// A model under more or less of its temperature.
+/// A model with variable temperature.
 struct Heating<'a> {
     model: &'a SpectralModel,
-    /// K_T per kelvin of the peak, of n = 0 … n_max.
+    /// K_T per kelvin of the peak, for n = 0 … n_max.
     per_kelvin: Vec<DMatrix<f64>>,
     /// The scene's peak.
     now_k: f64,
@@ -131,15 +130,14 @@ impl<'a> Heating<'a> {
         }
     }
 
-    /// Counts an eigenproblem, and ends where the analysis is cancelled.
+    /// Counts an eigenproblem, and fails once the analysis is cancelled.
     fn count(&self) -> Result<(), SpectrumError> {
         let counters = &self.model.counters;
         counters.heat_solves.fetch_add(1, Ordering::Relaxed);
         counters.cancellation.check()
     }
 
-    /// The first limit at a speed upwards or downwards from a peak, at which K must be positive
-    /// definite.
+    /// First limit at a speed, for rising or falling temperature from a peak at which K is positive definite.
     fn limit(
         &self,
         speed_rad_per_s: f64,
@@ -148,7 +146,7 @@ impl<'a> Heating<'a> {
     ) -> Result<Option<HeatLimit>, SpectrumError> {
         let added = AddedStress {
             stiffness: &self.per_kelvin,
-            // The model is at the scene's peak.
+            // The model includes the scene's peak already.
             from: from_k - self.now_k,
             direction,
         };
@@ -162,8 +160,8 @@ impl<'a> Heating<'a> {
         Ok(found.map(limit))
     }
 
-    /// The limit at the operating speed. Counted from the scene's temperature, or from the cold
-    /// blade where that is past the limit already; and whether even the cold blade is.
+    /// Limit at the operating speed, and whether even the cold blade is past it. Starts from the scene's
+    /// temperature, or from the cold blade if the scene is past the limit already.
     fn operating(&self, speed: f64) -> Result<(Option<HeatLimit>, bool), SpectrumError> {
         for from_k in [self.now_k, 0.0] {
             match self.limit(speed, from_k, self.direction) {
@@ -174,7 +172,7 @@ impl<'a> Heating<'a> {
         Ok((None, true))
     }
 
-    /// Peaks from none to past the limits, closer towards the end, where speeds fall faster.
+    /// Peaks from zero to past the limits, denser towards the end, where speeds fall faster.
     fn rises(&self, operating: Option<&HeatLimit>, buckling: Option<&HeatLimit>) -> Vec<f64> {
         let size = |limit: Option<&HeatLimit>| limit.map(|limit| limit.rise_k.abs());
         let shown = size(operating).map_or(0.0, |rise| BEYOND * rise);
@@ -201,7 +199,7 @@ impl<'a> Heating<'a> {
             .par_iter()
             .map(|rise_k| self.lowest_critical(*rise_k))
             .collect();
-        // Of a free blade a wave keeps its name; of a guided one its place.
+        // A wave of a free blade is identified by its name, one of a guided blade by its position.
         let free = self.model.plate.is_axisymmetric();
         let mut curves: Vec<HeatCurve> = Vec::new();
         for (rise_k, found) in rises.iter().zip(speeds?) {
@@ -220,7 +218,7 @@ impl<'a> Heating<'a> {
                     });
                     curves.len() - 1
                 });
-                // A guided blade's waves change places: the name is that of the last peak.
+                // Waves of a guided blade change places: the name is that at the last peak.
                 curves[index].name = wave.name;
                 curves[index].rise_k.push(*rise_k);
                 curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);
@@ -229,8 +227,8 @@ impl<'a> Heating<'a> {
         Ok(curves)
     }
 
-    /// The lowest critical speeds at a peak, one of each number of diameters of a free blade;
-    /// none where the blade has buckled.
+    /// Lowest critical speeds at a peak, for a free blade one for each number of diameters; none if the blade
+    /// has buckled.
     fn lowest_critical(&self, rise_k: f64) -> Result<Vec<Named>, SpectrumError> {
         self.count()?;
         let plate = &self.model.plate;

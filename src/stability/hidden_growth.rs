@@ -1,26 +1,25 @@
-//! How fast a motion could grow in a band that a stretch without proof may hide.
+//! Growth rate that an unlisted band in an unproven interval could have.
 
 use super::chart::StabilityChart;
 use crate::campbell::{Campbell, SpeedSample};
 use crate::spectrum::DescribedMode;
 
 impl StabilityChart {
-    /// Estimate of the largest growth rate, in 1/s, that a band which is not listed could have in
-    /// the stretches that are not proven to be free of one; `None` where no proof was tried, 0 where
-    /// all is proven.
+    /// Estimate of the largest growth rate, in 1/s, that an unlisted band could have in the unproven
+    /// intervals; `None` if no proof was tried, 0 if all is proven.
     ///
-    /// Two waves of opposite Krein sign whose frequencies approach by s for each unit of speed, and
-    /// that are coupled by κ, have λ − iω = ±√(κ² − (sΔΩ/2)²): a band of width w = 4κ/s, in which the
-    /// growth reaches κ = sw/4. Waves of n and m nodal diameters approach by n + m at most, but for
-    /// what the tension by rotation adds. At the speeds that are drawn the modes are known, so a band
-    /// would lie between two of them. Not proven: the two waves are taken for the only ones.
+    /// Two waves of opposite Krein sign whose frequencies approach by s per unit of speed and that are
+    /// coupled by κ have λ − iω = ±√(κ² − (sΔΩ/2)²): a band of width w = 4κ/s with growth up to κ = sw/4.
+    /// Waves of n and m nodal diameters approach by at most n + m, apart from the stiffening by rotation. The
+    /// modes at drawn speeds are known, so a hidden band would lie between two of them. This is an estimate
+    /// and no proof, because it considers only the two waves.
     pub fn unproven_growth_per_s(&self) -> Option<f64> {
         let growth = self.hidden()?.into_iter().map(|(_, growth)| growth);
         Some(growth.fold(0.0, f64::max))
     }
 
-    /// Parts of the stretches that are not proven in which a band that counts could hide, one that grows as fast as the
-    /// threshold, by the same estimate; joined where they touch.
+    /// Parts of the unproven intervals in which a band that grows at least as fast as the threshold could
+    /// hide, by the same estimate; merged where they touch.
     pub fn unproven_counting_rad_per_s(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
         let mut joined: Vec<(f64, f64)> = Vec::new();
         let hidden = self.hidden().unwrap_or_default().into_iter();
@@ -33,7 +32,7 @@ impl StabilityChart {
         joined
     }
 
-    /// Parts of the stretches that are not proven, between the speeds that are drawn, and the estimate for each.
+    /// Parts of the unproven intervals between drawn speeds, with the estimate for each.
     fn hidden(&self) -> Option<Vec<((f64, f64), f64)>> {
         let stretches = self.certificate.unproven_rad_per_s.as_ref()?;
         let drawn: Vec<f64> = self
@@ -53,10 +52,11 @@ impl StabilityChart {
     }
 }
 
-/// Waves that are to meet within a stretch have frequencies closer than this about it.
+/// Largest frequency of a wave that can coalesce with a reflected wave in an interval, relative to the
+/// highest reflected wave about it.
 const MEETING: f64 = 2.0;
 
-/// n + m of the waves of opposite signs with most nodal diameters that may meet in a stretch.
+/// Sum n + m for the waves of opposite sign with most nodal diameters that may coalesce in an interval.
 fn approach(campbell: &Campbell, from: f64, to: f64) -> f64 {
     let samples = &campbell.samples;
     let speed = |sample: &SpeedSample| sample.speed_rad_per_s;
@@ -84,7 +84,7 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::stability::{Analysis, InstabilityKind};
 
-    /// The bands that were found keep to what is said of those that were not.
+    /// The listed bands obey the estimate.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "a chart: run it in release")]
     fn listed_bands_grow_no_faster_than_the_estimate_for_their_width() {
@@ -103,7 +103,8 @@ mod tests {
         assert!(looked_at >= 7);
         let hidden = chart.unproven_growth_per_s().unwrap();
         assert!(hidden > 0.0 && hidden < 4.0 * rad_per_s(1.0), "{hidden}");
-        // A band that counts can hide only where the estimate reaches the threshold, and is as wide as that takes.
+        // A band that counts can hide only where the estimate reaches the threshold, which takes a certain
+        // width.
         assert!(chart.unproven_counting_rad_per_s(1.01 * hidden).is_empty());
         let unproven = chart.certificate.unproven_rad_per_s.iter().flatten();
         let counting = chart.unproven_counting_rad_per_s(0.5 * hidden);

@@ -19,7 +19,7 @@ impl Cubic {
         u * u * ((1.0 + 2.0 * t) * f0 + t * d0) + t * t * ((1.0 + 2.0 * u) * f1 - u * d1)
     }
 
-    /// Where its slope is zero inside (0, 1), with the values there.
+    /// Points in (0, 1) with zero slope, and the values there.
     fn stationary(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
         // f′ = a t² + b t + d0
@@ -28,14 +28,14 @@ impl Cubic {
             -6.0 * (f0 - f1) - 4.0 * d0 - 2.0 * d1,
         );
         let discriminant = (b * b - 4.0 * a * d0).max(-0.0);
-        // The form that does not cancel (Press et al., Numerical Recipes, 5.6).
+        // This form avoids cancellation (Press et al., Numerical Recipes, 5.6).
         let q = -0.5 * (b + b.signum() * discriminant.sqrt());
         let roots = [q / a, d0 / q];
         let inside = roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0);
         inside.map(|t| (t, self.at(t)))
     }
 
-    /// Place and value of its largest value on [0, 1].
+    /// Position and value of the maximum on [0, 1].
     pub fn highest(&self) -> (f64, f64) {
         let ends = [(0.0, self.values[0]), (1.0, self.values[1])];
         let all = ends.into_iter().chain(self.stationary());
@@ -45,7 +45,7 @@ impl Cubic {
     }
 }
 
-/// Where a cubic changes its sign inside (0, 1), ascending.
+/// Sign changes of a cubic in (0, 1), ascending.
 pub fn sign_changes(cubic: &Cubic) -> Vec<f64> {
     let mut bounds: Vec<f64> = cubic.stationary().map(|(t, _)| t).collect();
     bounds.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! The eigenvalues that a report lists besides those at rest, refined on the full model: peaks of bands, and the
+//! Listed eigenvalues other than those at rest, refined on the full model: at the peaks of bands, and the
 //! fastest growing or slowest decaying mode at the operating speed.
 
 use faer::c64;
@@ -9,12 +9,12 @@ use crate::spectrum::{DescribedMode, RefinedPair, SpectralModel, SpectrumError};
 
 /// Eigenvalues refined on the full model, and the largest backward error among them.
 pub(super) struct Listed {
-    /// `None` where one could not be refined.
+    /// Largest backward error; `None` if an eigenvalue could not be refined.
     largest_error: Option<f64>,
 }
 
 impl Listed {
-    /// Begins with the modes at rest, which are those of the full model.
+    /// A list that begins with the modes at rest, which come from the full model.
     pub fn new(modes_at_rest: &[DescribedMode]) -> Self {
         let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
         Listed {
@@ -48,7 +48,7 @@ impl Listed {
         Ok(())
     }
 
-    /// Refines an eigenvalue of a speed; one that neither grows nor decays stays so.
+    /// Refines an eigenvalue at a speed; a purely imaginary one stays so.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -67,7 +67,7 @@ impl Listed {
         Ok(refined.map_or(lambda, |refined| c64::new(re(refined), refined.lambda.im)))
     }
 
-    /// Largest backward error of what is listed; `None` where one could not be refined.
+    /// Largest backward error in the list; `None` if an eigenvalue could not be refined.
     pub fn largest_error(&self) -> Option<f64> {
         self.largest_error
     }
@@ -90,7 +90,7 @@ mod tests {
     use crate::stability::{InstabilityKind, chart};
     use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
-    /// Inverse iteration with factorizations of the whole matrix, from the dense eigenvalue next to one.
+    /// Inverse iteration with factorizations of the whole matrix, starting at the nearest dense eigenvalue.
     fn exact(system: &GyroscopicSystem, speed: f64, near: c64) -> c64 {
         let distance = |lambda: c64| (lambda - near).norm();
         let pairs = companion_eigenpairs(system, speed).unwrap();
@@ -115,8 +115,8 @@ mod tests {
         lambda
     }
 
-    /// Growth and frequency at the peaks of bands, and at a speed, of an undamped and of a damped saw, against dense
-    /// solves with the whole matrix.
+    /// Compares growth and frequency at peaks and at a speed, for an undamped and a damped saw, with dense
+    /// solves of the whole matrix.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn listed_eigenvalues_are_those_of_the_full_model() {
@@ -136,7 +136,7 @@ mod tests {
                 assert_eq!(band.frequency_rad_per_s == 0.0, is_real);
                 let found = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
                 let exact = exact(system, band.peak_rad_per_s, found);
-                // Of divergence rounding is that of λ², beside the lowest frequency's.
+                // For divergence rounding is that of λ² relative to the lowest frequency squared.
                 let error = (found - exact).norm() / exact.norm().max(lowest);
                 println!(
                     "{:.3} rpm {found}: {error:e}",

@@ -15,14 +15,14 @@ pub struct RootLoci {
     pub paths: [Vec<(c64, i8)>; 2],
 }
 
-/// Stretches wider than this share of their end are not spanned by the modes at both ends.
+/// Intervals wider than this share of their end are too wide for interpolation from the modes at both ends.
 const NARROW: f64 = 0.04;
 /// Speeds of the loci on each side of the band and within each half of it.
 const SPEEDS: usize = 20;
 
 impl RootLoci {
-    /// Follows the pair of a band from its peak to one width before it and one after it, inside
-    /// a range, or to where one of the two meets another mode.
+    /// Follows the pair of a band from its peak to one width below and above the band, inside a range, or
+    /// until one of the two coalesces with another mode.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -53,7 +53,7 @@ impl RootLoci {
         };
         let outwards = |edge: f64, end: f64| {
             let inside = denser_at_ends(band.peak_rad_per_s, edge);
-            // Of a band that reaches the end of the range, growth there is not zero.
+            // At the end of the range growth of a band is not zero.
             let last = (end != band.peak_rad_per_s).then_some(end);
             inside.chain(denser_at_ends(edge, end)).chain(last)
         };
@@ -72,7 +72,7 @@ impl RootLoci {
 /// A speed, and λ and Krein sign of both modes.
 type Row = (f64, [(c64, i8); 2]);
 
-/// Speeds from one to another, neither of them, closer together at both, where paths turn.
+/// Speeds strictly between two others, denser near both, where paths turn.
 fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
     let count = if from == to { 0 } else { SPEEDS };
     (0..count).map(move |k| {
@@ -81,13 +81,13 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// The modes of any speed.
+/// Function that gives the modes at a speed.
 type ModesAt<'a> = &'a dyn Fn(f64) -> Result<Vec<Mode>, SpectrumError>;
 
-/// Modes among which a pair is followed.
+/// Number of modes among which a pair is followed.
 const NEIGHBOURS: usize = 32;
 
-/// The lowest modes of a speed, ascending.
+/// Lowest modes at a speed, ascending.
 fn lowest_modes(modes_at: ModesAt<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
     let mut modes = modes_at(speed)?;
     modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
@@ -95,7 +95,7 @@ fn lowest_modes(modes_at: ModesAt<'_>, speed: f64) -> Result<Vec<Mode>, Spectrum
     Ok(modes)
 }
 
-/// The two modes among those of a speed.
+/// Two modes at a speed.
 struct Pair {
     speed: f64,
     modes: Vec<Mode>,
@@ -103,7 +103,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// The growing and the decaying mode of a band where it grows fastest.
+    /// The growing and the decaying mode of a band at its peak.
     fn at_peak(modes_at: ModesAt<'_>, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let modes = lowest_modes(modes_at, band.peak_rad_per_s)?;
         let nearest = |kind: ModeKind, growth: f64| {
@@ -127,8 +127,8 @@ impl Pair {
         (self.speed, self.chosen.map(of))
     }
 
-    /// Rows of the pair at one speed after another, as far as it stays a pair: merged within
-    /// the band, two waves beside it, that of sign +1 first.
+    /// Rows of the pair at successive speeds as long as it stays a pair: coalesced within the band, two waves
+    /// beside it, the one of sign +1 first.
     fn followed(
         &self,
         modes_at: ModesAt<'_>,
@@ -156,7 +156,7 @@ impl Pair {
         Ok(rows)
     }
 
-    /// The same two modes at another speed.
+    /// Follows the two modes to another speed.
     fn to(&self, modes_at: ModesAt<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
         let modes = lowest_modes(modes_at, speed)?;
         let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
@@ -181,7 +181,7 @@ mod tests {
     use crate::spectrum::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
 
-    /// A band that the end of the range cuts short, against a dense solve with the whole matrix there.
+    /// Compares a band that the end of the range cuts with a dense solve of the whole matrix there.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn paths_go_on_to_the_end_of_a_range_that_cuts_their_band_short() {
@@ -205,7 +205,7 @@ mod tests {
             assert!(sign * lambda.re > 0.5 * whole.peak_growth_per_s, "{lambda}");
             let off = dense.iter().map(|(exact, _)| (exact - lambda).norm());
             let off = off.fold(f64::INFINITY, f64::min);
-            // A figure shows a thousandth of the growth.
+            // A figure resolves a thousandth of the growth.
             assert!(off < 1e-3 * lambda.re.abs(), "{lambda}: {off:e}");
         }
     }

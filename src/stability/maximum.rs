@@ -1,4 +1,4 @@
-//! The largest value of a smooth function of the speed: the fastest growth of a band.
+//! Maximum of a smooth function of the speed: the largest growth of a band.
 
 use super::interpolation::Cubic;
 use crate::spectrum::SpectrumError;
@@ -11,21 +11,21 @@ pub struct Sample {
     pub at: f64,
     /// f.
     pub value: f64,
-    /// df/dΩ; not finite where it is not known.
+    /// df/dΩ; not finite if unknown.
     pub slope: f64,
 }
 
-/// The maximum is refined until the cubics promise no more than this share of it.
+/// The maximum is refined until the cubics promise an improvement below this share of it.
 const TOLERANCE: Tuned = Tuned::new("stability/maximum::TOLERANCE", 1e-5);
-/// Samples added at most.
+/// Largest number of added samples.
 const MOST_SAMPLES: usize = 24;
 
-/// Sample of the largest f, from samples at ascending speeds, which are added to where the
-/// cubics between neighbours promise more: so a narrow second hump between two samples is
-/// found where their slopes tell of it. `None` without samples.
+/// Sample of the largest f. Samples are added to the given ones, at ascending speeds, where the cubics
+/// between neighbours promise a larger value; this finds a narrow second hump if the slopes show it. `None`
+/// without samples.
 ///
 /// # Errors
-/// Those of `f`.
+/// The errors of `f`.
 pub fn maximise(
     mut samples: Vec<Sample>,
     mut f: impl FnMut(f64) -> Result<Option<Sample>, SpectrumError>,
@@ -55,8 +55,8 @@ pub fn maximise(
     Ok(greatest(&samples))
 }
 
-/// The function at a speed by the cubic between its neighbours among samples of ascending speeds, or that of the sample
-/// at the end beyond which it lies; zero without samples.
+/// Value at a speed by the cubic between its neighbours, or the value of the end sample outside the range;
+/// zero without samples.
 pub fn between(samples: &[Sample], at: f64) -> f64 {
     let place = samples.partition_point(|sample| sample.at < at);
     match samples.get(place.saturating_sub(1)..=place) {
@@ -68,7 +68,7 @@ pub fn between(samples: &[Sample], at: f64) -> f64 {
     }
 }
 
-/// That between two samples.
+/// Cubic between two samples.
 fn cubic(ends: &[Sample]) -> Cubic {
     let width = ends[1].at - ends[0].at;
     let secant = ends[1].value - ends[0].value;
@@ -82,10 +82,10 @@ fn cubic(ends: &[Sample]) -> Cubic {
     }
 }
 
-/// Share of the way and value of the largest f that the cubic between two samples promises.
+/// Position and value of the maximum of the cubic between two samples.
 fn promise(ends: &[Sample]) -> (f64, f64) {
     let (share, value) = cubic(ends).highest();
-    // Next to an end the cubic says no more than the sample there.
+    // Next to an end the cubic adds nothing to the sample there.
     if (1e-6..=1.0 - 1e-6).contains(&share) {
         (share, value)
     } else {
@@ -115,7 +115,7 @@ mod tests {
         assert!((found.value - (-0.5_f64).exp() / 2.0_f64.sqrt()).abs() < 1e-5);
     }
 
-    /// Divergence that ends where two real λ coalesce is fastest there, not zero.
+    /// Divergence that ends at a coalescence of two real λ is fastest there, not zero.
     #[test]
     fn the_maximum_may_be_at_an_end() {
         let found = largest(&[1.0, 2.0], |x| (x - 1.0, 1.0));

@@ -1,10 +1,10 @@
 //! Critical speeds, instability bands, flutter speed, and the verdict.
 //!
-//! In goes a [`Scene`](crate::scene::Scene); out comes an [`Analysis`]: critical speeds, every band of
-//! divergence and flutter with its edges (rad/s), its largest growth rate (1/s) and frequency
-//! (rad/s), the branches of the Campbell diagram, estimated errors, and a [`Certificate`] that says
-//! what was proven. [`Onsets`] is the same without a chart, for many saws; [`Analysis::verdict`] says
-//! whether a speed is stable.
+//! The input is a [`Scene`](crate::scene::Scene), the result an [`Analysis`]: critical speeds, every band of
+//! divergence and flutter with its edges (rad/s), its largest growth rate (1/s) and frequency (rad/s), the
+//! branches of the Campbell diagram, estimated errors, and a [`Certificate`] with the proven range.
+//! [`Onsets`] gives the same without a chart, for many saws; [`Analysis::verdict`] says whether a speed is
+//! stable.
 
 mod analysis;
 mod band;

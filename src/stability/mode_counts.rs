@@ -1,12 +1,12 @@
-//! Modes held against counts on the full model, which know nothing of the projection that gave them.
+//! Checks of modes by counts on the full model, which do not depend on the projection that gave the modes.
 //!
-//! Of an undamped blade L(iω) is Hermitian, and with p and m modes of Krein sign + and − between 0 and ω
+//! For an undamped blade L(iω) is Hermitian, and with p modes of Krein sign + and m of sign − between 0 and ω
 //!
 //! n₋(L(iω)) = n₋(K) + p − m.
 //!
-//! Between two modes of opposite sign the count therefore shows both, and above all of them that none is
-//! missing. A pair that has coalesced counts for nothing, a + and a − mode side by side for
-//! one between them.
+//! A count between two modes of opposite sign therefore confirms both, and one above all of them confirms
+//! that none is missing. A coalesced pair does not change the count, and a + and a − mode side by side change
+//! only the count between them.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,27 +15,27 @@ use rayon::prelude::*;
 use super::signature::{Sign, Signature};
 use crate::spectrum::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
-/// Counts of one saw.
+/// Mode counts of one saw.
 pub struct ModeCounts<'a> {
     model: &'a SpectralModel,
     basis: &'a FullModel,
     counted: AtomicUsize,
 }
 
-/// A mode that the spectrum of a speed lacks, or has too many.
+/// A missing or surplus mode in the spectrum of a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Miscount {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Between which frequencies, in rad/s.
+    /// Lower frequency, in rad/s.
     pub from_rad_per_s: f64,
-    /// The upper one.
+    /// Upper frequency, in rad/s.
     pub to_rad_per_s: f64,
-    /// How many modes of Krein sign + are missing there, less those of sign −.
+    /// Missing modes of Krein sign + minus missing modes of sign − between these frequencies.
     pub missing: isize,
 }
 
-/// What modes of a speed say of the count at a frequency.
+/// Count at a frequency that the modes of a speed imply.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Claim {
     /// ω, in rad/s.
@@ -44,13 +44,13 @@ pub(super) struct Claim {
     pub net: isize,
 }
 
-/// Place of the last count in its gap: close below the upper mode, so that none hides above.
+/// Position of the last count in its gap: close below the upper mode, so that no mode hides above.
 const BELOW_UPPER: f64 = 0.9;
-/// A wave must be so far from a coalesced pair, relatively, that the count between them means something.
+/// Least relative distance of a wave from a coalesced pair for which the count between them is meaningful.
 const CLEAR: f64 = 1e-3;
 
-/// Claims on which the reading of a signature rests: between modes of opposite sign, below and above all,
-/// and at the frequency of every coalesced pair. Of modes above `height_rad_per_s` nothing is claimed.
+/// Claims that confirm a signature: between modes of opposite sign, below and above all, and at the frequency
+/// of every coalesced pair. There are no claims about modes above `height_rad_per_s`.
 pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim> {
     let waves = &signature.waves;
     let mut claims = Vec::new();
@@ -94,17 +94,17 @@ pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim>
     claims
 }
 
-/// Between two waves of opposite sign.
+/// Gap between two waves of opposite sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gap {
-    /// ω and dω/dΩ of the wave below, and of the one above or the height of what is known.
+    /// ω and dω/dΩ of the wave below, and of the wave above or of the upper limit.
     pub sides: [(f64, f64); 2],
     /// p − m of the waves below.
     pub net: isize,
 }
 
 impl Gap {
-    /// ω of its middle, in rad/s.
+    /// Frequency in its middle, in rad/s.
     pub fn middle_rad_per_s(&self) -> f64 {
         0.5 * (self.sides[0].0 + self.sides[1].0)
     }
@@ -115,7 +115,7 @@ impl Gap {
     }
 }
 
-/// The gaps between waves of opposite sign, of which those up to a height are known.
+/// Gaps between waves of opposite sign up to a height.
 pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
     let mut net = 0;
     let mut gaps = Vec::new();
@@ -143,7 +143,7 @@ fn of_sign(sign: Sign) -> isize {
 }
 
 impl<'a> ModeCounts<'a> {
-    /// Of a guided blade; the waves of a free one are known harmonic by harmonic.
+    /// Mode counts of a guided blade; the waves of a free one are known for each harmonic.
     pub fn new(model: &'a SpectralModel) -> Option<Self> {
         (!model.plate.is_axisymmetric()).then(|| ModeCounts {
             model,
@@ -152,12 +152,12 @@ impl<'a> ModeCounts<'a> {
         })
     }
 
-    /// Counts made so far that were certain.
+    /// Number of conclusive counts so far.
     pub fn counted(&self) -> usize {
         self.counted.load(Ordering::Relaxed)
     }
 
-    /// Whether a count costs a factorization of the order of the basis.
+    /// Whether a count needs a factorization of the order of the basis.
     pub fn is_dense(&self) -> bool {
         self.basis.is_dense()
     }
@@ -167,24 +167,24 @@ impl<'a> ModeCounts<'a> {
         self.model.negative_stiffness_directions(speed_rad_per_s)
     }
 
-    /// Whether rigid motions are free, so that K is singular at every speed and n₋(L(iω)) does not
-    /// begin with n₋(K).
+    /// Whether rigid motions are free, so that K is singular at every speed and n₋(L(iω)) does not start at
+    /// n₋(K).
     pub fn has_free_motions(&self) -> bool {
         let mut components = self.model.components.iter();
         components.any(|component| !component.full.free_rigid.is_empty())
     }
 
-    /// What counts at a speed have in common.
+    /// Shared data of the counts at a speed.
     pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
         self.basis.at(speed_rad_per_s)
     }
 
-    /// Whether the count is the same all along a line between two speeds.
+    /// Whether the count is constant along a line between two speeds.
     pub fn is_count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2], count: usize) -> bool {
         self.basis.is_count_along(ends, line, count)
     }
 
-    /// What is miscounted at several speeds.
+    /// Miscounts at several speeds.
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].
@@ -206,7 +206,7 @@ impl<'a> ModeCounts<'a> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Holds ascending claims of a speed against the counts; what is not certain contradicts nothing.
+    /// Compares ascending claims at a speed with counts; inconclusive counts contradict nothing.
     pub fn of_claims(&self, speed_rad_per_s: f64, claims: &[Claim]) -> Vec<Miscount> {
         let negative = self.negative_stiffness(speed_rad_per_s) as isize;
         let begins = (!self.has_free_motions()).then_some(negative);
@@ -216,16 +216,16 @@ impl<'a> ModeCounts<'a> {
     }
 }
 
-/// Claims of a speed held against counts.
+/// Result of the comparison of claims with counts.
 pub(super) struct Counted {
-    /// Counts that were certain.
+    /// Number of conclusive counts.
     pub certain: usize,
-    /// Where they contradict the claims.
+    /// Counts that contradict the claims.
     pub miscounts: Vec<Miscount>,
 }
 
-/// Holds ascending claims against counts; what is not certain contradicts nothing. `begins` is n₋(K), with which the
-/// counts begin at ω = 0; where it is not known, the first of them is taken for right.
+/// Compares ascending claims with counts; inconclusive counts contradict nothing. `begins` is n₋(K), the
+/// count at ω = 0; if it is unknown, the first count is assumed to be right.
 pub(super) fn of_claims(
     basis: &FullModel,
     speed_rad_per_s: f64,

@@ -1,4 +1,4 @@
-//! Where a saw becomes unstable, without a chart: what a study of many saws asks.
+//! Onsets of instability without a chart, for studies of many saws.
 
 use super::band::Instability;
 use super::basis::ChosenBasis;
@@ -11,7 +11,7 @@ use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
-/// Speeds at which something begins: those of an [`Analysis`](super::Analysis), to nine digits.
+/// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
 #[derive(Debug)]
 pub struct Onsets {
     /// Lowest critical speed, in rad/s.
@@ -20,20 +20,20 @@ pub struct Onsets {
     pub critical_rad_per_s: Vec<f64>,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
-    /// Lowest speed at which flutter counts, in rad/s, see [`Instability::counted`].
+    /// Lowest speed of flutter that counts, in rad/s, see [`Instability::counted`].
     pub flutter_speed_rad_per_s: Option<f64>,
-    /// Onset of the first flutter band of all, in rad/s.
+    /// Onset of the first flutter band, in rad/s.
     pub first_merge_rad_per_s: Option<f64>,
-    /// Proof that no band is missing; nothing was compared in damped scenes.
+    /// Proof that no band is missing; without comparisons for damped scenes.
     pub certificate: Certificate,
-    /// Functions of the basis.
+    /// Number of functions of the basis.
     pub functions: usize,
     /// Estimated relative error of the critical speeds within the range.
     pub estimated_relative_error: f64,
 }
 
 impl Onsets {
-    /// Those of the idling saw over a range of speeds.
+    /// Onsets of the idling saw over a range of speeds.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails.
@@ -49,10 +49,10 @@ impl Onsets {
         Self::on(ChosenBasis::new(scene, scene.tolerance())?, scene)
     }
 
-    /// The same on a basis no smaller than that of a saw much like this one, in three quarters of the time.
+    /// Finds the onsets on a basis no smaller than that of a similar saw, in three quarters of the time.
     ///
     /// # Errors
-    /// Those of [`Onsets::new`].
+    /// The errors of [`Onsets::new`].
     pub(crate) fn beside(scene: &Scene, least: Resolution) -> Result<Self, AnalysisError> {
         let chosen = ChosenBasis::at_least(scene, scene.tolerance(), least)?;
         Self::on(chosen, scene)
@@ -70,8 +70,8 @@ impl Onsets {
         let speeds = critical.iter().map(|c| c.speed_rad_per_s);
         let critical_rad_per_s = speeds.take_while(|speed| *speed <= range.1).collect();
         let functions = saw.plate.degrees_of_freedom();
-        // Nothing couples the waves of a free blade, and nothing is reflected below the lowest
-        // critical speed: then there are no bands to search for.
+        // The waves of a free blade are uncoupled, and none is reflected below the lowest critical speed, so
+        // there are no bands to search for.
         let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
         let (instabilities, certificate) = match saw.plate.is_axisymmetric() || is_slow {
@@ -93,8 +93,8 @@ impl Onsets {
     }
 }
 
-/// Every band of a plate whose critical speeds are known, with the proof that none is missing;
-/// by the modes that can meet alone, unless damping leaves all that a chart has to be looked at.
+/// Finds every band of a plate whose critical speeds are known, with the proof that none is missing. It uses
+/// only the modes that can coalesce; a damped plate needs everything that a chart computes.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.

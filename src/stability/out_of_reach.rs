@@ -1,5 +1,5 @@
-//! Why a tolerance is out of reach of the largest basis: which guide bends the blade too sharply, and how many
-//! functions would follow it.
+//! Reason why the largest basis misses a tolerance: the guide that bends the blade most sharply, and the
+//! number of functions that would be needed.
 
 use faer::{Col, Mat};
 
@@ -11,26 +11,26 @@ use crate::plate::{Contact, ContactTerms, Plate};
 use crate::scene::{Guide, Scene};
 use crate::spectrum::{Assembled, LargerBasis};
 
-/// What keeps an analysis from the tolerance of its scene.
+/// Reason why an analysis misses the tolerance of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutOfReach {
-    /// Index of the guide that takes the largest part in it.
+    /// Index of the guide that contributes most to the error.
     pub guide: Option<usize>,
-    /// So many functions would reach it, if the error falls on by the power of their number by which it fell over the last
-    /// two sizes: right to a factor of two. `None` where that is far off.
+    /// Number of functions that would reach the tolerance if the error keeps falling by the same power as
+    /// over the last two sizes: accurate to a factor of two. `None` if it is far beyond reach.
     pub functions: Option<f64>,
-    /// Whether larger bases are there, but not for a saw with damping or forces at the rim.
+    /// Whether larger bases exist, but not for a saw with damping or forces at the rim.
     pub is_dense: bool,
 }
 
-/// Sizes over which the fall of the error is looked at.
+/// Number of sizes over which the fall of the error is measured.
 const STEPS_BACK: usize = 2;
-/// Numbers of functions beyond this are no advice.
+/// Numbers of functions above this are not reported.
 const MOST_FUNCTIONS: f64 = 1e6;
 
 impl OutOfReach {
-    /// Of a saw in the basis that was chosen for it, with the largest estimated error of what the tolerance is promised
-    /// for; `None` of a basis that none two sizes smaller is held against.
+    /// Reason for a saw in its chosen basis, with the largest estimated error that the tolerance limits;
+    /// `None` for a basis without one two sizes smaller.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem of a smaller basis fails.
@@ -61,14 +61,14 @@ impl OutOfReach {
     }
 }
 
-/// The same saw on fewer functions.
+/// The same saw with fewer functions.
 struct Smaller {
     plate: Plate,
     finer: Plate,
     larger: LargerBasis,
     /// Largest error of a critical speed within the range, or of a frequency at rest.
     error: f64,
-    /// The wave that has it.
+    /// Component of the wave with this error.
     component: usize,
     shape: Col<f64>,
 }
@@ -104,7 +104,7 @@ impl Smaller {
         })
     }
 
-    /// The guide of which the force on the functions that are lacking gives way most.
+    /// Guide whose force on the missing functions contributes most.
     fn sharpest(&self, guides: &[Guide]) -> Option<usize> {
         let shape = Mat::from_fn(self.shape.nrows(), 1, |i, _| self.shape[i]);
         let share = |guide: &Guide| {

@@ -1,9 +1,9 @@
-//! Two modes followed over speed together: their invariant subspace is smooth where they
-//! coalesce and split, which their eigenvalues are not.
+//! Continuation of two modes over speed together: their invariant subspace is smooth where they coalesce and
+//! split, unlike their eigenvalues.
 //!
-//! Of the quadruple ±σ ± iω, σ² passes linearly through zero where it comes from two waves of
-//! opposite Krein sign, and ω² where it goes on as two real λ. These roots are well conditioned;
-//! the root of the growth rate itself, which starts like a square root, is not.
+//! For a quadruple ±σ ± iω, σ² passes linearly through zero where two waves of opposite Krein sign coalesce,
+//! and ω² where the quadruple turns into two real λ. These roots are well conditioned; the root of the growth
+//! rate itself, which starts like a square root, is not.
 
 mod looked;
 
@@ -13,27 +13,27 @@ use super::maximum::Sample;
 use super::signature::SignedMode;
 use crate::spectrum::{ModePair, SpectrumError};
 
-/// Relative difference of speed for the slope of σ²: its rounding is 1e-15 of ω², and the pair is exact to the square of the
-/// distance.
+/// Relative speed difference for the slope of σ²: rounding is 1e-15 of ω², and the pair is accurate to the
+/// square of the difference.
 const DIFFERENCE: f64 = 1e-6;
-/// A last step of this relative length leaves its square, times how many widths of the
-/// band the speed is: below the accuracy asked.
+/// After a last step of this relative length the error is its square times the ratio of speed to band width:
+/// below the required accuracy.
 const NEWTON_TOLERANCE: f64 = 1e-8;
 const MAX_STEPS: usize = 40;
-/// Share of the way to the coalescence of two real λ that one step goes: beyond it the pair has
-/// no complex states to be followed by.
+/// Largest share of the way to the coalescence of two real λ in one step: beyond the coalescence the pair has
+/// no complex states to follow.
 const SHORT_OF_REAL: f64 = 0.999;
-/// Share of σ² and, of the speed, the shift of an edge by which the states that the search goes by
-/// may be off.
+/// Allowed relative error of σ² in the states of the search, and allowed shift of an edge relative to the
+/// speed.
 const LIKENESS: f64 = 0.05;
 pub const VICINITY: f64 = 3e-5;
 
-/// How a quadruple begins or ends.
+/// Kind of begin or end of a quadruple.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coalescence {
-    /// Of a + and a − wave: σ = 0.
+    /// Coalescence of a + and a − wave: σ = 0.
     Waves,
-    /// Of two real λ: ω = 0.
+    /// Coalescence of two real λ: ω = 0.
     Real,
 }
 
@@ -42,7 +42,7 @@ pub enum Coalescence {
 pub struct Edge {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Of what.
+    /// Kind of coalescence.
     pub coalescence: Coalescence,
     /// ω there, in rad/s.
     pub frequency_rad_per_s: f64,
@@ -63,7 +63,7 @@ impl Edge {
     }
 }
 
-/// A pair at a speed.
+/// Pair of modes at a speed.
 pub struct PairContinuation<'a> {
     evaluator: &'a SignatureEvaluator<'a>,
     pair: ModePair,
@@ -71,7 +71,7 @@ pub struct PairContinuation<'a> {
 }
 
 impl<'a> PairContinuation<'a> {
-    /// The pair of a quadruple: it and its mirror image.
+    /// The pair of a quadruple and its mirror image.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -109,7 +109,7 @@ impl<'a> PairContinuation<'a> {
         (growth > 0.0 && frequency >= 0.0).then(|| (growth.sqrt(), frequency.sqrt()))
     }
 
-    /// Whether a quadruple is this pair: a pair may be taken for its neighbours on the way.
+    /// Whether a quadruple is this pair: on the way a pair may be mistaken for a neighbour.
     fn is_mode(&self, mode: &SignedMode) -> bool {
         let [growth, frequency] = self.squares();
         let (sigma, omega) = (mode.lambda.re, mode.lambda.im);
@@ -128,7 +128,7 @@ impl<'a> PairContinuation<'a> {
         [0, 1].map(|k| (after[k] - before[k]) / (2.0 * h))
     }
 
-    /// What is known of σ² and ω² here.
+    /// σ² and ω² here with their slopes.
     fn looked(&self) -> Looked {
         Looked {
             speed: self.speed,
@@ -137,8 +137,8 @@ impl<'a> PairContinuation<'a> {
         }
     }
 
-    /// The speed next to which σ² or ω² is zero, on the way upwards or downwards: that of the cubic through the
-    /// speed looked at before and this one, or of the tangent.
+    /// Estimated speed at which σ² or ω² is zero, upwards or downwards: from the cubic through this and the
+    /// previous speed, or from the tangent.
     fn root(here: &Looked, before: Option<&Looked>, direction: f64) -> Option<Edge> {
         let of = |k: usize, coalescence| {
             let left = before
@@ -159,24 +159,24 @@ impl<'a> PairContinuation<'a> {
         edges.min_by(|x, y| away(x).total_cmp(&away(y)))
     }
 
-    /// Where the quadruple ends on the way from here to `end`, a speed at which it is not any
-    /// more. `None` where it is lost on the way.
+    /// Edge of the quadruple between here and `end`, a speed outside it. `None` if the pair is lost on the
+    /// way.
     pub fn edge(&self, end: f64) -> Option<Edge> {
-        // From the start: the edge may lie a little beyond `end`.
+        // Starts here, because the edge may lie slightly beyond `end`.
         let direction = (end - self.speed).signum();
         let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, direction));
         by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, direction)))
     }
 
-    /// The same by a guess of the edge from what is known here and at the speed looked at before.
+    /// Finds the edge from a guess based on this and the previous speed.
     fn edge_by(
         &self,
         end: f64,
         root: impl Fn(&Looked, Option<&Looked>) -> Option<Edge>,
     ) -> Option<Edge> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
-        // The last speed known inside, and the first known outside. Where the edge is next to
-        // an end, a coarser model may have seen it on the other side.
+        // The last speed known to be inside and the first known to be outside. Next to an end, a coarser
+        // model may have placed the edge on the other side.
         let margin = direction * VICINITY * start;
         let (mut inside, mut outside) = (start - margin, end + margin);
         let mut followed: Option<Self> = None;
@@ -211,7 +211,7 @@ impl<'a> PairContinuation<'a> {
                 outside = next;
             }
             if frequency <= 0.0 {
-                // Two real λ have no complex states to be followed by: the way goes on from here.
+                // Two real λ have no complex states to follow, so the way continues from here.
                 before = Some(moved.looked());
                 continue;
             }

@@ -1,26 +1,28 @@
-//! Which eigenvalues of two speeds may coalesce between them, and which stay apart.
+//! Partition of the eigenvalues at two speeds into groups that may coalesce between them.
 
 use faer::c64;
 
 use super::group::Sloped;
 
-/// Numbers nearer than this share of that of the highest frequency are not told apart.
+/// Numbers closer than this share of the highest frequency (or its square) are not distinguished.
 const LEAST_STEP: f64 = 1e-9;
-/// Two eigenvalues may meet where their difference, continued by its slope, falls below this share of itself.
+/// Two eigenvalues may coalesce if their difference, continued by its slope, falls below this share of
+/// itself.
 const MEETING: f64 = 0.3;
 
-/// Which numbers of a saw a search follows over speed.
+/// Numbers that a search follows over speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plane {
-    /// λ, with the conjugate of each that oscillates.
+    /// λ, with the conjugate of each oscillating one.
     Eigenvalues,
-    /// z = λ² of an undamped saw, one for each pair ±λ: a wave has z < 0, a divergent mode z > 0, and the two modes of a
-    /// quadruple ±σ ± iω have conjugate z. A mode that stops to diverge passes z = 0 as any other number.
+    /// z = λ² of an undamped saw, one for each pair ±λ: a wave has z < 0, a divergent mode z > 0, and the two
+    /// modes of a quadruple ±σ ± iω have conjugate z. A mode that turns into divergence passes z = 0 like any
+    /// other number.
     Squares,
 }
 
 impl Plane {
-    /// Re λ ≥ 0 of a number, or the decay where all that it stands for decays.
+    /// Re λ ≥ 0 for a number, or its decay rate if all its eigenvalues decay.
     pub fn growth_per_s(self, number: c64) -> f64 {
         match self {
             Plane::Eigenvalues => number.re,
@@ -28,7 +30,7 @@ impl Plane {
         }
     }
 
-    /// The number of an eigenvalue of a size.
+    /// The number for an eigenvalue of a given size.
     pub fn sized(self, size_rad_per_s: f64) -> f64 {
         match self {
             Plane::Eigenvalues => size_rad_per_s,
@@ -37,18 +39,19 @@ impl Plane {
     }
 }
 
-/// The low eigenvalues of a saw at a speed, or their squares.
+/// Low eigenvalues of a saw at a speed, or their squares.
 #[derive(Debug, Clone)]
 pub struct Sample {
     pub speed_rad_per_s: f64,
-    /// By frequency; conjugates of eigenvalues lie symmetrically about the middle, those of squares side by side.
+    /// Numbers by frequency. Conjugate eigenvalues lie symmetrically about the middle, conjugate squares side
+    /// by side.
     pub eigenvalues: Vec<Sloped>,
-    /// For each eigenvalue of an undamped saw the Krein sign of a wave, and zero of every other mode.
+    /// For an undamped saw the Krein sign of each wave, and zero for every other mode.
     pub signs: Vec<i8>,
 }
 
 impl Sample {
-    /// From eigenvalues of Im λ ≥ 0.
+    /// A sample from eigenvalues with Im λ ≥ 0.
     pub fn new(speed_rad_per_s: f64, upper: impl Iterator<Item = Sloped>) -> Self {
         let mut eigenvalues: Vec<Sloped> = upper
             .flat_map(|(z, slope)| {
@@ -69,7 +72,7 @@ impl Sample {
         }
     }
 
-    /// From the squares of the eigenvalues of an undamped saw, each with its Krein sign.
+    /// A sample from the squares of the eigenvalues of an undamped saw with their Krein signs.
     pub fn of_squares(speed_rad_per_s: f64, mut squares: Vec<(Sloped, i8)>) -> Self {
         let order = |x: &(Sloped, i8), y: &(Sloped, i8)| {
             let by_size = y.0.0.re.total_cmp(&x.0.0.re);
@@ -88,11 +91,11 @@ impl Sample {
     }
 }
 
-/// Places of the eigenvalues of a group in the samples at both ends.
+/// Indices of the eigenvalues of a group in the samples at both ends.
 pub type Places = [Vec<usize>; 2];
 
-/// Groups that make up all numbers up to a frequency: between them neighbours stay apart, by values and slopes from both
-/// ends. `None` where nothing closes above the highest frequency.
+/// Groups of all numbers up to a frequency, such that numbers of different groups stay apart by values and
+/// slopes from both ends. `None` if no gap exists above the highest frequency.
 pub fn partition(plane: Plane, ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> {
     let [a, b] = ends.map(|end| end.speed_rad_per_s);
     let sides = [0, 1].map(|end| Side {
@@ -126,7 +129,7 @@ fn by_square(sides: &[Side<'_>; 2], top: f64) -> Option<Vec<Places>> {
     None
 }
 
-/// Groups of eigenvalues, from the real axis up.
+/// Groups of eigenvalues, from the real axis upwards.
 fn by_frequency(
     sides: &[Side<'_>; 2],
     middles: [usize; 2],
@@ -158,7 +161,8 @@ fn by_frequency(
     Some(parts)
 }
 
-/// The same of what is next to the real axis, by growth. What decays faster than the highest frequency is left out.
+/// Groups of the eigenvalues near the real axis, by growth. Those that decay faster than the highest
+/// frequency are left out.
 fn about_the_axis(
     sides: &[Side<'_>; 2],
     ranges: [(usize, usize); 2],
@@ -190,17 +194,18 @@ fn about_the_axis(
     parts.filter(is_seen).collect()
 }
 
-/// The eigenvalues at one end of a piece, and how far the other end is, negative from the upper one.
+/// Eigenvalues at one end of a piece, and the distance to the other end, negative from the upper one.
 struct Side<'a> {
     z: &'a [Sloped],
     width: f64,
-    /// Neighbours nearer than this are not told apart.
+    /// Neighbours closer than this are not distinguished.
     least: f64,
 }
 
 impl Side<'_> {
-    /// Before which places of an order the eigenvalues from there on stay above those below over half of the piece, by a
-    /// part of them and its slope, where none meets one from the other side.
+    /// Positions in an order at which it can be cut: over half of the piece, a part of the eigenvalues (real
+    /// or imaginary) and its slope keep those above apart from those below, and none may coalesce across the
+    /// cut.
     fn cuts(&self, order: &[usize], part: fn(c64) -> f64) -> Vec<bool> {
         let count = order.len();
         let mut is_cut: Vec<bool> = (0..count).map(|place| place > 0).collect();
@@ -221,7 +226,7 @@ impl Side<'_> {
             }
         }
         for first in 0..count {
-            // No cut lies between two that meet; from the last that meets the first one on.
+            // No cut lies between two that may coalesce.
             let last = (first + 1..count)
                 .rev()
                 .find(|&k| self.meet(order[first], order[k]));
@@ -230,8 +235,8 @@ impl Side<'_> {
         is_cut
     }
 
-    /// Whether the difference of two eigenvalues, continued by its slope over half of the piece, comes near zero in the
-    /// complex plane: two waves beside their coalescence may differ in growth alone.
+    /// Whether the difference of two eigenvalues, continued by its slope over half of the piece, comes near
+    /// zero in the complex plane. Two waves next to their coalescence may differ only in growth.
     fn meet(&self, i: usize, k: usize) -> bool {
         let (difference, slope) = (self.z[i].0 - self.z[k].0, self.z[i].1 - self.z[k].1);
         let rate = slope.norm_sqr().max(f64::MIN_POSITIVE);

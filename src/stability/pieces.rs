@@ -1,8 +1,8 @@
-//! Pieces of the range of speeds, on each of which every low eigenvalue follows from its two ends.
+//! Pieces of the range of speeds, each with interpolated low eigenvalues.
 //!
-//! A piece is kept where it predicts the eigenvalues that one more eigenproblem finds, solved where two of them come
-//! nearest; where it does not, it is divided at that speed. So what happens within less than any grid, a growth between
-//! two decays or a coalescence, is found where the discriminant of a group has its minimum.
+//! A piece is kept if it predicts the eigenvalues of one more eigenproblem, solved where two of them come
+//! nearest; otherwise it is divided at that speed. An event narrower than any grid, such as a short growth or
+//! a coalescence, is therefore found at the minimum of the discriminant of its group.
 
 use std::sync::Arc;
 
@@ -18,56 +18,57 @@ use crate::spectrum::{SpectrumError, Work};
 pub struct Grouped {
     pub group: Group,
     pub places: Places,
-    /// The Krein sign of all of it, where there is one: then nothing of it coalesces.
+    /// Krein sign of the whole group, if it has one: then none of its waves coalesce.
     sign: Option<i8>,
 }
 
-/// Between two neighbouring speeds that were asked.
+/// Piece between two neighbouring computed speeds.
 #[derive(Debug, Clone)]
 pub struct Piece {
     pub ends: [Arc<Sample>; 2],
-    /// From the real axis up; none where no number of speeds settled the piece.
+    /// Groups from the real axis upwards; none if the allowed number of speeds did not settle the piece.
     pub groups: Vec<Grouped>,
 }
 
-/// Eigenvalues of one group at most where a piece is wide.
+/// Largest group in a wide piece.
 const USUAL: usize = 2;
-/// Eigenvalues of one group at most in a narrow piece, and of one of which all are waves of one Krein sign.
+/// Largest group in a narrow piece, and of waves of one Krein sign.
 const LARGEST: usize = 4;
 /// Width of a narrow piece, as a share of the speed.
 const NARROW: f64 = 3e-4;
-/// Share of the last speed below which a piece is not parted.
+/// Pieces below this share of the last speed are not divided.
 const LEAST_WIDTH: f64 = 1e-9;
-/// Speeds of a piece that are asked are kept from its ends by this share of it.
+/// Least distance of a computed speed from the ends of its piece, as a share of the piece.
 const MARGIN: f64 = 0.05;
-/// Steps in which a group is looked at for what it may hide.
+/// Steps in which a group is searched for hidden coalescences.
 const STEPS: usize = 16;
-/// A discriminant that falls below this share of its values at the ends may hide a coalescence.
+/// A discriminant that falls below this share of its end values may hide a coalescence.
 const DIP: f64 = 0.05;
-/// Relative error allowed of waves of one Krein sign, of which none can coalesce with another.
+/// Relative error allowed for waves of one Krein sign, which cannot coalesce with each other.
 const DEFINITE_TOLERANCE: f64 = 0.05;
 
-/// How closely eigenvalues are followed, and from what.
+/// Accuracy and data of a search.
 pub struct Search<'a> {
-    /// What is followed.
+    /// Numbers to follow.
     pub plane: Plane,
-    /// Frequency up to which they are followed, in rad/s.
+    /// Frequency up to which to follow, in rad/s.
     pub top_rad_per_s: f64,
-    /// Relative error allowed of what is followed.
+    /// Relative error allowed for the numbers.
     pub tolerance: f64,
-    /// Relative error allowed of a growth.
+    /// Relative error allowed for a growth rate.
     pub growth_tolerance: f64,
     /// Growth that is rounding, in 1/s.
     pub noise_per_s: f64,
-    /// What is followed, at a speed or next to it; `None` once no more may be asked for.
+    /// Computes a sample at or next to a speed; `None` once the allowed number is used up.
     pub solve: &'a (dyn Fn(f64) -> Result<Option<Sample>, SpectrumError> + Sync),
 }
 
 impl Search<'_> {
-    /// Pieces that cover all between the first and the last of ascending speeds. The same on any number of threads.
+    /// Pieces that cover the range from the first to the last of ascending speeds. They do not depend on the
+    /// number of threads.
     ///
     /// # Errors
-    /// Those of the eigenproblems.
+    /// The errors of the eigenproblems.
     pub fn pieces(&self, speeds: &[f64]) -> Result<Vec<Piece>, SpectrumError> {
         let least = LEAST_WIDTH * speeds.last().copied().unwrap_or(0.0);
         let samples: Vec<Option<Sample>> = speeds
@@ -87,7 +88,7 @@ impl Search<'_> {
         Ok(pieces.into_iter().flatten().collect())
     }
 
-    /// Pieces between two samples, by groups that were held against a sample before where there are such.
+    /// Pieces between two samples, using groups that were already compared with a sample if available.
     fn between(
         &self,
         ends: [&Arc<Sample>; 2],
@@ -133,7 +134,7 @@ impl Search<'_> {
         let share = (asked - a) / (b - a);
         let mut pieces = Vec::new();
         for (end, half) in halves.into_iter().enumerate() {
-            // A half keeps the groups that were held against what was found, where they are close enough over all of it.
+            // A half keeps the compared groups if they are close enough over all of it.
             let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
             let kept = groups.as_ref().zip(predicted.as_ref()).filter(|_| is_close);
             let kept = kept.map(|(groups, predicted)| {
@@ -150,7 +151,7 @@ impl Search<'_> {
         Ok(pieces)
     }
 
-    /// The groups between two samples; `None` where one of them is too large.
+    /// Groups between two samples; `None` if one of them is too large.
     fn groups(&self, ends: [&Arc<Sample>; 2]) -> Option<Vec<Grouped>> {
         let [a, b] = ends.map(|end| end.speed_rad_per_s);
         let is_wide = b - a > NARROW * b;
@@ -168,8 +169,8 @@ impl Search<'_> {
         Some(grouped_by(ends, &parts))
     }
 
-    /// Where two eigenvalues of a group come nearest between the ends, else where one that decays at both ends may
-    /// grow.
+    /// Speed at which two eigenvalues of a group come nearest, or else at which one that decays at both ends
+    /// may grow.
     fn place_to_ask(&self, groups: &[Grouped], (a, b): (f64, f64)) -> Option<f64> {
         let speed = |k: usize| a + (b - a) * k as f64 / STEPS as f64;
         let inner = |values: &[f64]| {
@@ -204,7 +205,7 @@ impl Search<'_> {
         })
     }
 
-    /// What a group predicts of a sample; `None` where the sample is another.
+    /// Prediction of a sample by a group; `None` if the sample differs.
     fn predicted(
         &self,
         grouped: &Grouped,
@@ -242,7 +243,8 @@ impl Search<'_> {
         (misfit <= 1.0).then_some(Prediction { places, misfit })
     }
 
-    /// How far the growth that a group predicts is off, as a share of what is allowed, where its numbers are off by `off`.
+    /// Error of the growth predicted by a group, as a share of the allowed error, if its numbers are wrong by
+    /// `off`.
     fn misfit_of_growth(
         &self,
         at_ends: &[Vec<c64>; 2],
@@ -258,14 +260,14 @@ impl Search<'_> {
         let ends = at_ends.each_ref().map(|numbers| by_growth(numbers));
         let (growth_predicted, growth_found) = (by_growth(predicted), by_growth(found));
         let all = [&ends[0], &ends[1], &growth_predicted, &growth_found];
-        // Relative to each: a slow growth is predicted as well as the fast one beside it.
+        // Relative to each number, so that slow growth is predicted as well as fast growth beside it.
         let allowed = |rank: usize| {
             let fastest = all.iter().map(|growth| growth[rank]).fold(0.0, f64::max);
             (self.growth_tolerance * fastest).max(self.noise_per_s)
         };
         let misfit = |rank: usize| {
             let (x, z) = (growth_predicted[rank], growth_found[rank]);
-            // How fast something decays is of no account.
+            // The accuracy of fast decay does not matter.
             let allowed = allowed(rank).max(0.3 * -x.max(z));
             ((x - z).abs() - self.noise_per_s).max(0.0) / allowed
         };
@@ -292,23 +294,24 @@ impl Search<'_> {
     }
 }
 
-/// A prediction that a sample confirmed.
+/// Prediction that a sample confirmed.
 struct Prediction {
-    /// The places of its eigenvalues.
+    /// Indices of its eigenvalues.
     places: Vec<usize>,
-    /// How far off they are, as a share of what is allowed.
+    /// Error, as a share of the allowed error.
     misfit: f64,
 }
 
-/// How far off a cubic is over a part of a piece, as a share of what is allowed there, where the one over the whole
-/// piece was off by `misfit` at a share of it. The error of Hermite's formula goes with t²(1 − t)² and the fourth power of the
-/// width. What is seldom looked at may be off by a quarter of what is allowed where it is.
+/// Error of a cubic over a part of a piece, as a share of the allowed error there, if the cubic over the
+/// whole piece was wrong by `misfit` at a share of it. The error of Hermite's formula goes with t²(1 − t)²
+/// and the fourth power of the width. A region that is rarely sampled may have a quarter of the allowed
+/// error.
 fn left_by(misfit: f64, share: f64, part: f64) -> f64 {
     let of_whole = misfit / (16.0 * (share * (1.0 - share)).powi(2));
     4.0 * of_whole * part.powi(4)
 }
 
-/// The Krein sign of a group, where all that it has at both ends are waves of one sign.
+/// Krein sign of a group, if at both ends it consists of waves of one sign.
 fn definite_sign(places: &Places, ends: [&Arc<Sample>; 2]) -> Option<i8> {
     let mut signs = [0, 1].into_iter().flat_map(|end| {
         let places = places[end].iter();

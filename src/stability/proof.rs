@@ -1,16 +1,15 @@
-//! Stretches of speed that are proven to have no instability beyond those listed.
+//! Proof that intervals of speed contain no unlisted instability.
 //!
-//! Krein's index is k_real + 2 k_flutter + 2 k_negative = n₋(K), and between two frequencies
-//! at which L(iω) is nonsingular its count changes by p − m. So at any speed, for any frequencies
-//! 0 < ω₁ < ω₂ < … and ω₀ = 0,
+//! Krein's index is k_real + 2 k_flutter + 2 k_negative = n₋(K), and between two frequencies with nonsingular
+//! L(iω) its count changes by p − m. So at any speed, for any frequencies 0 < ω₁ < ω₂ < … and ω₀ = 0,
 //!
 //! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
 //!
-//! so many − modes there are at least. Where the counts are the same all along lines ωᵢ(Ω), which
-//! [`FullModel`](crate::spectrum::FullModel) settles by two factorizations, and no critical speed
-//! changes n₋(K), this holds at every speed of the stretch. The spectra only propose the lines. Next to
-//! a crossing or the edge of a band the gap closes and stretches are halved, down to a least width: what
-//! is left is named, and was only searched.
+//! the sum counts − modes that must exist. If the counts are constant along lines ωᵢ(Ω), which
+//! [`FullModel`](crate::spectrum::FullModel) decides by two factorizations, and no critical speed changes
+//! n₋(K), the bound holds at every speed of the interval. The spectra only propose the lines. Next to a
+//! crossing or the edge of a band the gap closes, and intervals are halved down to a least width; the rest is
+//! reported as searched but unproven.
 
 use std::sync::{Arc, OnceLock};
 
@@ -22,24 +21,24 @@ use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::signature::Signature;
 use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
 
-/// Stretches below this share of the highest speed are not halved any more.
+/// Intervals below this share of the highest speed are not halved further.
 const LEAST_WIDTH: f64 = 1e-4;
-/// What a proof needs.
+/// Data of a proof.
 pub(super) struct Proof<'a> {
     pub full: &'a ModeCounts<'a>,
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub bands: &'a [Instability],
 }
 
-/// A gap that closes to less than this share of itself is not tried.
+/// Gaps that close to less than this share of themselves are not tried.
 const CLOSING: f64 = 0.1;
 
-/// A line so many times longer than its gap is wide is not tried: of 605 that the paper's saw asks for, none
+/// Lines longer than this multiple of the width of their gap are not tried: of 605 for the paper's saw, none
 /// longer than 0.45 gaps was free.
 const LONGEST: f64 = 0.5;
 
 impl Proof<'_> {
-    /// Stretches between ascending signatures that are not proven.
+    /// Unproven intervals between ascending signatures.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -77,8 +76,8 @@ impl Proof<'_> {
         }
     }
 
-    /// What is not proven from the first to the last of some speeds. Where they are two and more
-    /// are needed, they are computed.
+    /// Unproven intervals from the first to the last of some speeds. If only two are given and more are
+    /// needed, they are computed.
     fn within(
         &self,
         ends: &[End],
@@ -123,15 +122,15 @@ impl Proof<'_> {
         halves(&[a.clone(), middle.clone()], &[middle, b.clone()])
     }
 
-    /// Whether no more can be unstable between two speeds than the bands that cover them say. Lines
-    /// that are found to be free join the known ones, whether they suffice or not.
+    /// Whether the listed bands account for all unstable modes between two speeds. Lines that are found to be
+    /// free join the known ones, even if they do not suffice.
     fn is_proven(&self, a: &End, b: &End, known: &mut Vec<Line>) -> bool {
         let negative = self.full.negative_stiffness(a.speed);
         let listed = self.listed([a.speed, b.speed]);
         if negative <= listed {
             return true;
         }
-        // A count by the order of the basis would take longer than the whole search.
+        // A count of the order of the basis would take longer than the whole search.
         if self.full.has_free_motions() || self.full.is_dense() {
             return false;
         }
@@ -149,7 +148,7 @@ impl Proof<'_> {
         are_free && a.is_like(b) && negative.saturating_sub(2 * a.reflected()) <= listed
     }
 
-    /// The line through the middles of a gap, if its count is the same all along.
+    /// Line through the middles of a gap, if its count is constant.
     fn line(&self, ends: [&End; 2], gap: [&Gap; 2], negative: usize) -> Option<Line> {
         let [x, y] = gap.map(Gap::width_rad_per_s);
         let [from, to] = ends.map(|end| end.speed);
@@ -180,17 +179,17 @@ impl Proof<'_> {
     }
 }
 
-/// A line ω(Ω) that no mode meets.
+/// Line ω(Ω) that crosses no mode.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     speeds: [f64; 2],
     frequencies: [f64; 2],
-    /// p − m below.
+    /// p − m below the line.
     net: isize,
 }
 
 impl Line {
-    /// Whether it lies within a gap at two speeds, both on the line.
+    /// Whether it lies within a gap at two speeds of the line.
     fn leads_through(&self, gap: [(&End, &Gap); 2]) -> bool {
         let ([from, to], [low, high]) = (self.speeds, self.frequencies);
         gap.iter().all(|(end, gap)| {
@@ -200,23 +199,23 @@ impl Line {
     }
 }
 
-/// One end of a stretch.
+/// End of an interval.
 #[derive(Clone)]
 struct End {
     speed: f64,
     gaps: Vec<Gap>,
-    /// Shared by the stretches on both sides.
+    /// Shared by the intervals on both sides.
     at: Arc<OnceLock<AtSpeed>>,
 }
 
 impl End {
-    /// Whether modes of the same signs lie between the same gaps.
+    /// Whether the same numbers of modes of each sign lie between the gaps.
     fn is_like(&self, other: &End) -> bool {
         self.alike(other).count() == self.gaps.len().max(other.gaps.len())
     }
 
-    /// What cubics through both ends say of the speed halfway, where the modes keep their order. It
-    /// proposes lines and proves nothing.
+    /// Estimate at the middle speed by cubics through both ends, if the modes keep their order. It proposes
+    /// lines and proves nothing.
     fn halfway(&self, other: &End) -> Option<End> {
         if self.gaps.is_empty() || !self.is_like(other) {
             return None;
@@ -231,7 +230,7 @@ impl End {
             let gap = Gap { sides, net: x.net };
             let [narrow, wide] = [x, y].map(Gap::width_rad_per_s);
             let [narrow, wide] = [narrow.min(wide), narrow.max(wide)];
-            // Next to a coalescence slopes have no bound, and a cubic says nothing.
+            // Next to a coalescence slopes are unbounded and the cubic is useless.
             let is_sound = (0.5 * narrow..2.0 * wide).contains(&gap.width_rad_per_s());
             is_sound.then_some(gap)
         };
@@ -243,7 +242,7 @@ impl End {
         })
     }
 
-    /// The gaps from below, and those from above, that both ends have alike.
+    /// Gaps that both ends have in common, counted from below and from above.
     fn alike<'a>(&'a self, other: &'a End) -> impl Iterator<Item = (&'a Gap, &'a Gap)> {
         let same = |(x, y): &(&Gap, &Gap)| x.net == y.net;
         let (ours, theirs) = (&self.gaps, &other.gaps);
@@ -260,7 +259,7 @@ impl End {
         first.chain(last.zip(&theirs[theirs.len() - above..]))
     }
 
-    /// − modes that the counts in the gaps show.
+    /// Number of − modes that the counts in the gaps show.
     fn reflected(&self) -> usize {
         let below = [0].into_iter().chain(self.gaps.iter().map(|gap| gap.net));
         let fewer = below

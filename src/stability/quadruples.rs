@@ -1,50 +1,50 @@
-//! Stretches of speed over which two modes of an undamped blade have coalesced, read off the pieces of a search.
+//! Intervals of speed over which two modes of an undamped blade have coalesced, from the pieces of a search.
 
 use faer::c64;
 
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
 
-/// Where a stretch begins or ends.
+/// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
     /// Two modes coalesce about here.
     Coalescence {
         expected_rad_per_s: f64,
-        /// The nearest speed of the search outside the stretch.
+        /// Nearest speed of the search outside the interval.
         outside_rad_per_s: f64,
     },
-    /// The search ends inside it.
+    /// End of the search, inside the interval.
     Range(f64),
-    /// It comes from above the highest frequency, or goes there.
+    /// Speed at which the quadruple crosses the highest frequency.
     Height(f64),
 }
 
-/// A stretch over which a quadruple ±σ ± iω lasts; of its squares (σ + iω)² that with σω > 0.
+/// Interval over which a quadruple ±σ ± iω exists; its square (σ + iω)² is the one with σω > 0.
 #[derive(Debug, Clone)]
 pub struct Stretch<'a> {
     pub begin: Bound,
     pub end: Bound,
-    /// Speeds of the search within, and the square at each.
+    /// Speeds of the search within, with the square at each.
     pub points: Vec<(f64, c64)>,
     parts: Vec<Part<'a>>,
 }
 
-/// A stretch within a piece.
+/// Part of an interval within a piece.
 #[derive(Debug, Clone)]
 struct Part<'a> {
     from_rad_per_s: f64,
     to_rad_per_s: f64,
     grouped: &'a Grouped,
-    /// How many squares of the group have a larger imaginary part.
+    /// Number of squares of the group with a larger imaginary part.
     rank: usize,
 }
 
-/// Steps in which a part of a stretch is looked at for its fastest growth.
+/// Steps in which a part of an interval is searched for its largest growth.
 const STEPS: usize = 16;
 
 impl Stretch<'_> {
-    /// The square at a speed as the pieces tell it.
+    /// Interpolated square at a speed.
     pub fn square(&self, speed_rad_per_s: f64) -> Option<c64> {
         let covers =
             |part: &&Part<'_>| (part.from_rad_per_s..=part.to_rad_per_s).contains(&speed_rad_per_s);
@@ -55,7 +55,7 @@ impl Stretch<'_> {
         Some(c64::new(square.re, square.im.max(0.0)))
     }
 
-    /// The speed of the fastest growth that the pieces tell.
+    /// Speed of the largest interpolated growth.
     pub fn fastest_rad_per_s(&self) -> f64 {
         let growth = |speed: f64| {
             let square = self.square(speed);
@@ -71,10 +71,10 @@ impl Stretch<'_> {
     }
 }
 
-/// A stretch that is not at its end, and the place of its square in the last sample.
+/// An unfinished interval and the index of its square in the last sample.
 type Open<'a> = (Stretch<'a>, usize);
 
-/// Every stretch, in the order in which they end.
+/// Intervals in the order of their ends.
 pub fn stretches(pieces: &[Piece]) -> Vec<Stretch<'_>> {
     let mut ended: Vec<Stretch<'_>> = Vec::new();
     let mut open: Vec<Open<'_>> = Vec::new();
@@ -111,7 +111,7 @@ pub fn stretches(pieces: &[Piece]) -> Vec<Stretch<'_>> {
     ended
 }
 
-/// Places of the squares with Im z > 0.
+/// Indices of the squares with Im z > 0.
 fn quadruples_of(sample: &Sample) -> impl Iterator<Item = usize> {
     let all = sample.eigenvalues.iter().enumerate();
     all.filter(|(_, (z, _))| z.im > 0.0).map(|(place, _)| place)
@@ -133,7 +133,7 @@ fn begun<'a>(begin: Bound, sample: &Sample, place: usize) -> Stretch<'a> {
     }
 }
 
-/// What the quadruples of a group do over a piece.
+/// Updates the intervals by the quadruples of a group over a piece.
 fn across<'a>(
     piece: &'a Piece,
     grouped: &'a Grouped,
@@ -180,7 +180,7 @@ fn across<'a>(
             ended.push(stretch);
         }
     }
-    // Next to a coalescence a sample may have coalesced where the group, which is not exact, has not.
+    // Next to a coalescence a sample may be coalesced where the interpolated group is not.
     ended.extend(firsts.filter_map(|place| {
         let end = coalescence(a, b);
         taken(open, place).map(|stretch| Stretch { end, ..stretch })
@@ -188,20 +188,20 @@ fn across<'a>(
     next.extend(lasts.map(|place| (begun(coalescence(b, a), &piece.ends[1], place), place)));
 }
 
-/// The stretches of a group, each with the rank of its square.
+/// Intervals of a group, each with the rank of its square.
 fn group_stretches(grouped: &Grouped) -> impl Iterator<Item = (usize, (f64, f64))> {
     let by_rank = grouped.group.complex_stretches().into_iter().enumerate();
     by_rank.flat_map(|(rank, all)| all.into_iter().map(move |stretch| (rank, stretch)))
 }
 
-/// The open stretch of which the square has a place in the last sample.
+/// Takes the open interval whose square has a given index in the last sample.
 fn taken<'a>(open: &mut Vec<Open<'a>>, place: usize) -> Option<Stretch<'a>> {
     let known = open.iter().position(|(_, at)| *at == place)?;
     Some(open.swap_remove(known).0)
 }
 
-/// Quadruples on both sides of a piece that no number of speeds settled, linked to the nearest; the others end or begin
-/// in its middle.
+/// Links quadruples on both sides of an unsettled piece to the nearest; the others end or begin in its
+/// middle.
 fn across_unsettled<'a>(
     piece: &'a Piece,
     open: Vec<Open<'a>>,

@@ -1,32 +1,31 @@
-//! The zero of a function between two places at which its signs differ.
+//! Zero of a function between two points of opposite sign.
 
 use std::convert::Infallible;
 
-/// A look at the function: where, its value there, and what else the caller wants of it.
+/// Evaluation of the function: position, value, and anything else that the caller needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look<P> {
     /// Place.
     pub at: f64,
     /// f.
     pub value: f64,
-    /// What was found there.
+    /// Further result there.
     pub point: P,
 }
 
-/// Bisections alone would reach any tolerance above rounding with a quarter of as many.
+/// Bisection alone would reach any tolerance above rounding with a quarter of these.
 const MOST_LOOKS: usize = 4 * 53;
 
-/// The look next to a zero, by Chandrupatla's method: inverse quadratic interpolation where the
-/// function is seen to be smooth enough for it, bisection elsewhere (*A new hybrid
-/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using
-/// derivatives*, Advances in Engineering Software 28, 1997). `look` is given the two ends and
-/// the share of the way from the first to the second. Ends of one sign give the one of the
-/// smaller value.
+/// Evaluation nearest to a zero, by Chandrupatla's method: inverse quadratic interpolation where the function
+/// looks smooth enough for it, bisection elsewhere (*A new hybrid quadratic/bisection algorithm for finding
+/// the zero of a nonlinear function without using derivatives*, Advances in Engineering Software 28, 1997).
+/// `look` receives the two ends and the share of the way from the first to the second. Ends of equal sign
+/// give the one with the smaller value.
 ///
-/// It ends where the interval is below `tolerance`, a relative one of the place.
+/// Stops when the interval is below `tolerance`, relative to the position.
 ///
 /// # Errors
-/// Those of `look`.
+/// The errors of `look`.
 pub fn bracketed<P: Copy, E>(
     ends: [Look<P>; 2],
     tolerance: f64,
@@ -59,8 +58,8 @@ pub fn bracketed<P: Copy, E>(
     Ok(best)
 }
 
-/// Share of the way from `a` to `b` at which the inverse parabola through three looks is zero,
-/// or a half where it is not sure to rise or fall all the way.
+/// Share of the way from `a` to `b` at which the inverse parabola through three points is zero, or a half
+/// where it may not be monotonic.
 fn interpolated<P: Copy>(a: Look<P>, b: Look<P>, c: Look<P>) -> f64 {
     let xi = (a.at - b.at) / (c.at - b.at);
     let phi = (a.value - b.value) / (c.value - b.value);
@@ -74,8 +73,8 @@ fn interpolated<P: Copy>(a: Look<P>, b: Look<P>, c: Look<P>) -> f64 {
     }
 }
 
-/// The zero on [0, 1] of a function that costs nothing, to rounding. Ends of one sign give the
-/// end of the smaller value.
+/// Zero on [0, 1], to rounding, of a function that is cheap to evaluate. Ends of equal sign give the end with
+/// the smaller value.
 pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
     let at = |share: f64| Look {
         at: share,
@@ -89,7 +88,7 @@ pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The zero between two places of a function that costs nothing, or its jump from one sign to the other.
+/// Zero between two points of a function that is cheap to evaluate, or the position of its jump.
 pub fn place_of_zero([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     let place = |share: f64| from + share * (to - from);
     place(share_of_zero(|share| f(place(share))))
@@ -112,7 +111,7 @@ mod tests {
         root(|x| x, 0.0);
     }
 
-    /// A step has no value near zero: the looks are bounded and end at the step.
+    /// A step has no value near zero: the number of evaluations is limited and the search ends at the step.
     #[test]
     fn a_jump_is_found_like_a_zero() {
         let found = share_of_zero(|x| if x < 0.7 { -3.0 } else { 1.0 });

@@ -1,4 +1,4 @@
-//! What a search has computed of an undamped blade, speed by speed.
+//! Speeds of an undamped blade that a search has computed.
 
 use std::sync::Mutex;
 
@@ -7,7 +7,7 @@ use faer::c64;
 use super::signature::Signature;
 use crate::spectrum::Mode;
 
-/// The speeds of a search.
+/// Computed speeds of a search.
 #[derive(Debug, Default)]
 pub struct Seen {
     speeds: Mutex<Vec<SeenSpeed>>,
@@ -16,12 +16,12 @@ pub struct Seen {
 #[derive(Debug)]
 struct SeenSpeed {
     signature: Signature,
-    /// The modes that grow or decay.
+    /// Growing and decaying modes.
     coalesced: Vec<Mode>,
 }
 
 impl Seen {
-    /// Keeps the signature of a speed, and the modes there that grow or decay.
+    /// Stores the signature of a speed and its growing and decaying modes.
     pub fn add(&self, signature: Signature, coalesced: Vec<Mode>) {
         if let Ok(mut speeds) = self.speeds.lock() {
             speeds.push(SeenSpeed {
@@ -36,7 +36,7 @@ impl Seen {
         self.at(speed_rad_per_s, |seen| Some(seen.signature.clone()))
     }
 
-    /// The modes of a speed that grow or decay, next to two eigenvalues.
+    /// Growing and decaying modes of a speed nearest to two eigenvalues.
     pub fn nearest(&self, speed_rad_per_s: f64, lambdas: [c64; 2]) -> Option<[Mode; 2]> {
         self.at(speed_rad_per_s, |seen| {
             let nearest = |lambda: c64| {
@@ -48,7 +48,7 @@ impl Seen {
         })
     }
 
-    /// The signatures of all speeds, ascending.
+    /// Signatures at all speeds, ascending.
     pub fn signatures(&self) -> Vec<Signature> {
         let Ok(speeds) = self.speeds.lock() else {
             return Vec::new();

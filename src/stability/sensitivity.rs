@@ -1,7 +1,7 @@
-//! How critical speeds, onsets and eigenvalues move with the numbers of the scene.
+//! Sensitivity of critical speeds, onsets and eigenvalues to the numbers of the scene.
 //!
-//! The matrices are differentiated by differences of their assembly, see [`matrix_slopes`]; the
-//! eigenvalues are then differentiated exactly, with left and right vectors.
+//! Differences of assembled matrices give their derivatives, see [`matrix_slopes`]; the derivatives of the
+//! eigenvalues are then exact, with left and right vectors.
 
 use faer::{Col, c64};
 
@@ -12,35 +12,35 @@ use crate::scene::{Parameter, Scene, SceneError, SceneFile};
 use crate::spectrum::{Differences, Mode, ModeKind, SpectrumError, derivative, matrix_slopes};
 use crate::system::GyroscopicSystem;
 
-/// Step of the differences as a share of the change, 1e-3 of the number where that is 1 %:
-/// truncation (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
+/// Step of the differences as a share of the change, so 1e-3 of the number for a change of 1 %: truncation
+/// (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
 const STEP: f64 = 0.1;
 
-/// Relative distance below the onset of a band at which the two modes that coalesce there are looked at.
+/// Relative distance below the onset of a band at which the two coalescing modes are computed.
 const BELOW: f64 = 1e-8;
-/// An onset this close to a critical speed, relatively, is that speed.
+/// An onset closer than this to a critical speed, relatively, equals it.
 const SAME_SPEED: f64 = 1e-10;
 
-/// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, a rise of
-/// temperature by 1 K.
+/// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a temperature rise
+/// by 1 K.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
     /// JSON path of the number.
     pub parameter: String,
-    /// The change in words: "1 %".
+    /// The change as text: "1 %".
     pub change: &'static str,
     /// Relative change of each critical speed within the range.
     pub critical_speeds: Vec<f64>,
-    /// Relative change of the onset of each band; `None` where the range begins in it.
+    /// Relative change of the onset of each band; `None` if the range begins in it.
     pub onsets: Vec<Option<f64>>,
-    /// Change of λ of each mode at the speed asked for, in 1/s.
+    /// Change of λ of each mode at the requested speed, in 1/s.
     pub eigenvalues: Vec<c64>,
 }
 
-/// Why no sensitivity could be computed.
+/// Reason why no sensitivity could be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SensitivityError {
-    /// A number stands so close to the edge of what is allowed that it cannot be moved.
+    /// A number is too close to its allowed limit to be changed.
     #[error(
         "a number of the scene cannot be moved by a tenth of a percent to differentiate by it: {0}"
     )]
@@ -50,16 +50,16 @@ pub enum SensitivityError {
     Spectrum(#[from] SpectrumError),
 }
 
-/// A change that is asked about.
+/// Change of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum By {
-    /// Of the number itself.
+    /// By one percent of the number.
     Percent,
-    /// One unit, in words.
+    /// By one unit, with its text.
     One(&'static str),
 }
 
-/// A number of the scene and the change of it that is asked about.
+/// A number of the scene and its change.
 struct Variation {
     parameter: Parameter,
     value: f64,
@@ -134,13 +134,12 @@ impl Analysis {
 }
 
 impl Variation {
-    /// The variations that are asked about: of the blade, of every guide, and of the heat and roll tension that
-    /// the scene has.
+    /// Variations of the blade, of every guide, and of the heat and roll tension of the scene.
     fn of_scene(scene: &SceneFile) -> Vec<Self> {
         let mut all = Vec::new();
         let mut add = |path: String, by| {
             let parameter = Parameter::new(&path);
-            // Keys that the scene leaves out have no number to vary.
+            // Keys that the scene omits have no number to vary.
             if let Ok(value) = parameter.get(scene) {
                 all.push(Variation {
                     parameter,
@@ -183,7 +182,7 @@ impl Variation {
         all
     }
 
-    /// The whole change of the number.
+    /// Full change of the number.
     fn change(&self) -> f64 {
         match self.by {
             By::Percent => 0.01 * self.value,
@@ -191,7 +190,7 @@ impl Variation {
         }
     }
 
-    /// Change of the matrices of every component for the whole change of the number.
+    /// Change of the matrices of every component for the full change of the number.
     fn of_matrices(
         &self,
         scene: &Scene,
@@ -205,15 +204,15 @@ impl Variation {
     }
 }
 
-/// A speed at which something begins: two modes merge, or a wave stands still.
+/// Onset: a speed at which two modes coalesce or a wave stands still.
 struct Merging {
     component: usize,
     speed: f64,
     lambda: c64,
     x: Col<c64>,
-    /// The left vector, where it is another one.
+    /// Left vector, if it differs from the right one.
     y: Option<Col<c64>>,
-    /// Re λ = 0 of a damped mode moves with the real part alone.
+    /// Whether the mode is damped: Re λ = 0 moves with the real part alone.
     damped: bool,
 }
 
@@ -230,7 +229,7 @@ impl Merging {
         }
     }
 
-    /// The onset of a band; `None` where the range begins inside it.
+    /// Onset of a band; `None` if the range begins inside it.
     fn new(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let model = &analysis.model;
         if band.from_rad_per_s <= analysis.range_rad_per_s.0 {
@@ -251,7 +250,7 @@ impl Merging {
                 None => Self::of_real(analysis, band.from_rad_per_s),
             };
         }
-        // Just below the onset the two vectors are x ± εu: their mean is x up to ε².
+        // Just below the onset the two vectors are x ± εu: their mean is x to order ε².
         let before = band.from_rad_per_s * (1.0 - BELOW);
         let modes = model.modes(before)?;
         let pair = closest_opposite(&modes);
@@ -274,10 +273,10 @@ impl Merging {
         }))
     }
 
-    /// Where two real λ begin that were a quadruple; `None` where no such mode is found.
+    /// Coalescence of two real λ at the end of a quadruple; `None` if no such mode is found.
     ///
-    /// Just below it the vector is x + iεu: its real part is x up to ε². As L(λ)ᵀ = L(−λ) of an undamped saw, the left
-    /// vector is that of the mirror image −λ.
+    /// Just below it the vector is x + iεu: its real part is x to order ε². For an undamped saw L(λ)ᵀ =
+    /// L(−λ), so the left vector is that of the mirror image −λ.
     fn of_real(analysis: &Analysis, speed: f64) -> Result<Option<Self>, SpectrumError> {
         let model = &analysis.model;
         let before = speed * (1.0 - BELOW);
@@ -307,8 +306,7 @@ impl Merging {
         }))
     }
 
-    /// Re λ = 0 where the band begins; `None` where it begins otherwise, with the end of the
-    /// one before.
+    /// Onset with Re λ = 0; `None` if the band begins otherwise, at the end of the previous one.
     fn damped(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         const ONSET: f64 = 1e-6;
         let Some(onset) = band.curve.first().map(|point| point.lambda) else {
@@ -345,14 +343,14 @@ impl Merging {
     }
 }
 
-/// Of a vector that is real but for its phase and a small part.
+/// Real part of a vector that is real except for its phase and a small part.
 fn real_part(vector: Col<c64>) -> Col<c64> {
     let square: c64 = vector.iter().map(|q| q * q).sum();
     let phase = (square / square.norm().max(f64::MIN_POSITIVE)).sqrt();
     Col::from_fn(vector.nrows(), |i| c64::new((vector[i] / phase).re, 0.0))
 }
 
-/// The + and the − mode whose frequencies are closest.
+/// The + and the − mode with the closest frequencies.
 fn closest_opposite(modes: &[Mode]) -> Option<(&Mode, &Mode)> {
     let signed = |sign: i8| modes.iter().filter(move |m| m.krein_sign() == sign);
     let gap = |pair: &(&Mode, &Mode)| (pair.0.lambda - pair.1.lambda).norm();

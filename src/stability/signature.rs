@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::spectrum::{Mode, ModeKind};
 
-/// What a mode is, by its eigenvalue and Krein sign.
+/// Kind of a mode, by its eigenvalue and Krein sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sign {
     /// λ = iω, ω > 0, with Krein sign +1.
@@ -17,10 +17,10 @@ pub enum Sign {
     Real,
 }
 
-/// A mode as the search for bands sees it.
+/// A mode in the search for bands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SignedMode {
-    /// What it is.
+    /// Kind of mode.
     pub sign: Sign,
     /// λ, in 1/s.
     pub lambda: c64,
@@ -28,13 +28,13 @@ pub struct SignedMode {
     pub slope: c64,
 }
 
-/// The modes of one speed up to the last that a band can involve.
+/// Modes at one speed up to the last that can take part in a band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signature {
     /// Ω.
     pub speed_rad_per_s: f64,
-    /// Waves of both signs by frequency, up to the first + mode above the last − mode: the
-    /// others have nothing to coalesce with.
+    /// Waves of both signs by frequency, up to the first + mode above the last − mode: higher ones have no
+    /// partner to coalesce with.
     pub waves: Vec<SignedMode>,
     /// Coalesced modes by frequency.
     pub quadruples: Vec<SignedMode>,
@@ -43,7 +43,7 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// Of the modes of a speed.
+    /// Signature of the modes at a speed.
     pub fn new<'a>(speed_rad_per_s: f64, modes: impl Iterator<Item = &'a Mode>) -> Self {
         let mut signature = Signature {
             speed_rad_per_s,
@@ -91,7 +91,7 @@ impl Signature {
         self.real.last().copied()
     }
 
-    /// Highest frequency looked at, in rad/s.
+    /// Highest frequency considered, in rad/s.
     pub fn highest_rad_per_s(&self) -> f64 {
         let modes = self.waves.iter().chain(&self.quadruples);
         modes.fold(0.0, |top, mode| mode.lambda.im.max(top))

@@ -50,29 +50,29 @@ pub struct Setting {
     pub on_front: bool,
 }
 
-/// Sizes of the bases: those that a tolerance chooses from, but the largest.
+/// Sizes of the bases: all that a tolerance may choose, except the largest.
 const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0;
-/// The full model at every speed takes a hundred times as long: two sizes show it.
+/// The full model at every speed takes a hundred times as long, so only two sizes are measured.
 const DENSE_SIZES: usize = 2;
-/// What counts as the truth: the largest basis.
+/// Reference: the largest basis.
 const TRUTH: (usize, usize) = LADDER[LADDER.len() - 1];
-/// Speeds of a chart, and other numbers of them at one size.
+/// Speeds of a chart; at one size other numbers are measured too.
 const SPEEDS: usize = 51;
 const OTHER_SPEEDS: [usize; 2] = [25, 201];
 const MIDDLE_SIZE: (usize, usize) = (14, 9);
-/// An error larger by no more than this is no worse: the number of speeds changes the last digits.
+/// Errors within this factor are equal, because the number of speeds changes the last digits.
 const SAME_ERROR: f64 = 1.01;
-/// A time below this is taken so many times, and the least counts.
+/// Times below this are measured several times, and the least is taken.
 const SHORT_S: f64 = 1.0;
 const TIMES: usize = 3;
 
-/// Speeds at which something happens, in rad/s.
+/// Speeds of events, in rad/s.
 struct Events {
     critical: Vec<f64>,
     onsets: Vec<f64>,
 }
 
-/// Measures run time and true error of every method and size of the basis on a saw.
+/// Measures run time and true error of every method and basis size for a saw.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
@@ -121,7 +121,7 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     Ok(settings)
 }
 
-/// The cheapest chart that is within an error.
+/// Cheapest chart within an error.
 #[cfg(any(feature = "cli", test))]
 pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
     settings
@@ -131,7 +131,7 @@ pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
 }
 
 impl Setting {
-    /// Whether bands are among the results.
+    /// Whether the method finds bands.
     pub fn is_chart(&self) -> bool {
         matches!(self.method, Method::Reduced | Method::Dense)
     }
@@ -191,7 +191,7 @@ fn events(
 }
 
 impl Events {
-    /// Largest relative distance of a true event from the nearest one found.
+    /// Largest relative distance of a reference event from the nearest event found.
     fn error(&self, truth: &Events) -> f64 {
         let worst = |found: &[f64], truth: &[f64]| {
             let nearest = |t: &f64| {

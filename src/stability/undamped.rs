@@ -1,4 +1,4 @@
-//! Every band of an undamped blade over a range of speeds, and the speeds that show them.
+//! Bands of an undamped blade over a range of speeds, and the speeds to draw.
 
 use super::band::Instability;
 use super::certificate::Certificate;
@@ -10,14 +10,13 @@ use super::signature::Signature;
 use crate::campbell::{self, Closeness, Progress, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
 
-/// Even speeds from which the bands of a chart are searched: the same bands come out of any
-/// number of them.
+/// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
-/// Speeds drawn within and beside a band, as shares of its width, besides that of its peak.
+/// Speeds drawn within and beside a band, as shares of its width, in addition to its peak.
 pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
-/// Modes at `count` even speeds and where bands and curves need more, the bands, and what was
-/// checked of them.
+/// Computes modes at `count` even speeds and wherever bands and curves need more, the bands, and their
+/// checks.
 pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
@@ -33,7 +32,7 @@ pub(super) fn charted(
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
         Detail::Sketch => with_critical_speeds(model, drawn, even),
     };
-    // A free blade has no bands to search for, and is only held against the Krein index.
+    // A free blade has no bands to search for; only the Krein index is checked.
     let search = match model.plate.is_axisymmetric() {
         true => from_lowest_critical(model, speeds.clone()),
         false => search_speeds(model, range, SEARCH_SPEEDS),
@@ -65,9 +64,9 @@ fn signature_of(sample: &SpeedSample) -> Signature {
     Signature::new(sample.speed_rad_per_s, modes)
 }
 
-/// Every band of an undamped blade in a range of speeds, searched from `count` even
-/// speeds and both sides of every critical one, and the proof that none is missing. One in which the range begins
-/// or ends is cut there.
+/// Finds every band of an undamped blade in a range of speeds, searched from `count` even speeds and both
+/// sides of every critical speed, with the proof that none is missing. A band is cut at the ends of the
+/// range.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -80,20 +79,20 @@ pub fn undamped_bands(
     bands(model, range, &speeds, Depth::Counts)
 }
 
-/// Speeds from which the bands of a range are searched for: `count` even ones and both sides of every critical one. The
-/// first and the last are a little outside the range, clear of every critical speed.
+/// Start speeds of the search for bands: `count` even ones and both sides of every critical speed. The first
+/// and the last are slightly outside the range, away from every critical speed.
 pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
     let searched = searched_range(&model.critical, range);
     let even = campbell::even_speeds(searched, count);
     from_lowest_critical(model, with_critical_speeds(model, searched, even))
 }
 
-/// Share of |ω| + Ω below which growth of a mode that is only drawn is not held against the bands: frequencies are right to
-/// 1e-5 of the chart's height, and growth next to a coalescence to the root of that.
+/// Share of |ω| + Ω below which growth of a drawn mode is not compared with the bands: frequencies are
+/// accurate to 1e-5 of the chart's height, and growth next to a coalescence to the square root of that.
 const DRAWN_FLOOR: f64 = 1e-3;
 
-/// Ascending speeds without those at which nothing can be unstable: below its lowest critical
-/// speed K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
+/// Ascending speeds without those below the lowest critical speed, where nothing can be unstable: K(Ω) is
+/// positive definite, no wave is reflected, and the Krein index is zero.
 fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let lowest = model.critical.first();
     let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
@@ -102,11 +101,11 @@ fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64>
     speeds
 }
 
-/// Critical speeds closer than this, relatively, are one double critical speed: that of a wave
-/// which nothing holds in place, as on a free blade.
+/// Critical speeds closer than this, relatively, are one double critical speed, of a wave that can have any
+/// position, as on a free blade.
 const DOUBLE: f64 = 1e-9;
-/// Relative distance kept from a double critical speed. Both λ pass through zero in proportion
-/// to Ω − Ω_c there, not to its root, and are told from rounding only further away.
+/// Relative distance kept from a double critical speed. Both λ pass through zero in proportion to Ω − Ω_c
+/// there, not to its root, and exceed rounding only further away.
 const DOUBLE_GAP: f64 = 1e-4;
 
 /// Relative distance to keep from a critical speed.
@@ -121,18 +120,18 @@ fn critical_gap(critical: &[f64], index: usize) -> f64 {
     }
 }
 
-/// Relative distance from a critical speed at which an eigenvalue is told from zero by far.
+/// Relative distance from a critical speed at which an eigenvalue differs clearly from zero.
 const CLEAR: f64 = 1e-5;
 
-/// The speeds, and both sides of each group of critical speeds in the range.
+/// Adds both sides of each group of critical speeds in the range.
 pub(super) fn with_critical_speeds(
     model: &SpectralModel,
     range: (f64, f64),
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
     if model.plate.is_axisymmetric() {
-        // A wave of the free blade runs through zero without diverging; a speed so
-        // close to that zero that its sign is rounding says nothing.
+        // A wave of the free blade passes through zero without diverging; a speed so close to that zero that
+        // its sign is rounding gives no information.
         let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
         let clear = |s: &f64| {
             critical
@@ -178,7 +177,7 @@ pub(super) fn with_critical_speeds(
     speeds
 }
 
-/// The speeds at which no eigenvalue is next to zero.
+/// Speeds without an eigenvalue next to zero.
 fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let is_clear = |speed: &f64| {
         let mut critical = model.critical.iter();
@@ -188,8 +187,8 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-/// Speeds inside and beside the bands, so that the narrowest one is drawn; of hundreds of bands as many at each as there is
-/// room for, the peaks first.
+/// Speeds inside and beside the bands, so that the narrowest one is drawn. With hundreds of bands, as many
+/// for each as there is room for, peaks first.
 fn inside(
     instabilities: &[Instability],
     samples: &[SpeedSample],

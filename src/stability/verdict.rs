@@ -1,14 +1,14 @@
-//! Whether a saw can run at a speed: the one answer that the check, the summary, the report,
-//! the page and a study give.
+//! Verdict whether a saw can run at a speed, shared by check, summary, report, page and study.
 //!
-//! Divergence counts wherever it is. Flutter counts where it grows as fast as the threshold:
-//! - of an undamped blade a band counts as a whole, by its largest growth: growth rises with the
-//!   square root of the distance from the onset, within a fraction of the band's width;
-//! - of a damped blade a band may grow imperceptibly over hundreds of rpm, so that it counts
-//!   only where its growth reaches the threshold.
+//! Divergence always counts. Flutter counts if it grows as fast as the threshold:
+//! - in an undamped blade a band counts as a whole, by its largest growth: growth rises with the square root
+//!   of the distance from the onset, within a fraction of the band's width;
+//! - in a damped blade a band may grow imperceptibly over hundreds of rpm, so it counts only where its growth
+//!   reaches the threshold.
 //!
-//! A critical speed is no instability where no band opens there: nothing grows. But K(Ω) is singular, and
-//! a constant side force bends the wave without bound. A window without instability ends short of it.
+//! A critical speed without a band is no instability, because nothing grows. But K(Ω) is singular there, and
+//! a constant side force deflects the wave without bound. A window without instability therefore ends before
+//! it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,9 +17,9 @@ use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
 
-/// Nearer than this share of a critical speed a saw is said to run at it. Of a side force that stands
-/// in space K(Ω) = K₀ − Ω²B bends the wave that belongs to the critical speed Ω_c by 1/|1 − (Ω/Ω_c)²| times
-/// what it does at rest: ten times so near. The 85 % rule allows 3.6 times.
+/// A saw closer than this share to a critical speed runs at it. A side force fixed in space deflects the wave
+/// of the critical speed Ω_c, by K(Ω) = K₀ − Ω²B, by 1/|1 − (Ω/Ω_c)²| times its deflection at rest: ten times
+/// at this margin. The 85 % rule allows 3.6 times.
 pub const CRITICAL_MARGIN: f64 = 0.05;
 
 /// The answer to whether a saw is stable at one speed.
@@ -49,21 +49,21 @@ pub struct Verdict {
     pub critical: Option<usize>,
 }
 
-/// What a verdict is made from.
+/// Data for a verdict.
 #[derive(Debug, Clone, Copy)]
 pub struct Evidence<'a> {
     /// Every band within the range.
     pub bands: &'a [Instability],
-    /// Critical speeds, ascending, in rad/s; those next to the range too.
+    /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: &'a [f64],
     /// Flutter counts from this growth rate on; divergence always counts.
     pub threshold_per_s: f64,
-    /// The speeds that were searched, in rad/s.
+    /// Range of the search, in rad/s.
     pub range_rad_per_s: (f64, f64),
 }
 
 impl Evidence<'_> {
-    /// The verdict on the saw at a speed.
+    /// Verdict at a speed.
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
         let around = |(from, to): &(f64, f64)| (*from..=*to).contains(&speed_rad_per_s);
         let counted = self.bands.iter().enumerate().filter_map(|(index, band)| {
@@ -101,8 +101,8 @@ impl Evidence<'_> {
         near.min_by(|x, y| off(*x).total_cmp(&off(*y)))
     }
 
-    /// The speeds around one at which no instability counts, in rad/s, within the range and no nearer to a
-    /// critical speed than 5 %; `None` where the saw is unstable or at a critical speed, or
+    /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at
+    /// least 5 % away from critical speeds; `None` where the saw is unstable or at a critical speed, or
     /// nothing was computed.
     pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
         let verdict = self.verdict(speed_rad_per_s);
@@ -129,8 +129,7 @@ impl Evidence<'_> {
     }
 }
 
-/// Lowest speed at which flutter counts, and lowest of all at which a mode flutters, however
-/// slowly it grows; both in rad/s.
+/// Lowest speed of flutter that counts, and lowest speed of any flutter; both in rad/s.
 pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f64>; 2] {
     let flutter = bands.iter().filter(|b| b.kind == InstabilityKind::Flutter);
     let counted = flutter.clone().flat_map(|b| b.counted(threshold_per_s));
@@ -142,7 +141,7 @@ pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f6
 }
 
 impl Instability {
-    /// The stretches of speeds in which it counts, ascending, in rad/s.
+    /// Intervals of speed in which the band counts, ascending, in rad/s.
     pub fn counted(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
         if !self.counts(threshold_per_s) {
             return Vec::new();
@@ -194,7 +193,7 @@ pub(super) fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
     let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
     let straight = before.0 + share * (after.0 - before.0);
-    // Where two modes meet, slopes are infinite, and the points so close that none is needed.
+    // At a coalescence slopes are infinite, and the points are so close that none is needed.
     let size = before.0.abs() + after.0.abs();
     let steepness = before.1.abs() + after.1.abs();
     if steepness.is_nan() || steepness > 8.0 * size {
@@ -297,7 +296,7 @@ mod tests {
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
     }
 
-    /// No band opens at the critical speeds of a blade without guides, yet no window reaches one.
+    /// No band opens at the critical speeds of a blade without guides, but windows still end before them.
     #[test]
     fn windows_end_short_of_critical_speeds() {
         let bands = [band(InstabilityKind::Divergence, 240.0, 250.0, 1.0)];
@@ -318,7 +317,7 @@ mod tests {
         }
         assert_eq!(at(100.0).state, StabilityState::Stable);
         assert_eq!(window(100.0), None);
-        // Ten times the deflection at rest at the margin, on either side of it.
+        // At the margin, on either side, the deflection is ten times that at rest.
         for ratio in [1.0 - CRITICAL_MARGIN, 1.0 + CRITICAL_MARGIN] {
             let times = 1.0 / (1.0 - ratio * ratio).abs();
             assert!((times - 10.0).abs() < 0.3, "{times}");

@@ -10,30 +10,30 @@ use crate::spectrum::full_model::{Elimination, FullModel};
 use crate::spectrum::vectors::Eigenpair;
 use crate::system::GyroscopicSystem;
 
-/// Steps beyond the number of eigenvalues wanted before the first look, which costs as much as
-/// all steps before it: most saws need no second one.
+/// Number of steps, beyond the number of requested eigenvalues, before the first check, which costs as much
+/// as all steps before it: most saws need no second one.
 const STEPS_BEYOND: usize = 44;
-/// The same where every step solves twice.
+/// This number for the operator with two solves per step.
 const SQUARED_STEPS_BEYOND: usize = 20;
 
-/// What Arnoldi's iteration multiplies with, in units of σ, and what its eigenvalues say of A.
+/// The operator of Arnoldi's iteration, in units of σ, and the relation of its eigenvalues to those of A.
 pub(super) trait Operator {
     /// Number of rows.
     fn order(&self) -> usize;
 
-    /// How many vectors the iteration can have at most.
+    /// Largest number of vectors of the iteration.
     fn most_vectors(order: usize) -> usize;
 
-    /// Steps beyond the number of eigenvalues wanted before the first look.
+    /// Number of steps, beyond the number of requested eigenvalues, before the first check.
     fn steps_beyond() -> usize;
 
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64>;
 
-    /// Removes from the next vector what only rounding has put there.
+    /// Removes rounding errors from the next vector.
     fn clear(&self, span: MatRef<'_, f64>, next: &mut Col<f64>);
 
-    /// λ in units of σ and q of the eigenvalues of A that belong to one of the operator, from the
-    /// real and the imaginary part of its vector; those with Im λ < 0 may be there too.
+    /// λ in units of σ and q of the eigenvalues of A that belong to one of the operator, from the real and
+    /// the imaginary part of its vector; those with Im λ < 0 may be included.
     fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair>;
 }
 
@@ -46,9 +46,10 @@ pub(super) struct ShiftedInverse {
 
 /// (L(σ)/σ²)⁻¹.
 enum Inverse {
-    /// As a whole: applying it takes half the time of two triangular solves, and the few dozen applications repay it.
+    /// As an explicit inverse: applying it takes half the time of two triangular solves, which pays off for a
+    /// few dozen applications.
     Dense(Mat<f64>),
-    /// By its structure, L(σ) and σ².
+    /// By blocks and columns, with L(σ) and σ².
     Structured(Box<Elimination<f64>>, f64),
 }
 
@@ -79,12 +80,11 @@ impl Inverse {
     }
 }
 
-/// A matrix, sparse where it can be.
+/// A matrix, sparse if possible.
 enum Velocity {
-    /// Where it is not zero: (row, column, value). Without dampers there are no more than
-    /// two a row.
+    /// Its non-zero entries: (row, column, value). Without dampers there are at most two in a row.
     Sparse(Vec<(usize, usize, f64)>),
-    /// A damper under the blade couples everything with everything.
+    /// A damper under the blade couples all unknowns.
     Dense(Mat<f64>),
 }
 
@@ -96,7 +96,7 @@ impl Velocity {
             let entries = places.map(|(i, k)| (i, k, matrix[(i, k)]));
             entries.filter(|(_, _, value)| *value != 0.0)
         };
-        // A triple moves three times the memory of a number, and in no order.
+        // An entry takes three times the memory of a number and is accessed out of order.
         if entries().count() <= size * size / 8 {
             return Velocity::Sparse(entries().collect());
         }
@@ -129,8 +129,8 @@ impl ShiftedInverse {
         }
     }
 
-    /// The same of an undamped blade by the structure of its matrices, but for what its guides'
-    /// columns leave out. `None` where they have none.
+    /// The operator of an undamped blade by the structure of its matrices, without the part of the guides
+    /// that their columns neglect. `None` without such a structure.
     pub fn by_structure(full: &FullModel, speed_rad_per_s: f64, shift_per_s: f64) -> Option<Self> {
         let elimination = full.eliminated(speed_rad_per_s, shift_per_s)?;
         Some(ShiftedInverse {
@@ -179,7 +179,7 @@ pub(super) struct SquaredInverse {
     shifted: ShiftedInverse,
 }
 
-/// A vector of A that is this small beside its parts is rounding.
+/// A vector of A that is smaller than this share of its summands is rounding.
 const CANCELLED: f64 = 1e-6;
 
 impl SquaredInverse {
@@ -225,7 +225,7 @@ impl Operator for SquaredInverse {
         stacked(&w, &p)
     }
 
-    /// The symplectic form vanishes on the Krylov vectors, but for rounding, by which each λ² would
+    /// The symplectic form vanishes on the Krylov vectors except for rounding, which would cause each λ² to
     /// be found a second time.
     fn clear(&self, span: MatRef<'_, f64>, next: &mut Col<f64>) {
         let size = span.nrows() / 2;
@@ -259,7 +259,7 @@ impl Operator for SquaredInverse {
         let is_sound = |pair: &Eigenpair| pair.1.norm_l2() > CANCELLED * parts;
         let mut pairs: Vec<Eigenpair> = vec![pair(root)];
         if root.re != 0.0 {
-            // With −λ its conjugate, which has Im ≥ 0 where λ has.
+            // −λ has the conjugate vector, and Im(−λ) ≥ 0 if Im λ ≤ 0.
             let (lambda, q) = pair(-root);
             pairs.push((lambda.conj(), Col::from_fn(size, |i| q[i].conj())));
         }

@@ -1,55 +1,58 @@
-//! What couples the harmonics, as few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε G.
+//! The coupling of harmonics by few columns: K_g = PPᵀ + R with 0 ≤ R ≤ ε G.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
 
 use super::Harmonic;
 
-/// What couples the harmonics.
+/// The coupling of harmonics.
 #[derive(Debug)]
 pub enum Coupling {
-    /// PPᵀ and a rest that is too small to matter.
+    /// PPᵀ with a negligible remainder.
     Columns(Box<Columns>),
-    /// In the basis of waves, N × N: edge loads couple every wave with every other.
+    /// A dense matrix in the basis of waves, N × N: edge loads couple all waves.
     Dense(Mat<c64>),
 }
 
-/// P.
+/// The columns P.
 #[derive(Debug)]
 pub struct Columns {
-    /// In the waves of the blade at rest, J rows of every n, those of cos nθ above those of sin nθ, which are zero for
-    /// n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second, e^{−inθ} their conjugates.
+    /// P in the waves of the blade at rest, J rows for every n, those of cos nθ above those of sin nθ, which
+    /// are zero for n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second,
+    /// e^{−inθ} their conjugates.
     pub resting: Mat<f64>,
-    /// Numbers of columns of each look, and of what solves, with the ε of those left out.
+    /// Number of columns of each stage and of solves, with the ε of the remainder.
     pub rests: [(usize, f64); LOOKS + 1],
-    /// P in the unknowns of the plate, N × columns; more of them than above.
+    /// P in the unknowns of the plate, N × columns; more columns than in `resting`.
     pub unknowns: Mat<f64>,
-    /// Whether these leave out no more than rounding.
+    /// Whether the remainder is rounding.
     pub is_exact: bool,
 }
 
-/// How many columns of K_g are looked for.
+/// Extent of the search for columns of K_g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kept {
-    /// Until rounding is left.
+    /// Until only rounding remains.
     All,
-    /// Until what is left no longer matters to solves.
+    /// Until the remainder is negligible for solves.
     Few,
 }
 
-/// Looks at a line, the later one closer and at a higher cost.
+/// Number of stages in which a line is examined; the later one is more accurate and costs more.
 pub const LOOKS: usize = 2;
-/// Trace of the rest, relative to the weights, at which a look takes no more columns, and what solves with them.
+/// Trace of the remainder, relative to the weights, at which a stage, and finally a solve, needs no more
+/// columns.
 const ENOUGH: [f64; LOOKS + 1] = [1e-3, 1e-5, 1e-7];
-/// Trace of the rest, relative to that of K_g, both relative to the stiffness at rest, which is rounding of K_g.
+/// Trace of the remainder, relative to that of K_g, both relative to the stiffness at rest, that is rounding
+/// of K_g.
 const EXACT: f64 = 4.0 * f64::EPSILON;
-/// Columns beyond this share of the unknowns cost more than the matrix as a whole.
+/// If the columns exceed this share of the unknowns, a dense matrix costs less.
 const MOST_COLUMNS: f64 = 0.4;
 
 impl Columns {
-    /// Cholesky with complete pivoting of K_g relative to the weights G of the waves at rest, G⁻¹ᐟ² K_g G⁻¹ᐟ²: what is
-    /// left is positive and no larger than its trace. `None` where there are too many columns, and where
-    /// K_g has a negative direction.
+    /// Cholesky factorization with complete pivoting of K_g relative to the weights G of the waves at rest,
+    /// G⁻¹ᐟ² K_g G⁻¹ᐟ²: the remainder is positive and at most its trace. `None` if there are too many
+    /// columns, or if K_g has a negative direction.
     pub fn new(coupling: &Mat<f64>, harmonics: &[Harmonic], kept: Kept) -> Option<Self> {
         let order = coupling.nrows();
         let relative = Relative::new(coupling, harmonics);
@@ -98,12 +101,12 @@ impl Columns {
         Some(Self::of_unknowns(unknowns, is_exact, rests, harmonics))
     }
 
-    /// P without the columns that are left out, in the unknowns of the plate.
+    /// The columns for solves, in the unknowns of the plate.
     pub fn few(&self) -> MatRef<'_, f64> {
         self.unknowns.subcols(0, self.rests[LOOKS].0)
     }
 
-    /// With those that are not left out in the waves at rest.
+    /// From columns in the unknowns of the plate; those of the stages are converted to the waves at rest.
     fn of_unknowns(
         unknowns: Mat<f64>,
         is_exact: bool,
@@ -137,7 +140,7 @@ impl Columns {
     }
 }
 
-/// By how much the weight of every wave is above its stiffness at rest.
+/// Ratio of the weight of every wave to its stiffness at rest.
 fn heavier(harmonics: &[Harmonic]) -> Vec<f64> {
     let of = |h: &Harmonic| -> Vec<f64> {
         let all = h.weights.iter().zip(h.resting.eigenvalues.iter());
@@ -149,13 +152,13 @@ fn heavier(harmonics: &[Harmonic]) -> Vec<f64> {
     blocks.flatten().collect()
 }
 
-/// F⁻¹ K F⁻ᵀ, FFᵀ = G block by block, of which few columns are ever asked for.
+/// F⁻¹ K F⁻ᵀ with FFᵀ = G, block by block; only few of its columns are computed.
 struct Relative<'a> {
     coupling: &'a Mat<f64>,
     blocks: Vec<Scaled>,
 }
 
-/// One block of F, the waves at rest each times the root of its weight.
+/// One block of F: the waves at rest, each times the root of its weight.
 struct Scaled {
     /// Index of its first unknown.
     first: usize,
@@ -225,7 +228,7 @@ impl<'a> Relative<'a> {
 /// A symmetric matrix in the basis of waves (cos nθ ± i sin nθ)/√2, e^{inθ} before e^{−inθ}.
 pub fn in_waves(matrix: &Mat<f64>, harmonics: &[Harmonic]) -> Mat<c64> {
     let half = std::f64::consts::FRAC_1_SQRT_2;
-    // Every wave is a cosine and ±i sines: (index of the cosine, of the sine, sign, share).
+    // Every wave is a cosine plus or minus i times a sine: (index of the cosine, of the sine, sign, share).
     let waves: Vec<(usize, usize, f64, f64)> = harmonics
         .iter()
         .flat_map(|h| {

@@ -1,4 +1,4 @@
-//! What acts on the velocity of a blade, by the structure of its full model.
+//! Forces that depend on the velocity of a blade, by the structure of its full model.
 
 use faer::traits::math_utils::from_f64;
 use faer::{Mat, MatRef, c64};
@@ -10,25 +10,26 @@ use super::elimination::Shift;
 use super::harmonic::Harmonic;
 use crate::plate::Plate;
 
-/// Inertia, gyroscopic forces and damping; without damping the numbers of the latter are zero.
+/// Inertia, gyroscopic forces and damping; without damping the coefficients of the latter are zero.
 #[derive(Debug)]
 pub struct Damping {
-    /// K_b, and what air acts on, of every harmonic; empty without damping of the blade.
+    /// K_b and the area on which air acts, for every harmonic; empty without damping of the blade.
     blade: Vec<[DMatrix<f64>; 2]>,
     /// η.
     retardation_s: f64,
-    /// c over the mass of an area.
+    /// c over the mass per area.
     air_per_s: f64,
     /// s.
     air_rotation_share: f64,
-    /// τ of dampers that go with the springs, as those of one guide do: K_g + λC = (1 + τλ) K_g.
+    /// τ of dampers proportional to the springs, such as those of a single guide: K_g + λC = (1 + τλ) K_g.
     guide_retardation_s: f64,
-    /// Dampers that do not.
+    /// Other dampers.
     dampers: Option<Columns>,
 }
 
 impl Damping {
-    /// Of a plate. `None` where forces have no potential, and where dampers take too many columns.
+    /// The forces of a plate; `None` if there are forces without a potential, or if dampers take too many
+    /// columns.
     pub fn of(plate: &Plate, harmonics: &[Harmonic]) -> Option<Self> {
         if plate.contact.nonconservative_stiffness().is_some() {
             return None;
@@ -78,7 +79,7 @@ impl Damping {
         block
     }
 
-    /// The columns of springs and of dampers, those that matter to solves, each with its W(λ).
+    /// The columns of springs and dampers for solves, each with its W(λ).
     pub fn weighted<'a, T: Shift>(
         &'a self,
         springs: &'a Columns,
@@ -92,7 +93,7 @@ impl Damping {
     }
 }
 
-/// τ where C = τK.
+/// τ if C = τK.
 fn proportion(stiffness: Option<&Mat<f64>>, damping: Option<&Mat<f64>>) -> Option<f64> {
     const ROUNDING: f64 = 1e-12;
     let (stiffness, damping) = stiffness.zip(damping)?;

@@ -1,13 +1,14 @@
-//! L(λ) with its blocks eliminated: what solves with it, and the argument of its determinant.
+//! L(λ) with its blocks eliminated: its solves, and the argument of its determinant.
 //!
-//! L = A + PWPᵀ with A block diagonal in the number of nodal diameters and W diagonal, and by the identity of Sherman,
-//! Morrison and Woodbury
+//! L = A + PWPᵀ with A block diagonal in the number of nodal diameters and W diagonal, and by the
+//! Sherman–Morrison–Woodbury identity
 //!
 //! L⁻¹ = A⁻¹ − A⁻¹P S⁻¹ W PᵀA⁻¹,  det L = det A · det S,  S = 1 + W PᵀA⁻¹P.
 //!
-//! Of a pair of cosines c and sines s the block of A is one of c + is and one of c − is; with V₊ and V₋ for their
-//! inverses, that of the pair is [[X, −Y], [Y, X]], X = (V₊ + V₋)/2 and Y = (V₊ − V₋)/2i. All blocks are symmetric, so
-//! that a transposition changes the sign of Y. At a real λ V₋ is the conjugate of V₊, and X and Y are real.
+//! For a pair of cosines c and sines s, A has a block for c + is and one for c − is; with their inverses V₊
+//! and V₋, that of the pair is [[X, −Y], [Y, X]], X = (V₊ + V₋)/2 and Y = (V₊ − V₋)/2i. All blocks are
+//! symmetric, so that transposition changes the sign of Y. For a real λ V₋ is the conjugate of V₊, and X and
+//! Y are real.
 
 use std::ops::{Add, AddAssign, Mul, MulAssign};
 
@@ -30,7 +31,7 @@ pub trait Shift:
     + Mul<Output = Self>
     + MulAssign
 {
-    /// A number that is known to be of this kind.
+    /// Converts a number that is known to be of this kind.
     fn of(number: c64) -> Self;
 }
 
@@ -51,14 +52,14 @@ impl Shift for c64 {
 pub(super) struct PairInverse<T> {
     /// Index of the first cosine, and of the first sine.
     firsts: Vec<usize>,
-    /// X and Y; without sines X alone counts.
+    /// X and Y; without sines only X is used.
     halves: [Mat<T>; 2],
     /// Argument of the determinant.
     angle: f64,
 }
 
 impl<T: Shift> PairInverse<T> {
-    /// Of the blocks of the waves of n and −n, the latter of c + is. `None` where one is singular.
+    /// From the blocks of the waves of n and −n, the latter of c + is. `None` if one is singular.
     pub fn new(harmonic: &Harmonic, wave: impl Fn(f64) -> DMatrix<c64>) -> Option<Self> {
         let inverted = |n: f64| {
             let factors = wave(n).lu();
@@ -122,7 +123,7 @@ pub struct Elimination<T: ComplexField> {
 }
 
 impl<T: Shift> Elimination<T> {
-    /// Of inverted blocks and of columns with their weights. `None` where something is not finite.
+    /// From inverted blocks, and columns with their weights. `None` if a value is not finite.
     pub(super) fn new(blocks: Vec<PairInverse<T>>, parts: &[(MatRef<'_, f64>, T)]) -> Option<Self> {
         let (first, _) = parts.first()?;
         let count = parts.iter().map(|(columns, _)| columns.ncols()).sum();
@@ -184,7 +185,7 @@ impl<T: Shift> Elimination<T> {
         found
     }
 
-    /// Argument of det L, up to whole turns. `None` where it is not a number.
+    /// Argument of det L, up to whole turns. `None` if it is not finite.
     pub fn determinant_angle(&self) -> Option<f64> {
         let blocks: f64 = self.blocks.iter().map(|block| block.angle).sum();
         let swaps = match is_odd(self.core.P().arrays().0) {
@@ -198,7 +199,7 @@ impl<T: Shift> Elimination<T> {
     }
 }
 
-/// W times the rows of a matrix.
+/// Multiplies the rows of a matrix by W.
 fn weigh<T: Shift>(weights: &[T], matrix: &mut Mat<T>) {
     for column in matrix.col_iter_mut() {
         for (value, weight) in column.iter_mut().zip(weights) {
@@ -207,7 +208,7 @@ fn weigh<T: Shift>(weights: &[T], matrix: &mut Mat<T>) {
     }
 }
 
-/// Whether a permutation takes an odd number of swaps.
+/// Whether a permutation is odd.
 fn is_odd(permutation: &[usize]) -> bool {
     let mut seen = vec![false; permutation.len()];
     let mut odd = false;
@@ -237,8 +238,8 @@ mod tests {
         radial_functions: 8,
     };
 
-    /// One point guide and two, which no column leaves anything of, without damping and with dampers that go with the
-    /// springs or not, in air and of a material that damps.
+    /// Plates with one point guide and with two, for which columns are exact, without damping and with
+    /// dampers proportional to the springs or not, in air and with material damping.
     fn plates() -> Vec<Plate> {
         let points = |count: usize, damping: f64| {
             let scene = Scene::paper().edited(|saw| {
@@ -261,7 +262,7 @@ mod tests {
             .into()
     }
 
-    /// L(λ) as a whole.
+    /// The whole matrix L(λ).
     fn whole(plate: &Plate, speed: f64, lambda: c64) -> Mat<c64> {
         let system = GyroscopicSystem::of_plate(plate);
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
@@ -272,7 +273,7 @@ mod tests {
         (found - exact).norm_l2() / exact.norm_l2()
     }
 
-    /// Against a factorization of the whole matrix, at a complex and at a real λ.
+    /// Reference: a factorization of the whole matrix, at a complex and at a real λ.
     #[test]
     fn solves_are_those_of_the_whole_matrix() {
         let speed = rad_per_s(2000.0);
@@ -305,7 +306,7 @@ mod tests {
         }
     }
 
-    /// What the columns of a pad leave out changes solves by less than a millionth.
+    /// The part of a pad that its columns neglect changes solves by less than a millionth.
     #[test]
     fn few_columns_of_a_pad_are_enough_for_solves() {
         let speed = rad_per_s(2000.0);
@@ -320,7 +321,7 @@ mod tests {
         assert!(distance < 5e-7, "{distance:e}");
     }
 
-    /// Against the determinant of the whole matrix, by its eigenvalues.
+    /// Reference: the determinant of the whole matrix, from its eigenvalues.
     #[test]
     fn the_angle_is_that_of_the_whole_determinant() {
         let speed = rad_per_s(2000.0);

@@ -1,10 +1,10 @@
-//! The waves of one number of nodal diameters, in the frame of the blade.
+//! The waves of one number of nodal diameters, in the body frame.
 
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 use crate::plate::HarmonicBlock;
 
-/// One harmonic in the frame of the blade.
+/// One harmonic in the body frame.
 #[derive(Debug)]
 pub struct Harmonic {
     /// n.
@@ -15,24 +15,25 @@ pub struct Harmonic {
     pub rest: DMatrix<f64>,
     /// K_σ.
     pub tension: DMatrix<f64>,
-    /// By how much K_σ falls short of being positive: rounding.
+    /// Largest negative eigenvalue of K_σ in magnitude, which is rounding.
     pub shortfall: f64,
-    /// Of the waves at rest, in 1/s²: what is small beside it may be left out. T = B(0) + σ, which is positive, and more
-    /// for waves so stiff that a good share of their stiffness changes nothing.
+    /// Weights of the waves at rest, in 1/s²: a term that is small compared with them is negligible. T = B(0)
+    /// + σ, which is positive, and more for waves so stiff that a large share of their stiffness has no
+    /// effect.
     pub weights: Vec<f64>,
     /// σ.
     pub shift: f64,
-    /// The waves at rest, near those of every speed: of K_b + K_m.
+    /// The waves at rest, of K_b + K_m, which approximate those at every speed.
     pub resting: SymmetricEigen<f64, Dyn>,
-    /// K_σ in these.
+    /// K_σ in the waves at rest.
     pub resting_tension: DMatrix<f64>,
 }
 
-/// Lines lie below this multiple of the blade's frequency scale, for the most part: those above are counted, with less
+/// Most lines lie below this multiple of the blade's frequency scale; those above are counted with less
 /// certainty.
 const HIGH_LINE: f64 = 6.0;
-/// A wave that is so many times as stiff as those that lines meet may be made stiffer by a thousand times the share that these
-/// may: its flexibility hardly counts.
+/// The weight of a wave with this ratio of its stiffness to that of the waves in question may be increased by
+/// a thousand times the share allowed for those, because its flexibility is negligible.
 const MOST_WEIGHT: f64 = 100.0;
 
 impl Harmonic {
@@ -82,18 +83,18 @@ impl Harmonic {
         (0..phases).map(move |phase| first + phase * radial)
     }
 
-    /// (ω + nΩ)² of a line high up.
+    /// (ω + nΩ)² of a line at high frequency.
     pub fn fast_turning(&self, speed_rad_per_s: f64) -> f64 {
         (HIGH_LINE * self.shift.sqrt() + self.diameters as f64 * speed_rad_per_s).powi(2)
     }
 
-    /// Indices of its waves among e^{inθ} and e^{−inθ}: for n = 0 they are one.
+    /// Indices of its waves among e^{inθ} and e^{−inθ}; for n = 0 there is one.
     pub fn signs(&self) -> impl Iterator<Item = usize> + use<> {
         0..if self.diameters == 0 { 1 } else { 2 }
     }
 }
 
-/// Of a wave with T at rest.
+/// Weight of a wave with T at rest.
 fn weight(own: f64, shift: f64) -> f64 {
     let stiffer = own / (HIGH_LINE.powi(2) * shift);
     own * stiffer.clamp(1.0, MOST_WEIGHT)

@@ -1,16 +1,16 @@
-//! How many eigenvalues of L(iω) of the undamped blade are negative, without its modes.
+//! Number of negative eigenvalues of L(iω) of the undamped blade, computed without its modes.
 //!
-//! L(iω) = K(Ω) − ω² + iω 2ΩG is block diagonal with the real symmetric blocks B_n(Ω) − (ω ± nΩ)² without guides,
-//! B_n = K_b + K_m + Ω²K_σ. The guides add K_g = PPᵀ, few columns, and Haynsworth's additivity of inertia (Linear
-//! Algebra Appl. 1, 1968) gives
+//! L(iω) = K(Ω) − ω² + iω 2ΩG is block diagonal with the real symmetric blocks B_n(Ω) − (ω ± nΩ)² without
+//! guides, B_n = K_b + K_m + Ω²K_σ. The guides add K_g = PPᵀ with few columns, and Haynsworth's additivity of
+//! inertia (Linear Algebra Appl. 1, 1968) gives
 //!
 //! n₋(A + PPᵀ) = n₋(A) + n₋(−1 − PᴴA⁻¹P) − columns.
 //!
-//! **Boxes.** If L_low ≤ L ≤ L_high, in the sense of their quadratic forms, all along a line ω(Ω) and both
-//! have the same number of negative eigenvalues, then L is nonsingular on the whole line: no
-//! mode meets it. B_n(Ω) grows with Ω, for K_σ ≥ 0, and (ω ± nΩ)² is largest and smallest at the ends of
-//! the line or zero, so that two counts settle a line. What is left out of PPᵀ, and rounding, are
-//! on the same footing: L_high has them in full.
+//! **Boxes.** If L_low ≤ L ≤ L_high, in the sense of quadratic forms, all along a line ω(Ω), and both have
+//! the same number of negative eigenvalues, then L is nonsingular on the whole line, and no mode crosses it.
+//! B_n(Ω) grows with Ω because K_σ ≥ 0, and (ω ± nΩ)² is largest and smallest at the ends of the line or
+//! zero, so two counts suffice for a line. The neglected part of PPᵀ and rounding are included in the same
+//! way: L_high contains them in full.
 
 mod free_waves;
 mod jacobi;
@@ -28,27 +28,27 @@ use super::coupling::{Coupling, LOOKS};
 use super::{FullModel, Harmonic};
 use crate::spectrum::hermitian::negative_eigenvalues;
 
-/// Share of T = B(0) + σ that rounding may change L by.
+/// Share of T = B(0) + σ by which rounding may change L.
 const ROUNDING: f64 = 1e-11;
-/// A wave with a stiffness of so many times (ω + nΩ)² is as good as at rest, in each look.
+/// A wave whose stiffness is this multiple of (ω + nΩ)² is treated as if it were at rest, for each stage.
 const STIFF: [f64; LOOKS] = [1e2, 1e4];
-/// Share of the speed beyond which a line is so long that more columns do not help.
+/// Relative length of a line in speed from which on more columns do not help.
 const LONG: f64 = 1e-3;
 
 impl FullModel {
-    /// Number of waves of the undamped blade at rest below a frequency, where that is certain.
+    /// Number of waves of the undamped blade at rest below a frequency, if it is certain.
     pub fn modes_at_rest_below(&self, frequency_rad_per_s: f64) -> Option<usize> {
         let rest = self.at(0.0);
         self.count_along([&rest, &rest], [frequency_rad_per_s; 2])
     }
 
-    /// Number of critical speeds below a speed, where that is certain: K₀ is positive definite.
+    /// Number of critical speeds below a speed, if it is certain, for positive definite K₀.
     pub fn critical_speeds_below(&self, speed_rad_per_s: f64) -> Option<usize> {
         let at = self.at(speed_rad_per_s);
         self.count_along([&at, &at], [0.0; 2])
     }
 
-    /// What counts at a speed have in common.
+    /// Data common to the counts at a speed.
     pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
         AtSpeed {
             speed_rad_per_s,
@@ -57,8 +57,8 @@ impl FullModel {
         }
     }
 
-    /// Number of negative eigenvalues of L(iω) all along a line between two speeds, given by its
-    /// frequencies at both. `None` where that is not certain: a mode may meet the line.
+    /// Number of negative eigenvalues of L(iω) along a line between two speeds, given by its frequencies at
+    /// both. `None` if it is not certain that no mode crosses the line.
     pub fn count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2]) -> Option<usize> {
         self.looks(ends).find_map(|look| {
             let low = self.bound(ends, line, Bound::Low, look)?;
@@ -163,17 +163,17 @@ impl FullModel {
     }
 }
 
-/// A speed, and what counts at it have in common once it is asked for.
+/// A speed, with data common to its counts, computed when first needed.
 #[derive(Debug)]
 pub struct AtSpeed {
     speed_rad_per_s: f64,
-    /// Of every harmonic.
+    /// Free waves of every harmonic.
     free: OnceLock<Vec<FreeWaves>>,
-    /// Of each look.
+    /// Waves for each stage.
     waves: [OnceLock<Waves>; LOOKS],
 }
 
-/// Of a bound (1 + share) B_n + more − (ω ± nΩ)².
+/// Block of a bound, (1 + share) B_n + more − (ω ± nΩ)².
 struct BoundedBlock {
     share: f64,
     more: f64,
@@ -195,7 +195,7 @@ impl Bound {
         }
     }
 
-    /// What to subtract for the square of a number between two.
+    /// Bound of the square of a number between two.
     fn of_square(self, ends: [f64; 2]) -> f64 {
         let [x, y] = ends.map(|end| end * end);
         match self {

@@ -9,8 +9,7 @@ use super::{FullModel, Harmonic};
 use crate::system::GyroscopicSystem;
 
 impl FullModel {
-    /// K₀X, (K_σ − N)X and GX with all columns that there are. `None` where loads at the rim couple every wave with every
-    /// other.
+    /// K₀X, (K_σ − N)X and GX with all columns. `None` if loads at the rim couple all waves.
     pub fn times(&self, x: MatRef<'_, f64>) -> Option<GyroscopicSystem> {
         let Coupling::Columns(columns) = &self.coupling else {
             return None;
@@ -41,7 +40,7 @@ impl FullModel {
         Some(GyroscopicSystem::undamped(stiffness, spin, gyroscopic))
     }
 
-    /// Where 2ΩG is not zero: (row, column, value).
+    /// Non-zero entries of 2ΩG: (row, column, value).
     pub fn turning(&self, speed_rad_per_s: f64) -> Vec<(usize, usize, f64)> {
         let turned = self.harmonics.iter().filter(|h| h.diameters > 0);
         let entries = turned.flat_map(|h| {

@@ -1,24 +1,24 @@
-//! How many modes of a damped saw grow: the argument principle.
+//! Number of growing modes of a damped saw, by the argument principle.
 //!
-//! det L(λ) is a polynomial, and its argument turns once about every eigenvalue that a closed path goes around.
-//! Divided by the eigenvalues that are listed, the determinant hardly turns at all along the path, so that few
-//! places suffice; at the frequency of every listed eigenvalue there is one, for there its growth of the
-//! wrong sign would show.
+//! det L(λ) is a polynomial, whose argument changes by one turn for every eigenvalue inside a closed path.
+//! Divided by the factors of the listed eigenvalues, the determinant has a nearly constant argument along the
+//! path, so that few points suffice. One of them is at the frequency of every listed eigenvalue, to detect a
+//! growth rate of wrong sign.
 
 use faer::c64;
 
 use super::FullModel;
 use crate::spectrum::argument::turn_along;
 
-/// Places along each side of the path, besides those of the listed eigenvalues.
+/// Number of points along each side of the path, besides those of the listed eigenvalues.
 const PLACES: usize = 16;
-/// Share of the window's frequency at which the path ends: at zero the block of a rigid motion is singular.
+/// Frequency at which the path ends, relative to the window: at zero the block of a rigid motion is singular.
 const NEXT_TO_ZERO: f64 = 1e-5;
 
 impl FullModel {
-    /// Eigenvalues with 0 < Re λ < `growth` and |Im λ| < `frequency`, less those among the listed
-    /// ones, of which the conjugates are not listed. `None` where the path meets an eigenvalue, and of a saw that is
-    /// not structured.
+    /// Number of eigenvalues with 0 < Re λ < `growth` and |Im λ| < `frequency`, minus that of the listed
+    /// ones, whose conjugates are not listed. `None` if the path passes through an eigenvalue, and for a saw
+    /// that is not structured.
     pub fn unlisted(
         &self,
         speed_rad_per_s: f64,
@@ -60,13 +60,13 @@ mod tests {
     use crate::spectrum::companion_eigenpairs;
     use crate::system::GyroscopicSystem;
 
-    /// On guides with the same ratio of damping to stiffness, or with two.
+    /// A saw on guides with equal or with two different ratios of damping to stiffness.
     fn damped(guides: usize) -> Plate {
         let scene = Scene::paper().edited(|saw| {
             saw.guides = vec![saw.guides[0]; guides];
             saw.guides[0].damping_n_s_per_m = 3.0;
             saw.guides[0].angle_deg += 70.0;
-            // Two pads take more columns than the share of a small basis that is allowed.
+            // Two pads need more columns than a small basis permits.
             for guide in saw.guides.iter_mut().filter(|_| guides > 1) {
                 (guide.radial_length_m, guide.tangential_length_m) = (0.0, 0.0);
             }
@@ -83,8 +83,8 @@ mod tests {
         Plate::new(&scene.unwrap(), resolution)
     }
 
-    /// Of dense eigenvalues, none are unlisted; what is taken off the list, added to it or given
-    /// growth of the wrong sign, is.
+    /// If all dense eigenvalues are listed, none is unlisted; one that is removed, added, or given a growth
+    /// rate of wrong sign is detected.
     #[test]
     fn eigenvalues_that_a_list_lacks_or_invents_are_counted() {
         let mut growing = 0;
@@ -104,7 +104,7 @@ mod tests {
             assert_eq!(unlisted(&values), 0, "{rpm}");
             for k in 0..values.len().min(8) {
                 let value = values[k];
-                // The path does not go around what lies beyond its window, or next to zero.
+                // The path does not enclose eigenvalues outside of its window or near zero.
                 if value.im > window[1] || value.norm() < NEXT_TO_ZERO * window[1] {
                     continue;
                 }

@@ -1,4 +1,4 @@
-//! How far the frequencies of a reduced model may be off.
+//! Estimated errors of the frequencies of a reduced model.
 
 use faer::{Col, c64};
 
@@ -7,14 +7,14 @@ use crate::spectrum::projection::Projection;
 use crate::spectrum::residual::Lifted;
 use crate::spectrum::vectors::{Eigenpair, quadratic_form};
 
-/// Least slope, relative to the height, that a frequency's error is estimated with.
+/// Smallest slope, relative to the height, that the estimate of a frequency's error uses.
 const LEAST_SLOPE: f64 = 0.02;
 
 impl Builder<'_> {
-    /// Largest estimated error of a frequency among the modes below the window. With r the
-    /// residual on the full model, rᴴP⁻¹r is what the functions that were left out take off
-    /// qᴴL(ω)q; P, the diagonal of K₀, stands for L, for r lives in the high functions, which
-    /// stiffness rules. The frequency follows by [`frequency_shift`].
+    /// Largest estimated error of a frequency among the modes below the window. With the residual r on the
+    /// full model, rᴴP⁻¹r is the amount by which the omitted functions reduce qᴴL(ω)q; P, the diagonal of K₀,
+    /// approximates L, because r consists of high functions, which stiffness dominates. [`frequency_shift`]
+    /// gives the change of frequency.
     pub(super) fn frequency_error(
         &self,
         projection: &Projection,
@@ -42,12 +42,11 @@ impl Builder<'_> {
     }
 }
 
-/// Change of a frequency ω at which qᴴL(ω)q changes by `shift`, in 1/s², and has the slope
-/// |qᴴ(2ω − 2iΩG)q|; at rest that is 2ω. Where two modes are about to merge the slope vanishes,
-/// and where a wave stands still ω does too: there not the frequency but its square is what
-/// depends on the shift smoothly, and a slope of at least a share of the height stands for it. A
-/// slope above the height counts as the height: onsets of weak bands ask for more than their
-/// frequencies do.
+/// Change of a frequency ω for which qᴴL(ω)q changes by `shift`, in 1/s², and has the slope |qᴴ(2ω − 2iΩG)q|,
+/// which is 2ω at rest. Where two modes are about to coalesce the slope vanishes, and where a wave stands
+/// still ω does too: there the square of the frequency, not the frequency, depends smoothly on the shift, and
+/// a slope of at least a share of the height is used. A slope above the height is replaced by the height,
+/// because onsets of weak bands need more accuracy than their frequencies.
 fn frequency_shift(shift: f64, slope_per_s: f64, height_rad_per_s: f64) -> f64 {
     shift / slope_per_s.clamp(LEAST_SLOPE * height_rad_per_s, height_rad_per_s)
 }
@@ -62,8 +61,8 @@ mod tests {
     use crate::spectrum::{WorkCounters, companion_eigenpairs, frequency_scale};
     use crate::system::GyroscopicSystem;
 
-    /// On too small a basis the estimate is held against the frequencies of the whole one: of the
-    /// lowest mode of the paper's saw at rest, a tenth as high as the window, too.
+    /// On too small a basis the estimate is compared with the frequencies of the full one, including that of
+    /// the lowest mode of the paper's saw at rest, a tenth of the window.
     #[test]
     fn the_error_of_low_frequencies_is_not_estimated_too_small() {
         let resolution = Resolution {
@@ -96,7 +95,7 @@ mod tests {
                 let error = (found - exact).norm();
                 let estimate = builder.frequency_error(&projection, speed, height, &[(found, q)]);
                 println!("{exact}: error {error:.2e}, estimated {estimate:.2e}");
-                // Below, rounding of the dense solver takes part.
+                // Below this, the reference contains rounding of the dense solver.
                 if error > 1e-8 {
                     estimated += 1;
                     assert!(

@@ -1,5 +1,5 @@
-//! From snapshots to intervals: the stretch between two snapshots is projected, its error is estimated in its middle, and it
-//! is kept or halved.
+//! Makes intervals from snapshots: the interval between two snapshots is projected, its error is estimated in
+//! the middle, and it is accepted or halved.
 
 use std::sync::Arc;
 
@@ -15,23 +15,23 @@ use crate::spectrum::projection::Projection;
 use crate::spectrum::vectors::{orthonormal, split};
 use crate::tuned::Tuned;
 
-/// Vectors closer than this to the span of the others are left out. Eigenvalues of
-/// a projected symmetric problem are off by the square of it.
+/// Vectors closer than this to the span of the others are omitted. The error of eigenvalues of a projected
+/// symmetric problem is the square of it.
 const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERANCE", 1e-6);
-/// Largest estimated error of a projected frequency, relative to the chart's height.
+/// Largest estimated error of a projected frequency, relative to the height of the diagram.
 const FREQUENCY_TOLERANCE: Tuned =
     Tuned::new("spectrum/guided_reduction::FREQUENCY_TOLERANCE", 1e-8);
-/// Largest estimated error of a frequency that is read off the states of an interval's ends, relative to the highest of
-/// these: what is drawn needs no more, and edges and peaks are followed from there on the projection.
+/// Largest estimated error of a frequency from the states of an interval's ends, relative to the highest of
+/// these. It suffices for diagrams; edges and peaks are computed from there on the projection.
 const STATES_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::STATES_TOLERANCE", 1e-5);
-/// How often the stretch between a snapshot and the middle to the next is halved for the sake of these states.
+/// Number of times that the interval between a snapshot and its middle may be halved for these states.
 const MOST_HALVINGS: usize = 3;
-/// Length given to vectors of which no part may be left out.
+/// Length given to vectors that must be represented completely.
 const KEPT_WHOLE: f64 = 1e6;
-/// Speeds at which modes of the full model are computed, at most.
+/// Largest number of speeds at which modes of the full model are computed.
 const MAX_SNAPSHOTS: usize = 33;
 
-/// What is tried between two snapshots.
+/// A trial between two snapshots.
 struct Tried {
     intervals: Vec<Interval>,
     middle: f64,
@@ -40,9 +40,9 @@ struct Tried {
 }
 
 impl Builder<'_> {
-    /// The modes at two snapshots; of the others those that the search follows; and the standing waves of the
-    /// critical speeds between the two: with these the projected K(Ω) is singular at the same speeds as
-    /// the whole one, to the last digit.
+    /// The modes at two snapshots, those modes of others that the search follows, and the standing waves of
+    /// the critical speeds in between: with these the projected K(Ω) is singular at exactly the same speeds
+    /// as that of the full model.
     pub(super) fn basis(&self, [from, to]: [&Snapshot; 2]) -> Mat<f64> {
         let system = self.guided.system;
         let between = from.speed..=to.speed;
@@ -69,7 +69,8 @@ impl Builder<'_> {
         orthonormal(system.order(), &vectors, SPAN_TOLERANCE.get())
     }
 
-    /// The reduced models between neighbouring snapshots, more of which are added until each is right in its middle.
+    /// The reduced models between neighbouring snapshots, of which more are added until each model is
+    /// accurate in its middle.
     pub(super) fn intervals(&mut self) -> Result<Vec<Interval>, SpectrumError> {
         let mut finished: Vec<(f64, Vec<Interval>)> = Vec::new();
         loop {
@@ -137,8 +138,8 @@ impl Builder<'_> {
         })
     }
 
-    /// The intervals between two speeds, each so short that the states of its ends are good enough to draw from and to
-    /// search by.
+    /// The intervals between two speeds, each so short that the states of its ends are accurate enough for
+    /// diagram and search.
     fn between(
         &self,
         projection: &Arc<Projection>,
@@ -147,7 +148,8 @@ impl Builder<'_> {
     ) -> Result<Vec<Interval>, SpectrumError> {
         let [from, to] = ends.map(|end| end.speed_rad_per_s);
         let middle = 0.5 * (from + to);
-        // With whether they are good enough. Where their eigenproblem fails, that of the projection takes its place.
+        // The flag says whether they are accurate enough. If their eigenproblem fails, that of the projection
+        // replaces it.
         let states_up_to = |height: f64| {
             let states = states_between(projection, ends, &self.standing, height)?;
             let pairs = states_at(&states, middle, self.counters);

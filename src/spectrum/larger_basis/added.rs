@@ -1,4 +1,4 @@
-//! The functions that a component lacks, and how far they give way to it.
+//! The functions that a component lacks, and their flexibility.
 
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -14,22 +14,22 @@ use crate::system::GyroscopicSystem;
 #[derive(Debug)]
 pub enum AddedFunctions {
     Dense(DenseFunctions),
-    /// Of a large guided blade. The block of K₀⁻¹ of the larger basis between the new functions is S⁻¹.
+    /// For a large guided blade: the block of K₀⁻¹ of the larger basis between the new functions is S⁻¹.
     Structured {
         larger: Box<StructuredStiffness>,
-        /// Where the old functions stand in it.
+        /// Indices of the old functions.
         kept: Vec<usize>,
     },
 }
 
-/// By blocks of the matrices of the larger basis.
+/// Blocks of the matrices of the larger basis.
 #[derive(Debug)]
 pub struct DenseFunctions {
-    /// K₀ between them and those of the component.
+    /// K₀ between the new functions and those of the component.
     stiffness: Mat<f64>,
-    /// K_σ − N between them.
+    /// K_σ − N between the new functions and those of the component.
     spin: Mat<f64>,
-    /// Of S = K_nn − K_nc K_cc⁻¹ K_cn.
+    /// Factor of S = K_nn − K_nc K_cc⁻¹ K_cn.
     factor: Llt<f64>,
 }
 
@@ -46,7 +46,7 @@ impl AddedFunctions {
         let structured = is_large
             .then(|| StructuredStiffness::nearly(larger))
             .flatten();
-        // A blade that is not certain to be stable is looked at closely.
+        // A blade that is not certain to be stable is treated by the dense method.
         let structured =
             structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
         if let Some(larger) = structured {
@@ -74,7 +74,7 @@ impl AddedFunctions {
         }
     }
 
-    /// Its diagonal.
+    /// Diagonal of [`AddedFunctions::softening`].
     pub fn softened(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Vec<f64> {
         let places = 0..columns.ncols();
         match self {
@@ -92,8 +92,8 @@ impl AddedFunctions {
         }
     }
 
-    /// The same of one part of K_nc, given on the whole larger basis, for one column. `None` of a saw without the structure of
-    /// a guided blade.
+    /// This value for one part of K_nc, given on the larger basis, and one column. `None` for a saw without
+    /// the structure of a guided blade.
     pub fn softening_by(&self, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
         let AddedFunctions::Structured { larger, kept } = self else {
             return None;
@@ -143,8 +143,8 @@ impl DenseFunctions {
                 matrix[(rows[i], columns[k])]
             })
         };
-        // Stiffening the free rigid motions, which have no part in the new functions, makes K_cc
-        // definite and changes nothing else.
+        // Stiffening the free rigid motions, on which the new functions have no effect, makes K_cc definite
+        // and changes nothing else.
         let mut old = block(&larger.stiffness, kept, kept);
         let mean = old.norm_l2() / (kept.len() as f64).sqrt();
         for z in &larger.free_rigid {
@@ -171,7 +171,7 @@ impl DenseFunctions {
     }
 }
 
-/// Where the functions of some harmonics of a plate stand in a larger basis, ascending.
+/// Indices of the functions of some harmonics of a plate in a larger basis, ascending.
 fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
     let (few, many) = (plate.basis.count(), larger.basis.count());
     let first = larger.offset(*range.start());

@@ -1,4 +1,4 @@
-//! Faults that tests plant in the projections, for the certificate to find.
+//! Faults that tests introduce into the projections, for the certificate to detect.
 
 use std::sync::Arc;
 
@@ -7,15 +7,15 @@ use faer::{Col, Mat};
 use super::super::vectors::{orthonormal, split};
 use super::*;
 
-/// Vectors closer than this to the span of the others are left out.
+/// Vectors closer than this to the span of the others are omitted.
 const SPAN_TOLERANCE: f64 = 1e-6;
-/// Modes up to this multiple of the height are taken, as the sound projection does.
+/// Modes up to this multiple of the height are included, as in the correct projection.
 const MARGIN: f64 = 1.5;
-/// Standing waves that a projection on few speeds still has.
+/// Number of standing waves that a projection on few speeds still contains.
 const STANDING: usize = 12;
 
 impl SpectralModel {
-    /// Takes the k-th oscillation of a speed out of the projections.
+    /// Removes the k-th oscillation at a speed from the projections.
     pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
         let modes = self.full_modes(speed_rad_per_s).unwrap();
         let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
@@ -29,7 +29,7 @@ impl SpectralModel {
         });
     }
 
-    /// Projects on the modes of few speeds.
+    /// Projects on the modes at few speeds.
     pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
         let standing = self.critical.iter().take(STANDING);
         let vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
@@ -50,7 +50,8 @@ impl SpectralModel {
         });
     }
 
-    /// Replaces the projections by others on another basis, made of each and of the height of the search.
+    /// Replaces the projections by others on another basis, which is made from each and the height of the
+    /// search.
     fn project_again(&mut self, mut basis: impl FnMut(&Mat<f64>, f64) -> Mat<f64>) {
         let height_rad_per_s = self.reflected_to_rad_per_s;
         let component = &mut self.components[0];

@@ -14,12 +14,12 @@ fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
     (model, speeds)
 }
 
-/// From rest to the end of a search, so that nothing that it finds is cut.
+/// The whole range of a search, so that no band is cut.
 fn whole(speeds: &[f64]) -> (f64, f64) {
     (0.0, speeds[speeds.len() - 1])
 }
 
-/// The paper's saw, its list of bands, and the speeds that gave it.
+/// The paper's saw, its bands, and the speeds of their search.
 struct Sound {
     model: SpectralModel,
     speeds: Vec<f64>,
@@ -38,7 +38,7 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
     }
 });
 
-/// The certificate of a list of bands that may be wrong, with signatures that may be wrong.
+/// Certificate of bands that may be wrong, with signatures that may be wrong.
 fn held_against(
     sound: &Sound,
     bands: &[Instability],
@@ -81,7 +81,8 @@ fn nearly_all_speeds_are_proven_and_what_is_not_lies_at_edges() {
     }
 }
 
-/// Every pair of modes that the proof leaves out: what is proven is held against dense eigenvalues.
+/// Leaves out each pair of modes from the proof in turn, and compares the proven intervals with dense
+/// eigenvalues.
 #[test]
 fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
     let sound = &*SOUND;
@@ -156,7 +157,7 @@ fn two_signs_that_changed_places_are_found() {
     assert!(!certificate.miscounts.is_empty());
 }
 
-/// Too few snapshots: the model of the search is off where none was taken.
+/// Too few snapshots make the model of the search inaccurate between them.
 #[test]
 fn a_projection_on_too_few_speeds_is_found_out() {
     let sound = &*SOUND;
@@ -185,7 +186,7 @@ fn a_projection_on_too_few_speeds_is_found_out() {
     assert!(wrong > 0, "the fault does no harm");
 }
 
-/// Edges, and peaks to a hundred times the tolerance.
+/// Compares edges, and peaks to a hundred times the tolerance.
 fn are_same(left: &[Instability], right: &[Instability], tolerance: f64) -> bool {
     let is_near = |x: f64, y: f64| (x / y - 1.0).abs() < tolerance;
     left.len() == right.len()
@@ -221,7 +222,7 @@ fn bands_that_are_shifted_open_missing_or_too_low_are_found() {
         let mut bands = sound.bands.clone();
         bands.remove(k);
         let missing = held_against(sound, &bands, |_| ());
-        // What the list lacks is unproven, even where no speed was looked at.
+        // A band missing from the list leaves its range unproven even where no speed was computed.
         assert!(
             open_rad_per_s(&missing) > clean + 0.9 * width,
             "band {k} missing"
@@ -257,7 +258,7 @@ fn cost_of_the_proof() {
     }
 }
 
-/// What each step of the proof takes by itself.
+/// Prints the time of each step of the proof.
 fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
     let full = timed("prepared", || ModeCounts::new(model).unwrap());
     let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
@@ -290,7 +291,7 @@ fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
     );
 }
 
-/// Does something and prints how long it took.
+/// Prints how long some work took.
 fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
     let start = std::time::Instant::now();
     let done = work();

@@ -1,4 +1,4 @@
-//! Growing modes of a damped saw counted on the full model, by the argument principle.
+//! Counts of growing modes of a damped saw on the full model, by the argument principle.
 
 use rayon::prelude::*;
 
@@ -10,30 +10,30 @@ use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
 use crate::stability::mode_counts::Miscount;
 
-/// Bands on both sides of whose onset modes are counted, from the lowest: each count takes some
-/// forty determinants.
+/// Bands, from the lowest, with counts on both sides of their onsets; each count takes some forty
+/// determinants.
 const MOST_BANDS: usize = 8;
 /// Speeds drawn at random from a fixed seed.
 const DRAWN: u64 = 4;
-/// Distance from an onset, as a share of the band's width, and at least of the speed.
+/// Distance from an onset, as a share of the band's width; it is at least this share of the speed.
 const BESIDE: f64 = 0.02;
 const LEAST_BESIDE: f64 = 1e-4;
-/// The window ends in the widest gap above this share of the highest frequency that is sound.
+/// The window ends in the widest gap above this share of the highest accurate frequency.
 const LEAST_WINDOW: f64 = 0.6;
 
-/// What was counted.
+/// Results of the counts.
 #[derive(Debug, Default)]
 pub struct Counts {
-    /// Speeds at which a count was made.
+    /// Number of counts.
     pub made: usize,
-    /// Where it contradicts the eigenvalues.
+    /// Counts that contradict the eigenvalues.
     pub miscounts: Vec<Miscount>,
-    /// The eigenvalues there.
+    /// Eigenvalues at the speeds of the counts.
     pub spectra: Vec<Spectrum>,
 }
 
 impl Counts {
-    /// Counts both sides of the onsets of bands, and at speeds between two.
+    /// Counts on both sides of band onsets and at random speeds.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -88,8 +88,8 @@ fn counted(full: &FullModel, spectrum: &Spectrum, highest: f64) -> Option<Option
     counted_in_window(full, spectrum.speed, &listed, highest)
 }
 
-/// Growing eigenvalues that a list lacks or has too many, below the highest frequency up to which it is complete.
-/// `None` where nothing is certain, for an eigenvalue lies on the path.
+/// Compares a list with a count of the growing eigenvalues below the frequency up to which the list is
+/// complete. `None` if the count is inconclusive because an eigenvalue lies on the path.
 pub fn counted_in_window(
     full: &FullModel,
     speed_rad_per_s: f64,
@@ -126,7 +126,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::Strategy;
 
-    /// A growing eigenvalue that is dropped, and a decaying one that is said to grow, are found.
+    /// A dropped growing eigenvalue and a wrong growing eigenvalue are found.
     #[test]
     fn wrong_spectra_are_contradicted() {
         let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);

@@ -1,8 +1,8 @@
-//! Eigenvalues of a damped blade followed over speed, read off the pieces of a search.
+//! Curves of the eigenvalues of a damped blade over speed, from the pieces of a search.
 //!
-//! Eigenvalues are simple but for single speeds, at which a complex pair becomes two real ones or back: there curves end
-//! and begin. Between such speeds each is a smooth function λ(Ω), Im λ ≥ 0, and value and slope tell which of one speed
-//! is which of the next, as long as the step is short enough.
+//! Eigenvalues are simple except at single speeds where a complex pair turns into two real ones or back;
+//! curves end and begin there. Between such speeds each eigenvalue is a smooth function λ(Ω) with Im λ ≥ 0.
+//! Values and slopes identify it from one speed to the next if the step is short enough.
 
 use faer::c64;
 
@@ -14,22 +14,23 @@ use crate::stability::verdict::growth_between;
 /// One eigenvalue over speed.
 pub type Curve = Vec<CurvePoint>;
 
-/// A match must fit this much better than the next best one.
+/// The error of a match must be below this share of that of the second best.
 const STRICT: f64 = 0.25;
-/// Steps of a group of several eigenvalues over a piece, at least.
+/// Least number of steps over a piece for a group of several eigenvalues.
 const STEPS: usize = 8;
-/// Share of a piece below which a step is not parted.
+/// Steps below this share of a piece are not divided further.
 const LEAST_STEP: f64 = 1e-10;
-/// A cubic through points of a curve may be off by this share of the growth in its middle: points cost no eigenproblem.
+/// Allowed error of the cubics through a curve, as a share of the growth in the middle of a step; points of a
+/// curve cost no eigenproblem.
 const CURVE_TOLERANCE: f64 = 1e-3;
-/// Frequencies below this share of the highest are those of real eigenvalues: a double one is known to the root of
-/// rounding.
+/// Frequencies below this share of the highest belong to real eigenvalues: a double real one is accurate only
+/// to the square root of rounding.
 const REAL: f64 = 1e-10;
 
-/// An eigenvalue at the last speed up to which it was followed, and the curve so far.
+/// An eigenvalue at the last speed up to which it was followed, with its curve.
 type Tip = (Sloped, Curve);
 
-/// The eigenvalues of Im λ ≥ 0 that pieces of a search tell, each followed over speed; `noise_per_s` is a growth that is
+/// Curves over speed of the eigenvalues with Im λ ≥ 0 in the pieces of a search. A growth of `noise_per_s` is
 /// rounding.
 pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Curve> {
     let upper = |all: &[Sloped]| upper(all, REAL * top_rad_per_s);
@@ -55,7 +56,7 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
             let at = |speed: f64| upper(&group.sloped_at(speed));
             let follower = Follower {
                 at: &at,
-                // A step of rounding could not be parted any more.
+                // A step of rounding size cannot be divided.
                 least_rad_per_s: (LEAST_STEP * (to - from)).max(8.0 * f64::EPSILON * to),
                 noise_per_s,
                 ended: Vec::new(),
@@ -70,7 +71,7 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
     ended
 }
 
-/// Those of Im λ ≥ 0, frequencies below `real` being zero.
+/// Eigenvalues with Im λ ≥ 0; frequencies below `real` are set to zero.
 fn upper(all: &[Sloped], real: f64) -> Vec<Sloped> {
     let upper = all.iter().filter(|(z, _)| z.im > -real);
     let cleared = upper.map(|&(z, slope)| match z.im.abs() <= real {
@@ -80,7 +81,8 @@ fn upper(all: &[Sloped], real: f64) -> Vec<Sloped> {
     cleared.collect()
 }
 
-/// Curves that end at eigenvalues of a speed, taken from those that are open; the others begin.
+/// Curves that end at eigenvalues of a speed, taken from the open ones; eigenvalues without one begin new
+/// curves.
 fn begun(open: &mut Vec<Tip>, values: Vec<Sloped>, speed_rad_per_s: f64) -> Vec<Tip> {
     let tips =
         values.into_iter().map(
@@ -97,7 +99,7 @@ fn point(speed_rad_per_s: f64, (lambda, slope): Sloped) -> CurvePoint {
     CurvePoint {
         speed_rad_per_s,
         lambda,
-        // Where two eigenvalues meet.
+        // At the coalescence of two eigenvalues.
         slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
     }
 }
@@ -109,7 +111,7 @@ fn extended((_, mut curve): Tip, value: Sloped, speed_rad_per_s: f64) -> Tip {
 
 /// Eigenvalues of one group over a piece.
 struct Follower<'a> {
-    /// Eigenvalues of Im λ ≥ 0 at a speed.
+    /// Eigenvalues with Im λ ≥ 0 at a speed.
     at: &'a dyn Fn(f64) -> Vec<Sloped>,
     least_rad_per_s: f64,
     noise_per_s: f64,
@@ -117,7 +119,8 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// The curves at the end of the piece, where its eigenvalues are `last`, and those that have ended.
+    /// Continues curves over the piece, which ends at the eigenvalues `last`, and returns those that have
+    /// ended.
     fn across(
         mut self,
         mut tips: Vec<Tip>,
@@ -155,7 +158,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Whether what points at the ends of a step say of growth is met in between.
+    /// Whether the growth in the middle of a step agrees with the interpolation from its ends.
     fn is_drawn(&self, tips: &[Tip], found: &[Sloped], places: &[usize], [a, b]: [f64; 2]) -> bool {
         let pairs = tips.iter().zip(places);
         let pairs = pairs.map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
@@ -176,8 +179,9 @@ impl Follower<'_> {
     }
 }
 
-/// Which of the eigenvalues found continues each curve: λ changes as the mean of both slopes says, and the slopes are
-/// alike, which tells two paths apart that cross in the middle of the step. `None` where that is not certain.
+/// Index of the eigenvalue that continues each curve. λ must change by the mean of both slopes, and the
+/// slopes must be alike, which distinguishes two paths that cross in the middle of the step. `None` if that
+/// is uncertain.
 fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     if tips.len() != found.len() {
         return None;
@@ -206,8 +210,8 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     Some(places)
 }
 
-/// Curves carried on by the nearest eigenvalues, real ones by real ones, and the curves for which none is left; the
-/// eigenvalues that are left begin curves.
+/// Continues curves by the nearest eigenvalues, real ones by real ones. Returns the curves without a
+/// continuation too; eigenvalues that are left begin new curves.
 fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>, Vec<Tip>) {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, ((z, _), _)) in tips.iter().enumerate() {
@@ -244,12 +248,12 @@ mod tests {
     use crate::stability::partition::{Plane, Sample};
     use crate::stability::pieces::Search;
 
-    /// Curves of eigenvalues in closed form over 0 to 10 rad/s, and how many speeds were asked.
+    /// Curves of eigenvalues given in closed form over 0 to 10 rad/s, and the number of speeds computed.
     fn followed(eigenvalues: &(dyn Fn(f64) -> Vec<Sloped> + Sync)) -> (Vec<Curve>, usize) {
         let asked = std::sync::atomic::AtomicUsize::new(0);
         let solve = |speed: f64| {
             asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            // One wave above all that is looked at.
+            // One wave above all others.
             let above = (c64::new(-1.0, 50.0), c64::new(0.0, 0.0));
             let all = eigenvalues(speed).into_iter().chain([above]);
             Ok(Some(Sample::new(speed, all.filter(|(z, _)| z.im >= 0.0))))
@@ -267,7 +271,7 @@ mod tests {
         (curves, asked.into_inner())
     }
 
-    /// Where growth begins and ends, by straight lines.
+    /// Onset and end of growth, by linear interpolation.
     fn growing(curves: &[Curve]) -> Vec<[f64; 2]> {
         let mut found = Vec::new();
         for curve in curves {
@@ -283,7 +287,7 @@ mod tests {
         found
     }
 
-    /// 5i − d ± √(w² − (Ω − Ω₀)²): two waves that coalesce within a band of 1e-6 of the distance of the first speeds.
+    /// 5i − d ± √(w² − (Ω − Ω₀)²): two waves that coalesce within a band 1e-6 as wide as the first step.
     #[test]
     fn a_band_far_narrower_than_the_first_steps_is_found() {
         let (centre, half, decay) = (4.321_987, 1e-6, 1e-8);
@@ -303,8 +307,8 @@ mod tests {
         assert!(asked < 80, "{asked} speeds");
     }
 
-    /// ±√(Ω − 3)(7 − Ω) − 0.01: a wave stops, diverges and oscillates again. The growing curve is real, and ends where the
-    /// two real eigenvalues meet.
+    /// ±√(Ω − 3)(7 − Ω) − 0.01: a wave turns into two real eigenvalues and oscillates again. The growing
+    /// curve is real and ends where they coalesce.
     #[test]
     fn a_pair_that_turns_real_begins_and_ends_curves() {
         let pair = |speed: f64| {
@@ -327,7 +331,7 @@ mod tests {
         assert!(asked < 60, "{asked} speeds");
     }
 
-    /// Three waves cross in frequency and keep their decay: none is taken for another, and nothing grows.
+    /// Three waves cross in frequency and keep their decay rates: they stay separate, and nothing grows.
     #[test]
     fn waves_that_only_cross_stay_themselves() {
         let waves = |speed: f64| {

@@ -9,26 +9,26 @@ use super::spectrum::Solver;
 use crate::spectrum::SpectrumError;
 use crate::tuned::Tuned;
 
-/// Relative accuracy in speed of onsets, peaks and of the lowest growth between two.
+/// Relative accuracy in speed of onsets, peaks and minima of growth.
 const SPEED_TOLERANCE: f64 = 1e-12;
-/// Two humps of growth are bands of their own where growth falls between them below this share
-/// of the lower one. Each meeting of two modes makes a hump; what damping alone feeds grows
-/// slowly and evenly in between.
+/// Two humps of growth are separate bands if growth between them falls below this share of the lower one.
+/// Each coalescence of two modes gives a hump; growth by damping alone is slow and even in between.
 const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
-/// A band narrower than this share of its speed lies within the resolution of a complex pair
-/// that becomes two real eigenvalues.
+/// A band narrower than this share of its speed is below the resolution of a complex pair that turns into two
+/// real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
 
-/// A stretch of a curve on which Re λ > 0.
+/// Interval of a curve with Re λ > 0.
 struct Stretch {
     curve: Vec<CurvePoint>,
-    /// Speeds of extrema, of which the eigenvalue was computed: what lies between is told by the search.
+    /// Speeds of extrema at which the eigenvalue was computed; values between them are interpolated by the
+    /// search.
     extrema: Vec<f64>,
-    /// Whether the range of speeds begins and ends in it.
+    /// Whether the range of speeds begins or ends inside it.
     cut: [bool; 2],
 }
 
-/// The bands of a curve between the first and the last speed of a search.
+/// Bands of a curve between the first and the last speed of a search.
 pub fn bands(
     solver: &Solver<'_>,
     component: usize,
@@ -65,21 +65,21 @@ pub fn bands(
     Ok(bands)
 }
 
-/// Where Re λ = 0 between a point outside a stretch and its neighbour inside.
+/// Speed of Re λ = 0 between a point outside an interval and its neighbour inside.
 fn onset(
     solver: &Solver<'_>,
     component: usize,
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
-    // It still grows where it leaves the sound range.
+    // The eigenvalue still grows where it leaves the accurate frequency range.
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
     root(solver, component, [outside, inside], |p| p.lambda.re)
 }
 
-/// A curve with every speed at which its growth is largest or smallest, and these speeds.
+/// The curve with points added at every extremum of growth, and the speeds of these.
 fn with_extrema(
     solver: &Solver<'_>,
     component: usize,
@@ -106,7 +106,7 @@ fn with_extrema(
     Ok((full, extrema))
 }
 
-/// The point between two points of a path at which a number of it is zero.
+/// Point between two points of a path at which some quantity is zero.
 fn root(
     solver: &Solver<'_>,
     component: usize,
@@ -124,7 +124,7 @@ fn root(
     Ok(found.point)
 }
 
-/// The point of a path at a share of the way between two of its points.
+/// Point of a path at a share of the way between two of its points.
 fn between_points(
     solver: &Solver<'_>,
     component: usize,
@@ -149,7 +149,7 @@ fn between_points(
     })
 }
 
-/// One band for each hump of a stretch.
+/// Divides an interval into one band for each hump.
 fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
     let last = stretch.curve.len() - 1;
     let mut bounds = vec![0, last];
@@ -174,7 +174,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
 /// Lowest points between humps, deepest first.
 fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<usize>) {
     let growth = |k: usize| curve[k].lambda.re;
-    // The greatest growth up to each point, and from it on.
+    // Largest growth before and after each point.
     let mut before = 0.0_f64;
     let mut deepest: Option<(f64, usize)> = None;
     let mut behind: Vec<f64> = (first..=last)
@@ -202,7 +202,7 @@ fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<
     valleys(curve, (valley, last), found);
 }
 
-/// The band of one hump.
+/// Band of one hump.
 fn band(curve: &[CurvePoint], extrema: &[f64], cut: [bool; 2]) -> Option<Instability> {
     let (first, last) = (curve.first()?, curve.last()?);
     let growth = |p: &&CurvePoint| p.lambda.re;

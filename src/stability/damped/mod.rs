@@ -1,8 +1,9 @@
-//! Bands of a damped blade: stretches of speeds in which an eigenvalue has Re λ > 0.
+//! Bands of a damped blade: intervals of speed in which an eigenvalue has Re λ > 0.
 //!
-//! Damping leaves no Krein signs to count. Instead every low eigenvalue is followed over speed as λ(Ω) ([`curve`]), by
-//! pieces of which each told beforehand what was then found. A band begins and ends where Re λ = 0, where a complex pair
-//! becomes two real eigenvalues or back, and where growth is least between two humps ([`hump`]).
+//! A damped blade has no Krein signs to count. Instead, every low eigenvalue is followed over speed as λ(Ω)
+//! ([`curve`]), on pieces that each predicted a computed eigenvalue. A band begins and ends where Re λ = 0,
+//! where a complex pair turns into two real eigenvalues or back, and at the least growth between two humps
+//! ([`hump`]).
 
 mod counts;
 mod curve;
@@ -24,14 +25,14 @@ use counts::Counts;
 pub(super) use counts::counted_in_window;
 use spectrum::{Solver, Spectrum};
 
-/// Points of a band's curve that a straight line misses by more than this share of its peak
-/// are drawn, on a scale of square roots, which shows slow growth beside fast.
+/// A point is added to the drawn curve where a straight line misses it by more than this share of its peak,
+/// on a square-root scale that shows slow growth beside fast.
 const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 
-/// Parts of a cubic between two points of a curve that are held against straight lines.
+/// Subdivisions of a cubic between two points of a curve for the comparison with straight lines.
 const PARTS: u32 = 4;
 
-/// Modes at `count` even speeds and where bands need more, the bands, and what was checked of them.
+/// Computes modes at `count` even speeds and wherever bands need more, the bands, and their checks.
 pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
@@ -50,9 +51,9 @@ pub(super) fn charted(
     Ok((samples, instabilities, certificate))
 }
 
-/// Even speeds that the search begins with.
+/// Number of even speeds at the start of the search.
 const SEARCH_SPEEDS: usize = 9;
-/// Relative error allowed of an eigenvalue between two speeds of the search, and of a growth.
+/// Relative error allowed for an eigenvalue between two speeds of the search, and for a growth rate.
 const EIGENVALUE_TOLERANCE: f64 = 1e-3;
 const GROWTH_TOLERANCE: f64 = 1e-3;
 
@@ -71,7 +72,7 @@ fn bands(
     let mut spectra: Vec<Spectrum> = Vec::new();
     for (pieces, bands) in &searched {
         instabilities.extend(bands.iter().cloned());
-        // With several components no spectrum of one is that of the saw.
+        // With several components, the spectrum of one is not that of the saw.
         if searched.len() == 1 {
             spectra = solver.spectra(pieces);
         }
@@ -123,7 +124,7 @@ fn searched(
     Ok((pieces, found?.into_iter().flatten().collect()))
 }
 
-/// The speed, if there are more or fewer growing modes than bands.
+/// The speed, if its number of growing modes differs from its number of bands.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -137,7 +138,7 @@ pub(super) fn contradicted(
     Ok(mismatches(&solver, &[spectrum], bands))
 }
 
-/// Speeds at which there are more or fewer growing modes than bands.
+/// Speeds at which the number of growing modes differs from the number of bands.
 fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) -> Vec<f64> {
     const EDGE: f64 = 1e-9;
     let at_edge = |speed: f64, edge: f64| (speed - edge).abs() <= EDGE * speed;
@@ -149,7 +150,7 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
         let covering = bands
             .iter()
             .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s);
-        // Within rounding of zero a mode may be on either side.
+        // Growth within rounding of zero may have either sign.
         let growing = |least: f64| {
             let values = spectrum.values.iter().map(|v| v.lambda);
             let sound = values.filter(|l| l.im <= solver.highest());
@@ -165,8 +166,8 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
     differing.map(|spectrum| spectrum.speed).collect()
 }
 
-/// Speeds of a band at which its growth is drawn: its ends, its peak, and as many in between as
-/// straight lines take to follow the curve.
+/// Speeds at which the growth in a band is drawn: ends, peak, and as many between as straight lines need to
+/// follow the curve.
 fn drawn_speeds(band: &Instability) -> Vec<f64> {
     let tolerance = DRAWN.get() * band.peak_growth_per_s.sqrt();
     let mut points: Vec<(f64, f64)> = Vec::new();

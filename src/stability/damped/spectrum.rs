@@ -10,13 +10,13 @@ use crate::stability::pieces::Piece;
 
 /// Growth below this share of the highest frequency is rounding.
 const NOISE: f64 = 1e-10;
-/// Spectra of one chart, at most: two orders above what a saw takes.
+/// Largest number of spectra in one chart: a hundred times what a saw needs.
 const MOST_SPECTRA: usize = 12_000;
 
-/// Modes above the highest frequency that is sound among which a search finds a gap to end in.
+/// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
 const BESIDES: usize = 8;
 
-/// An eigenvalue further than this share of itself from what the pieces say may be another one.
+/// An eigenvalue further than this share of its size from the prediction may be another one.
 const SAME: f64 = 1e-5;
 
 /// An eigenvalue with Im λ ≥ 0.
@@ -28,12 +28,12 @@ pub struct Eigenvalue {
     pub slope: c64,
 }
 
-/// The eigenvalues of one speed.
+/// Eigenvalues at one speed.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     /// Ω.
     pub speed: f64,
-    /// In no particular order.
+    /// Eigenvalues in no particular order.
     pub values: Vec<Eigenvalue>,
 }
 
@@ -44,7 +44,7 @@ pub struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    /// For a model.
+    /// A solver for a model.
     pub fn new(model: &'a SpectralModel) -> Self {
         Solver {
             model,
@@ -52,7 +52,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The eigenvalues of a speed.
+    /// Computes the eigenvalues at a speed.
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
         let mut values = Vec::new();
         for component in 0..self.model.components.len() {
@@ -62,7 +62,7 @@ impl<'a> Solver<'a> {
         Ok(Spectrum { speed, values })
     }
 
-    /// The spectra of a search on the one component of a saw.
+    /// Computes the spectra of a search, for a saw of one component.
     pub fn spectra(&self, pieces: &[Piece]) -> Vec<Spectrum> {
         let of = |sample: &Sample| {
             let upper = sample
@@ -81,7 +81,8 @@ impl<'a> Solver<'a> {
         first.into_iter().chain(others).collect()
     }
 
-    /// Those of a component as a sample of a search; `None` once no more may be asked for.
+    /// Computes eigenvalues of a component as a sample for a search; `None` once the allowed number is used
+    /// up.
     pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
         if self.is_exhausted() {
             return Ok(None);
@@ -94,7 +95,7 @@ impl<'a> Solver<'a> {
         Ok(Some(Sample::new(speed, sloped)))
     }
 
-    /// The eigenvalue of a component at a speed next to an expected one.
+    /// Eigenvalue of a component at a speed nearest to an expected one.
     pub fn nearest(
         &self,
         speed: f64,
@@ -114,7 +115,7 @@ impl<'a> Solver<'a> {
         Ok(nearest)
     }
 
-    /// Those of a component but for its rigid motions.
+    /// Eigenvalues of a component without its rigid motions.
     fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Eigenvalue>, SpectrumError> {
         self.spent.fetch_add(1, Ordering::Relaxed);
         let modes = self.model.modes_of(component, speed)?;
@@ -126,7 +127,7 @@ impl<'a> Solver<'a> {
             .filter(|(mode, _)| mode.kind != ModeKind::Rigid)
             .map(|(mode, slope)| Eigenvalue {
                 lambda: mode.lambda,
-                // Where two eigenvalues meet.
+                // At the coalescence of two eigenvalues.
                 slope: if is_finite(slope) {
                     slope
                 } else {
@@ -141,13 +142,12 @@ impl<'a> Solver<'a> {
         self.model.complete_to_rad_per_s
     }
 
-    /// Growth that is rounding: of λ it is relative to the blade's frequencies, not to a
-    /// vanishing λ.
+    /// Growth that is rounding: relative to the blade's frequencies, not to a vanishing λ.
     pub fn noise(&self) -> f64 {
         NOISE * self.highest()
     }
 
-    /// Whether no more spectra are allowed.
+    /// Whether the allowed number of spectra is used up.
     pub fn is_exhausted(&self) -> bool {
         self.spent.load(Ordering::Relaxed) >= MOST_SPECTRA
     }

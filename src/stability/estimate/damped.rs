@@ -6,12 +6,13 @@ use crate::spectrum::{DescribedMode, SpectrumError, companion_eigenpairs};
 use crate::stability::band::Instability;
 use crate::system::GyroscopicSystem;
 
-/// Parts of twice the width of a damped band at which its largest growth is looked for: with half as many the true error
-/// was up to 1.7 times the estimate on drawn saws, as with two modes less; with these up to 0.9.
+/// Subdivisions of twice the width of a damped band in the search for its largest growth. With half as many,
+/// or with two modes less, the true error was up to 1.7 times the estimate on random saws; with these, up to
+/// 0.9 times.
 const DAMPED_LOOKS: usize = 48;
 
-/// Largest growth of a small system around a band of a damped blade, of the mode next to the one that grows there and of
-/// the one that it meets.
+/// Largest growth of a small system around a band of a damped blade, of the mode nearest to the growing one
+/// and of the mode that it coalesces with.
 pub fn fastest(
     system: &GyroscopicSystem,
     mode: &DescribedMode,
@@ -23,7 +24,7 @@ pub fn fastest(
         peak_rad_per_s: peak,
         ..
     } = *band;
-    // A band that still grows where the range of speeds ends grows fastest there, on any basis.
+    // A band that still grows at the end of the range has its largest growth there, in any basis.
     let below = if peak > from { to - from } else { 0.0 };
     let above = if peak < to { to - from } else { 0.0 };
     let mut growth = f64::NEG_INFINITY;

@@ -1,11 +1,11 @@
-//! Flutter of two merged modes on small systems: what a larger basis changes of its onset and growth.
+//! Flutter of two coalesced modes in small systems: change of onset and growth by a larger basis.
 
 use super::{BandError, told};
 use crate::spectrum::{HamiltonianReduction, State};
 use crate::stability::band::Instability;
 use crate::system::GyroscopicSystem;
 
-/// Flutter of two merged modes: the discriminant of the pair is nearly a parabola of the speed.
+/// Flutter of two coalesced modes: the discriminant of the pair is nearly a parabola in speed.
 pub fn merged(
     systems: [&GyroscopicSystem; 2],
     states: &[State; 2],
@@ -28,8 +28,7 @@ pub fn merged(
     }
 }
 
-/// σ²(Ω) = height − curvature (Ω − top)², and σ² at the speed that is reported where that is an
-/// end of the range.
+/// σ²(Ω) = height − curvature (Ω − top)², and σ² at the reported speed if that is an end of the range.
 struct Hump {
     top: f64,
     height: f64,

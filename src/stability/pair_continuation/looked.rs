@@ -1,4 +1,4 @@
-//! Where a square of a pair is zero, as far as one or two speeds tell.
+//! Estimated zero of σ² or ω² from one or two speeds.
 
 /// σ² and ω² of a pair at a speed.
 pub struct Looked {
@@ -11,14 +11,15 @@ pub struct Looked {
 }
 
 impl Looked {
-    /// How far the tangent's root is, where it falls that way. Past its root Newton's method comes back.
+    /// Distance to the root of the tangent, if it falls in that direction. Past its root, Newton's method
+    /// comes back.
     pub fn root_of_tangent(&self, k: usize, direction: f64) -> Option<f64> {
         let falls = self.slopes[k] * direction < 0.0;
         falls.then(|| -self.squares[k] / self.slopes[k])
     }
 
-    /// The same of the cubic through both speeds, ahead while the square is positive and behind past
-    /// its root. σ² over a band is nearly a parabola, which a tangent misses by far.
+    /// Distance to the root of the cubic through both speeds: ahead while the square is positive, behind past
+    /// its root. σ² over a band is nearly a parabola, for which a tangent is inaccurate.
     pub fn root_of_cubic(&self, other: &Looked, k: usize, direction: f64) -> Option<f64> {
         let width = other.speed - self.speed;
         let (value, slope) = (self.squares[k], self.slopes[k] * width);
@@ -26,7 +27,7 @@ impl Looked {
         let square = 3.0 * rise - 2.0 * slope - end_slope;
         let cube = slope + end_slope - 2.0 * rise;
         let is_ahead = |t: &f64| (t * width * direction > 0.0) == (value > 0.0);
-        // The parabola's roots, in the form that does not cancel, and then those of the cubic.
+        // Roots of the parabola in the form that avoids cancellation, then those of the cubic.
         let discriminant = slope * slope - 4.0 * square * value;
         let q = -0.5 * (slope + slope.signum() * discriminant.sqrt());
         let roots = [q / square, value / q].into_iter();
@@ -43,16 +44,17 @@ impl Looked {
     }
 }
 
-/// Newton's steps from the root of a parabola to that of a cubic next to it.
+/// Newton steps from the root of a parabola to that of a neighbouring cubic.
 const CUBIC_STEPS: usize = 4;
-/// Distance of a root, in those between the two speeds, beyond which their cubic says less than the tangent.
+/// Distance of a root, relative to that of the two speeds, beyond which the tangent is better than their
+/// cubic.
 const FARTHEST: f64 = 4.0;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// σ² = (Ω − 2)(7 − Ω), ω² far from zero: the parabola is known after two speeds, ahead from within and behind
+    /// σ² = (Ω − 2)(7 − Ω), ω² far from zero: two speeds determine the parabola, ahead from within and behind
     /// from beyond.
     #[test]
     fn two_speeds_tell_where_a_parabola_ends() {

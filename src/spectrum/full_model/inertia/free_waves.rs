@@ -1,4 +1,4 @@
-//! The waves of the free blade at a speed, of which B_n is diagonal.
+//! The waves of the free blade at a speed, in which B_n is diagonal.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,7 +9,7 @@ use crate::spectrum::full_model::Harmonic;
 #[derive(Debug)]
 pub struct FreeWaves {
     pub of: Eigenvectors,
-    /// A diagonal matrix in these waves that is no smaller than the weights.
+    /// A diagonal matrix in these waves that is an upper bound of the weights.
     pub weights: Vec<f64>,
 }
 
@@ -25,8 +25,8 @@ impl FreeWaves {
     }
 }
 
-/// d of VᵀWV ≤ diag(d), W diagonal and positive: scaled to a diagonal of ones its eigenvalues are at most the sums of its
-/// rows (Gershgorin).
+/// d with VᵀWV ≤ diag(d) for diagonal and positive W: scaled to unit diagonal, its eigenvalues are at most
+/// the sums of its rows (Gershgorin).
 fn diagonal_bound(weights: &[f64], vectors: &DMatrix<f64>) -> Vec<f64> {
     let roots = DVector::from_iterator(weights.len(), weights.iter().map(|w| w.sqrt()));
     let scaled = DMatrix::from_diagonal(&roots) * vectors;
@@ -41,7 +41,7 @@ fn diagonal_bound(weights: &[f64], vectors: &DMatrix<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// diag(d) − VᵀWV has no negative eigenvalue, of rotations small and large and of weights that are graded.
+    /// diag(d) − VᵀWV has no negative eigenvalue, for small and large rotations and for graded weights.
     #[test]
     fn the_diagonal_is_no_smaller_than_the_weights() {
         let mut state = 1.0_f64;

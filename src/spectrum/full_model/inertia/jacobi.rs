@@ -1,7 +1,7 @@
-//! Eigenvalues and eigenvectors of a small symmetric matrix of which the vectors are nearly known.
+//! Eigenvalues and eigenvectors of a small symmetric matrix with approximately known vectors.
 //!
-//! Jacobi's method: in a basis that is nearly right the matrix is nearly diagonal, and one or two sweeps of
-//! rotations make it so.
+//! Jacobi's method: in an approximate basis of eigenvectors the matrix is nearly diagonal, and one or two
+//! sweeps of rotations suffice.
 
 use nalgebra::DMatrix;
 
@@ -13,14 +13,14 @@ pub struct Eigenvectors {
     pub vectors: DMatrix<f64>,
 }
 
-/// Share of √|aᵢᵢaⱼⱼ| below which aᵢⱼ is left. Rotations square what they leave, so that a smaller one would cost a
-/// sweep more and save counts nothing: they allow for a thousand times as much elsewhere.
+/// Share of √|aᵢᵢaⱼⱼ| below which aᵢⱼ is neglected. Convergence is quadratic, so a smaller value would cost a
+/// further sweep and save no counts, which allow for a thousand times as much elsewhere.
 pub const LEFT: f64 = 1e-10;
-/// Sweeps after which what is left is rounding of numbers that cancel.
+/// Number of sweeps after which the remainder is rounding of cancelling numbers.
 const MOST_SWEEPS: usize = 12;
 
 impl Eigenvectors {
-    /// Of a matrix that is nearly diagonal; of any other it takes more rotations.
+    /// Diagonalizes a matrix; one that is not nearly diagonal takes more rotations.
     pub fn of(mut matrix: DMatrix<f64>) -> Self {
         let order = matrix.nrows();
         let mut vectors = DMatrix::identity(order, order);
@@ -48,7 +48,7 @@ impl Eigenvectors {
     }
 }
 
-/// Makes element (i, k) zero, i < k, of a symmetric matrix of which all elements are kept.
+/// Annihilates element (i, k), i < k, of a symmetric matrix that is stored completely.
 fn rotate(matrix: &mut [f64], vectors: &mut [f64], order: usize, [i, k]: [usize; 2]) {
     let coupling = matrix[k * order + i];
     let (own_i, own_k) = (matrix[i * order + i], matrix[k * order + k]);
@@ -69,7 +69,7 @@ fn rotate(matrix: &mut [f64], vectors: &mut [f64], order: usize, [i, k]: [usize;
     matrix[i * order + k] = 0.0;
 }
 
-/// Turns columns i < k in their plane.
+/// Rotates columns i < k in their plane.
 fn turn(matrix: &mut [f64], order: usize, [i, k]: [usize; 2], [cosine, sine]: [f64; 2]) {
     let (before, after) = matrix.split_at_mut(k * order);
     let left = &mut before[i * order..(i + 1) * order];
@@ -82,7 +82,8 @@ fn turn(matrix: &mut [f64], order: usize, [i, k]: [usize; 2], [cosine, sine]: [f
 mod tests {
     use super::*;
 
-    /// VᵀAV is as diagonal as promised and VᵀV = 1, of matrices that are nearly diagonal, far from it, and graded.
+    /// VᵀAV is as diagonal as documented and VᵀV = 1, for matrices that are nearly diagonal, far from
+    /// diagonal, and graded.
     #[test]
     fn the_vectors_diagonalise_the_matrix() {
         let mut state = 1.0_f64;

@@ -5,7 +5,7 @@ use crate::plate::{Plate, Resolution, RimForce};
 use crate::scene::{GuideFile, Scene, SceneFile, rad_per_s};
 use crate::system::GyroscopicSystem;
 
-/// The counter against every eigenvalue of L(iω).
+/// Reference of the counter: all eigenvalues of L(iω).
 fn exact(system: &GyroscopicSystem, place: Place) -> usize {
     let (speed, omega) = (place.speed_rad_per_s, place.frequency_rad_per_s);
     let stiffness = system.stiffness_at(speed);
@@ -96,7 +96,7 @@ fn counts_are_those_of_all_eigenvalues_for_drawn_saws() {
     assert!(uncertain <= 2, "{uncertain} of 200");
 }
 
-/// Where a wave of the free blade is in resonance, its block cannot be eliminated.
+/// If a wave of the free blade is in resonance its block cannot be eliminated.
 #[test]
 fn counts_hold_at_the_poles_of_the_free_blade() {
     let plate = Plate::new(&Scene::paper(), small());
@@ -114,7 +114,7 @@ fn counts_hold_at_the_poles_of_the_free_blade() {
                 };
                 let count = counted(&basis, place);
                 let exact = exact(&system, place);
-                // A wave with a node at the pad is a mode: there no count is certain.
+                // A wave with a node at the pad is a mode, so no count is certain there.
                 assert!(
                     count.is_none_or(|count| count == exact),
                     "{place:?} {count:?}"
@@ -162,7 +162,7 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
     }
 }
 
-/// Along a line that is proven the count never changes; most short lines are.
+/// Along a proven line the count never changes; most short lines can be proven.
 #[test]
 fn a_line_is_proven_only_where_no_mode_meets_it() {
     let mut draw = Draw(0.55);

@@ -1,4 +1,4 @@
-//! L in the waves of the free blade, of which B_n is diagonal.
+//! L in the waves of the free blade, in which B_n is diagonal.
 
 use std::sync::OnceLock;
 
@@ -11,19 +11,19 @@ use super::{Bound, BoundedBlock};
 use crate::spectrum::full_model::Harmonic;
 use crate::spectrum::hermitian::negative_eigenvalues;
 
-/// A wave of which |p|²/|d| is above this is not eliminated: what is added for it would drown the rest.
+/// A wave with |p|²/|d| above this value is not eliminated, because its term would conceal the others.
 const RESONANT: f64 = 1e5;
 
 /// The waves of all harmonics at a speed.
 #[derive(Debug)]
 pub struct Waves {
-    /// Those that every count takes one by one.
+    /// Waves that every count treats individually.
     soft: Rows,
-    /// Those that it takes together.
+    /// Waves that every count treats together.
     stiff: Rows,
-    /// PᴴB⁻¹P of the stiff ones, real, of which the lower triangle, for both bounds: D is nearly their stiffness B.
+    /// PᴴB⁻¹P of the stiff waves, real, lower triangle, for both bounds: their D is nearly their stiffness B.
     stiff_compliance: [OnceLock<Mat<f64>>; 2],
-    /// Least stiffness of the stiff ones of each harmonic.
+    /// Smallest stiffness of the stiff waves of each harmonic.
     least: Vec<f64>,
 }
 
@@ -42,7 +42,7 @@ struct Row {
     harmonic: usize,
     /// The eigenvalue.
     stiffness: f64,
-    /// What a share of is added to it for what the columns leave out.
+    /// Weight, a share of which is added to the stiffness for the part that the columns neglect.
     weight: f64,
     /// |p|², its squares in both rows of the columns.
     size: f64,
@@ -58,7 +58,7 @@ impl Row {
 }
 
 impl Rows {
-    /// All of them, with columns that are given in the waves at rest.
+    /// All waves, with columns that are given in the waves at rest.
     fn all(free: &[FreeWaves], columns: MatRef<'_, f64>) -> Self {
         let total = columns.nrows() / 2;
         let mut both = Mat::zeros(2 * total, columns.ncols());
@@ -109,7 +109,7 @@ impl Rows {
         }
     }
 
-    /// Each row of the columns times its weight, of cosines and of sines.
+    /// Each row of the columns times its weight, for cosines and for sines.
     fn scaled(&self, weights: [&[f64]; 2]) -> Mat<f64> {
         let (rows, count) = (self.waves.len(), self.both.ncols());
         let mut scaled = Mat::zeros(2 * rows, count);
@@ -129,8 +129,8 @@ impl Rows {
 }
 
 impl Waves {
-    /// Of columns that are given in the waves at rest. Those of which harmonic and stiffness say that they are stiff are
-    /// taken together.
+    /// Divides columns, given in the waves at rest, into those of soft and of stiff waves, by harmonic and
+    /// stiffness.
     pub fn new(
         free: &[FreeWaves],
         columns: MatRef<'_, f64>,
@@ -156,8 +156,8 @@ impl Waves {
         }
     }
 
-    /// n₋(A + PPᴴ) of a bound by way of −1 − PᴴA⁻¹P over the waves that are eliminated, bordered by those that
-    /// are next to resonance. `None` where it is not certain.
+    /// n₋(A + PPᴴ) of a bound from −1 − PᴴA⁻¹P over the eliminated waves, bordered by the resonant ones.
+    /// `None` if it is not certain.
     pub fn count(
         &self,
         harmonics: &[Harmonic],
@@ -209,7 +209,7 @@ impl Waves {
         compliance
     }
 
-    /// The least D/B of a lower bound, the largest of an upper one. `None` where a wave is not stiff at all.
+    /// The smallest D/B for a lower bound, the largest for an upper one. `None` if a wave is not stiff.
     fn stiff_share(&self, bounds: &[BoundedBlock], bound: Bound) -> Option<f64> {
         let of = |(block, least): (&BoundedBlock, &f64)| {
             let [x, y] = block.turning;
@@ -238,7 +238,7 @@ impl Waves {
         let Rows { waves, both } = &self.soft;
         let (rows, count) = (waves.len(), both.ncols());
         let (cosine, sine) = both.split_at_row(rows);
-        // CᵀΣC + SᵀΣS, of which the lower triangle, and SᵀΔC.
+        // CᵀΣC + SᵀΣS, lower triangle, and SᵀΔC.
         let mut scaled = self.soft.scaled([sum, sum]);
         add_lower_product(&mut real, both, &scaled);
         for k in 0..count {
@@ -272,7 +272,7 @@ impl Waves {
     }
 }
 
-/// sum += LᵀR, of which the lower triangle.
+/// sum += LᵀR, lower triangle.
 fn add_lower_product(sum: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>) {
     triangular::matmul(
         sum.as_mut(),
@@ -287,10 +287,10 @@ fn add_lower_product(sum: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>) {
     );
 }
 
-/// A wave next to resonance.
+/// A resonant wave.
 struct Resonant {
     row: usize,
-    /// Of e^{inθ} 1, of e^{−inθ} −1.
+    /// 1 for e^{inθ}, −1 for e^{−inθ}.
     turned: f64,
     d: f64,
 }
