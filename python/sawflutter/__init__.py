@@ -36,6 +36,7 @@ from .modes import Modes
 from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
 from .results import CampbellResults, load
 from .scene import Scene
+from .state_space import StateSpace
 from .stiffness import StiffnessMap
 from .studies import StudyResults
 from .study import Study
@@ -67,6 +68,7 @@ __all__ = [
     "Scene",
     "SceneDict",
     "SceneError",
+    "StateSpace",
     "StiffnessMap",
     "Study",
     "StudyDict",

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _native
 from ._entry import Entry, FloatArray
 from ._methods import points
+from .state_space import StateSpace
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -164,6 +165,53 @@ class Matrices(Entry):
         if self.circulatory is not None:
             position = position + speed * self.circulatory
         return np.block([[np.zeros((size, size)), np.eye(size)], [-position, -velocity]])
+
+
+    def state_space(
+        self,
+        rpm: SupportsFloat,
+        *,
+        inputs: npt.ArrayLike,
+        outputs: npt.ArrayLike,
+        to_hz: SupportsFloat | None = None,
+    ) -> StateSpace:
+        """The saw at a speed as x' = A x + B u, y = C x + D u, for python-control, SciPy or MATLAB.
+
+        Parameters
+        ----------
+        rpm : float
+            Rotation speed, of any size.
+        inputs : array_like
+            Points at which forces act, fixed in space: distance from the axis in m, angle from the
+            cut in degrees.
+        outputs : array_like
+            Points at which deflections are read.
+        to_hz : float, optional
+            Keeps the modes up to this frequency, see :meth:`StateSpace.reduced`; all by default.
+
+        Returns
+        -------
+        StateSpace
+
+        Raises
+        ------
+        ArgumentError
+            Where a point is off the blade.
+        ValueError
+            Where the modes cannot be separated.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> m = sf.Scene.paper().matrices(basis=(8, 5))
+        >>> m.state_space(1000, inputs=[(0.355, 0)], outputs=[(0.355, 0), (0.3, 90)])
+        <StateSpace at 1000 rpm: 170 states, 1 inputs, 2 outputs>
+        """
+        forces, probes = (
+            self.at(*np.asarray(of, float).reshape(-1, 2).T) for of in (inputs, outputs)
+        )
+        whole = StateSpace.of(float(rpm), self.companion(rpm), forces, probes)
+        return whole if to_hz is None else whole.reduced(float(to_hz))
 
 
 def _square(values: bytes | None) -> FloatArray | None:

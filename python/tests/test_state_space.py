@@ -1,0 +1,70 @@
+"""State spaces against the solvers of the library, receptances and static stiffness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import sawflutter as sf
+
+RIM = [(0.355, 0.0)]
+
+
+@pytest.fixture(scope="module")
+def damped(draft: sf.Scene) -> sf.Scene:
+    return draft.replace({"damping.air_n_s_per_m3": 40.0, "operating_rpm": 1200})
+
+
+def test_modes_are_those_of_the_library(damped: sf.Scene) -> None:
+    found = damped.modes(rpm=1200)
+    space = damped.matrices().state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
+    values = np.linalg.eigvals(space.A)
+    values = values[values.imag > 0]
+    hz = np.sort(values.imag) / (2 * np.pi)
+    expected = np.sort([mode.frequency_hz for mode in found if mode.frequency_hz <= 60])
+    assert len(hz) == len(expected)
+    assert np.allclose(hz, expected, rtol=1e-6)
+    growth = np.sort(values.real)
+    lowest = [mode.growth_per_s for mode in found if mode.frequency_hz <= 60]
+    assert np.allclose(growth, np.sort(lowest), rtol=1e-4)
+
+
+def test_the_static_gain_is_the_stiffness_at_the_rim(damped: sf.Scene) -> None:
+    # `check` takes this basis, for a point load bends waves of all lengths.
+    space = damped.matrices(basis=(30, 12)).state_space(1200, inputs=RIM, outputs=RIM)
+    gain = space.response(0.0)[0, 0]
+    checked = damped.check()
+    assert checked.rim_stiffness_n_per_m is not None
+    # The air that the blade turns in pushes at rest in space too, by a little.
+    assert gain.real == pytest.approx(1.0 / checked.rim_stiffness_n_per_m, rel=1e-2)
+
+
+def test_the_response_is_the_receptance(damped: sf.Scene) -> None:
+    m = damped.matrices(basis=(12, 6))
+    inputs, outputs = [(0.355, 0.0), (0.3, 20.0)], [(0.355, 90.0)]
+    whole = m.state_space(1200, inputs=inputs, outputs=outputs)
+    speed, hz = 1200 * np.pi / 30, 17.0
+    omega = 2 * np.pi * hz
+    assert m.damping is not None
+    dynamic = m.stiffness + speed**2 * m.spin - omega**2 * m.mass
+    if m.circulatory is not None:
+        dynamic = dynamic + speed * m.circulatory
+    dynamic = dynamic + 1j * omega * (2 * speed * m.gyroscopic + m.damping)
+    forces, probe = m.at([0.355, 0.3], [0.0, 20.0]), m.at(0.355, 90.0)
+    expected = probe @ np.linalg.solve(dynamic, forces.T)
+    assert np.allclose(whole.response(hz)[0], expected, rtol=1e-8)
+    low = whole.reduced(to_hz=300)
+    assert len(low.A) < len(whole.A) / 2
+    assert np.allclose(low.response(hz)[0], expected, rtol=1e-2)
+    assert np.allclose(low.response(0.0), whole.response(0.0), rtol=1e-6)
+    assert low.D.shape == (1, 2)
+    with pytest.raises(ValueError, match="raise to_hz"):
+        whole.reduced(to_hz=1e-6)
+
+
+def test_other_programs_take_it(damped: sf.Scene) -> None:
+    signal = pytest.importorskip("scipy.signal")
+    space = damped.matrices(basis=(8, 5)).state_space(1200, inputs=RIM, outputs=RIM, to_hz=60)
+    system = signal.StateSpace(*space)
+    _, response = signal.freqresp(system, w=[2 * np.pi * 5.0])
+    assert response[0] == pytest.approx(space.response(5.0)[0, 0], rel=1e-8)
