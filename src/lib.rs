@@ -47,6 +47,7 @@ pub mod document;
 mod explore;
 pub mod figure;
 pub mod fit;
+pub mod gap;
 pub mod place;
 pub mod plate;
 pub mod report;

@@ -33,7 +33,7 @@ from .errors import (
 )
 from .matrices import Matrices
 from .modes import Modes
-from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
+from .motions import CutResults, DeflectResults, GapResults, RunUpResults, WashboardResults
 from .results import CampbellResults, load
 from .scene import Scene
 from .state_space import StateSpace
@@ -54,6 +54,7 @@ __all__ = [
     "CutResults",
     "DeflectResults",
     "FitResults",
+    "GapResults",
     "InputError",
     "Instability",
     "Matrices",

@@ -16,6 +16,7 @@ __all__ = [
     "deflect",
     "fit",
     "functions_at",
+    "gap",
     "matrices",
     "modes",
     "number",
@@ -82,6 +83,14 @@ def deflect(
     force_n: SupportsFloat | None = None,
     angle_deg: SupportsFloat | None = None,
     to_rpm: SupportsFloat | None = None,
+    progress: _Progress = None,
+) -> str: ...
+def gap(
+    scene: str,
+    *,
+    force_n: SupportsFloat | None = None,
+    rpm: SupportsFloat | None = None,
+    max_deviation_mm: SupportsFloat | None = None,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...

@@ -18,7 +18,7 @@ from ._scene_types import Accuracy
 from ._searches import Searches
 from .checks import CheckResults
 from .modes import Modes
-from .motions import CutResults, DeflectResults, RunUpResults, WashboardResults
+from .motions import CutResults, DeflectResults, GapResults, RunUpResults, WashboardResults
 from .results import CampbellResults
 
 
@@ -317,6 +317,54 @@ class Questions(Searches):
         """
         ask = partial(_native.deflect, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm)
         return self._asked(DeflectResults, ask, "equilibria", accuracy, tolerance, progress)
+
+    def run_gap(
+        self,
+        *,
+        force_n: Number = None,
+        rpm: Number = None,
+        max_deviation_mm: Number = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number = None,
+        progress: Progress = None,
+    ) -> GapResults:
+        """Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at
+        the cut over the gap.
+
+        Parameters
+        ----------
+        force_n : float, optional
+            Side force at the rim at the cut; that of the scene's ``runup`` by default, or 1 N.
+        rpm : float, optional
+            Speed of the map over gap and force; the operating speed by default, or half of the
+            first critical speed.
+        max_deviation_mm : float, optional
+            Largest deflection at the cut that is allowed.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        GapResults
+
+        Raises
+        ------
+        ArgumentError
+            Where a number is none, or no guide of the scene is one-sided.
+        AnalysisError
+            Where the side force finds no guide to press on.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
+        >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
+        >>> r = saw.run_gap(force_n=2.0, max_deviation_mm=0.3, accuracy="draft")
+        >>> r.free.critical_rpm[0] < r.linear.critical_rpm[0]
+        True
+        """
+        ask = partial(_native.gap, force_n=force_n, rpm=rpm, max_deviation_mm=max_deviation_mm)
+        return self._asked(GapResults, ask, "amplitudes", accuracy, tolerance, progress)
 
     def run_washboard(
         self,

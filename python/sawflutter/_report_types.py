@@ -1656,6 +1656,123 @@ class FitReport(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class AtAmplitude(Entry):
+    """A saw whose blade oscillates at its guides with one amplitude."""
+
+    amplitude_m: float | None
+    """Amplitude at the guides; null of the free blade and of the linear chart."""
+
+    stiffness_shares: FloatArray
+    """Mean stiffness of each one-sided guide over the oscillation (describing function),
+    relative to its full stiffness."""
+
+    critical_rpm: FloatArray
+    """Critical speeds within the sweep."""
+
+    instabilities: tuple[Instability, ...]
+    """Bands of instability within the sweep."""
+
+    flutter_speed_rpm: float | None
+    """Flutter speed; null if no flutter counts within the sweep."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Deviation(Entry):
+    """Stationary deflection of the rim at the cut under a side force there."""
+
+    angle_deg: float
+    """Angle of the force and of the deflection."""
+
+    rpm: float
+    """Speed of the map over gap and force."""
+
+    gap_factors: FloatArray
+    """Gaps of the map relative to those of the scene, one row each; 0 stands for linear
+    guides."""
+
+    forces_n: FloatArray
+    """Side forces of the map."""
+
+    deflection_m: FloatArray
+    """Deflection at the cut, one row a gap; null where slopes exceed 0.1 and the model is not
+    valid."""
+
+    largest_deflection_m: FloatArray
+    """Largest deflection of the blade, as an absolute value."""
+
+    pad_forces_n: FloatArray
+    """Force of each one-sided pad on the blade beyond its gap, for each pad one row a gap; null
+    for linear guides."""
+
+    max_deflection_m: float | None
+    """Largest deflection at the cut that is allowed; null if none was given."""
+
+    force_within_n: FloatArray
+    """Largest side force that keeps it, for each gap; null where the smallest force of the map
+    exceeds it. Empty without a limit."""
+
+    force_n: float
+    """Side force of the series over the speed, with the gaps of the scene."""
+
+    speeds_rpm: FloatArray
+    """Speeds of the series."""
+
+    deflection_over_speed_m: FloatArray
+    """Deflection at the cut at these speeds; null where the blade leans by more than its
+    thickness."""
+
+    pad_forces_over_speed_n: FloatArray
+    """Forces of the pads at these speeds, one row a pad; null where the blade leans."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class GapReport(Entry):
+    """gap.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
+    report says holds for them as they were typed."""
+
+    degrees_of_freedom: int
+    """Size of the basis."""
+
+    from_rpm: float
+    """First speed."""
+
+    to_rpm: float
+    """Last speed."""
+
+    smallest_gap_m: float
+    """Smallest gap of a one-sided guide."""
+
+    free: AtAmplitude
+    """The blade inside all gaps, where only films act."""
+
+    amplitudes: tuple[AtAmplitude, ...]
+    """Amplitudes beyond the smallest gap, ascending."""
+
+    linear: AtAmplitude
+    """The linear chart of the scene, with guides of their full stiffness."""
+
+    half_way_amplitude_m: float | None
+    """Amplitude at which the first critical speed lies half way between that of the free blade
+    and that of the linear chart: at smaller amplitudes the chart is that of the free blade.
+    Null if the two differ by less than 0.1 %."""
+
+    deviation: Deviation
+    """The deflection at the cut."""
+
+    warnings: tuple[str, ...]
+    """Remarks on the validity of the result."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Mode(ModeMethods):
     """w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 

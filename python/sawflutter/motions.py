@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._report_types import CutReport, DeflectReport, RunUpReport, WashboardReport
+from ._report_types import CutReport, DeflectReport, GapReport, RunUpReport, WashboardReport
 from ._result import Result, pictures
 from ._table import frame
 
@@ -163,6 +163,40 @@ class DeflectResults(Result, DeflectReport):
     def _facts(self) -> str:
         jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
         return f"{self.force_n:g} N across the rim, {jumps}, {len(self.down.jumps)} while it falls"
+
+
+class GapResults(Result, GapReport):
+    """Guides with a gap: the chart over the amplitude, and the deflection at the cut."""
+
+    command = "gap"
+    figure_names = pictures("gap")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Deflections at the cut, one row for each gap and side force; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            Where pandas is missing: it says how it is installed.
+        """
+        found = self.deviation
+        rows = [
+            {"gap_factor": factor, "force_n": force, "deflection_m": at, "largest_deflection_m": most}
+            for factor, deflections, largest in zip(
+                found.gap_factors, found.deflection_m, found.largest_deflection_m
+            )
+            for force, at, most in zip(found.forces_n, deflections, largest)
+        ]
+        return frame(rows)
+
+    def _facts(self) -> str:
+        half = self.half_way_amplitude_m
+        at = "no difference" if half is None else f"half way at {1e3 * half:.4g} mm"
+        return f"smallest gap {1e3 * self.smallest_gap_m:g} mm, first critical speed: {at}"
 
 
 class WashboardResults(Result, WashboardReport):

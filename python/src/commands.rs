@@ -5,10 +5,11 @@ use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
+use sawflutter::gap::{GuideGaps, Options as GapOptions};
 use sawflutter::place::{Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, ModeEntry,
-    PlaceReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
+    ModeEntry, PlaceReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
 };
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
@@ -208,6 +209,29 @@ pub fn deflect(
     options.checked(&scene).map_err(Failure::from)?;
     compute(py, progress, move |_| {
         json(&DeflectReport::new(&Deflecting::new(&scene, &options)?))
+    })
+}
+
+/// `gap.json` of a scene, under a side force at the cut, at a speed.
+#[pyfunction]
+#[pyo3(signature = (scene, *, force_n=None, rpm=None, max_deviation_mm=None, progress=None))]
+pub fn gap(
+    py: Python<'_>,
+    scene: &str,
+    force_n: Option<f64>,
+    rpm: Option<f64>,
+    max_deviation_mm: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let options = GapOptions {
+        force_n,
+        rpm,
+        max_deviation_mm,
+    };
+    options.checked(&scene).map_err(Failure::from)?;
+    compute(py, progress, move |_| {
+        json(&GapReport::new(&GuideGaps::new(&scene, &options)?))
     })
 }
 

@@ -7,6 +7,7 @@ use sawflutter::check::CheckError;
 use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
 use sawflutter::fit::FitError;
+use sawflutter::gap::GapError;
 use sawflutter::place::PlaceError;
 use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;
@@ -165,6 +166,18 @@ impl From<TransientError> for Failure {
         match error {
             TransientError::Scene(source) => source.into(),
             other => Failure::Failed(other.to_string()),
+        }
+    }
+}
+
+impl From<GapError> for Failure {
+    fn from(error: GapError) -> Self {
+        match error {
+            GapError::Refused(source) => source.into(),
+            GapError::Scene(source) => source.into(),
+            GapError::Analysis(source) => source.into(),
+            GapError::Spectrum(source) => source.into(),
+            GapError::Stretched(source) => source.into(),
         }
     }
 }

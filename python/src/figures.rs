@@ -5,8 +5,8 @@ use pyo3::types::PyBytes;
 use sawflutter::document;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
-    RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
+    Report, RunUpReport, WashboardReport,
 };
 use sawflutter::study::StudyReport;
 use serde::de::DeserializeOwned;
@@ -27,6 +27,7 @@ fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
         of::<CutReport>,
         of::<RunUpReport>,
         of::<DeflectReport>,
+        of::<GapReport>,
         of::<WashboardReport>,
         of::<CheckReport>,
         of::<FitReport>,
@@ -70,6 +71,7 @@ macro_rules! read {
             "cut" => of!(CutReport),
             "runup" => of!(RunUpReport),
             "deflect" => of!(DeflectReport),
+            "gap" => of!(GapReport),
             "washboard" => of!(WashboardReport),
             "fit" => of!(FitReport),
             "place" => of!(PlaceReport),
@@ -102,6 +104,7 @@ pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
         "cut" => of!(CutReport),
         "runup" => of!(RunUpReport),
         "deflect" => of!(DeflectReport),
+        "gap" => of!(GapReport),
         "washboard" => of!(WashboardReport),
         "fit" => of!(FitReport),
         "place" => of!(PlaceReport),

@@ -73,6 +73,23 @@ def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path
     assert len(found.to_dataframe()) > 20
 
 
+def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
+    saw = sf.Scene.load(scenes / "paper.json").replace({**pad, "sweep.to_rpm": 1700})
+    path = tmp_path / "saw.json"
+    saw.save(path)
+    found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_mm=0.3, accuracy="draft")
+    options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3, "--accuracy", "draft"]
+    for program in programs:
+        done = ran(program, "gap", path, *options, "--out", tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.decode().startswith(found.summary())
+        same(tmp_path, "gap.json", found.to_json().encode())
+        for picture in found.figure_names:
+            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+    assert len(found.to_dataframe()) == 30
+
+
 def test_the_report_of_washboarding(
     programs: list[str], scenes: Path, resaw: sf.Scene, tmp_path: Path
 ) -> None:

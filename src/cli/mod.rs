@@ -12,6 +12,7 @@ mod explore;
 mod export;
 mod fit;
 mod free;
+mod gap;
 mod keys;
 mod output;
 mod page;
@@ -57,6 +58,9 @@ enum Command {
     /// Where does the blade stand when it leans, and when does it jump? deflect.json and a figure
     #[command(after_help = deflect::EXAMPLES)]
     Deflect(deflect::Arguments),
+    /// How tight may the guides be? Chart over the amplitude, deflection over the gap; gap.json, a figure
+    #[command(after_help = gap::EXAMPLES)]
+    Gap(gap::Arguments),
     /// Do the teeth set the blade swinging, each on the surface left by the one before?
     #[command(after_help = washboard::EXAMPLES)]
     Washboard(washboard::Arguments),
@@ -159,6 +163,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
         Some(Command::Deflect(arguments)) => deflect::run(&arguments),
+        Some(Command::Gap(arguments)) => gap::run(&arguments),
         Some(Command::Washboard(arguments)) => washboard::run(&arguments),
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),

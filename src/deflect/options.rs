@@ -40,7 +40,7 @@ impl Options {
     }
 
     /// The validated force; checks the speed too.
-    pub(super) fn side_force(&self, scene: &Scene) -> Result<SideForce, RefusedValue> {
+    pub(crate) fn side_force(&self, scene: &Scene) -> Result<SideForce, RefusedValue> {
         if let Some(to_rpm) = self.to_rpm {
             speed_rad_per_s("to_rpm", to_rpm)?;
         }

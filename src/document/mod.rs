@@ -11,8 +11,8 @@ pub use layout::page;
 
 use crate::figure::Figures;
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
-    RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
+    Report, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 
@@ -78,6 +78,7 @@ documented! {
     CheckReport: "check",
     CutReport: "cut",
     DeflectReport: "deflect",
+    GapReport: "gap",
     FitReport: "fit",
     PlaceReport: "place",
     RunUpReport: "runup",

@@ -4,12 +4,12 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, in_cut, membrane, modes,
-    place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
+    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, in_cut, membrane,
+    modes, place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, PlaceReport, Report,
-    RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
+    Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -177,6 +177,14 @@ impl Figures for DeflectReport {
 
     fn chart(&self, name: &str) -> Option<ChartData> {
         (name == "deflect").then(|| deflect::chart(self))
+    }
+}
+
+impl Figures for GapReport {
+    const NAMES: &'static [[&'static str; 2]] = &[["gap.png", "gap.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(gap::sheet(self))])
     }
 }
 

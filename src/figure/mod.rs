@@ -28,6 +28,7 @@ mod drawn_tests;
 #[path = "../../tests/common/draws.rs"]
 mod draws;
 mod fit;
+mod gap;
 #[cfg(feature = "explore")]
 mod growing_map;
 mod heading;

@@ -17,6 +17,7 @@ mod deflect;
 mod event_shape;
 mod excitation;
 mod fit;
+mod gap;
 #[cfg(feature = "explore")]
 mod growing;
 mod in_cut;
@@ -50,6 +51,7 @@ pub use self::deflect::{
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+pub use self::gap::{AtAmplitudeEntry, DeviationEntry, GapReport};
 #[cfg(feature = "explore")]
 pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};

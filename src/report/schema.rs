@@ -5,8 +5,8 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
 use super::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, ModeEntry, PlaceReport,
-    Report, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, ModeEntry,
+    PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -20,6 +20,7 @@ pub fn json_schema() -> Value {
         "compare": of::<CompareReport>(),
         "cut": of::<CutReport>(),
         "deflect": of::<DeflectReport>(),
+        "gap": of::<GapReport>(),
         "fit": of::<FitReport>(),
         "modes": of::<Vec<ModeEntry>>(),
         "place": of::<PlaceReport>(),

@@ -11,6 +11,7 @@ mod cut;
 mod deflect;
 mod excitation;
 mod fit;
+mod gap;
 mod in_cut;
 mod influences;
 mod place;

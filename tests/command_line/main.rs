@@ -17,6 +17,7 @@ mod design;
 #[cfg(feature = "explore")]
 mod explore;
 mod faults;
+mod gap;
 mod growth;
 mod input;
 mod matrices;

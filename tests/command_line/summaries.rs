@@ -146,6 +146,7 @@ fn examples_of_every_help_fit_80_columns() {
         "keys",
         "schema",
         "deflect",
+        "gap",
         "washboard",
     ];
     for command in commands {

@@ -1,0 +1,67 @@
+//! `sawflutter gap`.
+
+use crate::gap::{GapError, GuideGaps, Options};
+use crate::report::GapReport;
+use clap::Args;
+
+use super::common::{Common, number, of_option};
+use super::page::Page;
+use super::pictures::drawn;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter gap my-saw.json                         # guides with a gap
+  sawflutter gap my-saw.json --force-n 10 --rpm 2400 # another force and speed
+  sawflutter gap my-saw.json --max-deviation-mm 0.1  # with a tolerance
+  sawflutter gap my-saw.json --json | jq .half_way_amplitude_m
+
+At least one guide needs `contact` one_sided and a `gap_m`. The deflection is
+that of the rim at the cut under a side force there.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Side force at the rim at the cut; by default that of the scene's run-up, or 1 N
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    force_n: Option<f64>,
+    /// Speed of the map; by default the operating speed, or half of the first critical speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    rpm: Option<f64>,
+    /// Largest deflection at the cut that is allowed
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    max_deviation_mm: Option<f64>,
+    #[command(flatten)]
+    page: Page,
+}
+
+/// Evaluates the gaps, writes the files and prints the summary.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.common.scene()?;
+    let options = Options {
+        force_n: arguments.force_n,
+        rpm: arguments.rpm,
+        max_deviation_mm: arguments.max_deviation_mm,
+    };
+    let refused = |refused: crate::scene::RefusedValue| match refused.key.starts_with("guides") {
+        true => refused.into(),
+        false => of_option(refused),
+    };
+    options.checked(&scene).map_err(refused)?;
+    arguments.page.tried()?;
+    let folder = arguments.common.folder()?;
+    let found = watched(|_| GuideGaps::new(&scene, &options))?;
+    let found = found.map_err(|error| match error {
+        GapError::Refused(error) => refused(error),
+        other => other.into(),
+    })?;
+    let report = GapReport::new(&found);
+    arguments.page.write(&report)?;
+    let json = serde_json::to_string_pretty(&report)?;
+    let mut files = drawn(&report)?;
+    files.push(("gap.json", json.clone().into_bytes()));
+    arguments
+        .common
+        .print(&folder, &files, &[], &json, || report.summary())
+}

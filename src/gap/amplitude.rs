@@ -1,0 +1,199 @@
+//! The chart of a saw whose blade oscillates at its guides with a given amplitude.
+
+use std::f64::consts::PI;
+
+use crate::plate::{Plate, Resolution};
+use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene};
+use crate::spectrum::{Work, critical_speeds};
+use crate::stability::{Analysis, Instability};
+use crate::system::GyroscopicSystem;
+
+use super::GapError;
+
+/// Critical speeds, bands and flutter speed over the amplitude at the guides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AmplitudeChart {
+    /// The blade inside all gaps, where only films act.
+    pub free: AtAmplitude,
+    /// Amplitudes beyond the smallest gap, ascending.
+    pub amplitudes: Vec<AtAmplitude>,
+    /// The linear chart of the scene, with guides of their full stiffness.
+    pub linear: AtAmplitude,
+    /// Amplitude at which the first critical speed lies half way between that of the free blade and that of the linear
+    /// chart; `None` if the two differ by less than 0.1 %.
+    pub half_way_m: Option<f64>,
+}
+
+/// A saw at one amplitude.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtAmplitude {
+    /// Amplitude at the guides; `None` of the free blade and of the linear chart.
+    pub amplitude_m: Option<f64>,
+    /// Mean stiffness of each one-sided guide over the oscillation, relative to its full stiffness.
+    pub shares: Vec<f64>,
+    /// Critical speeds within the sweep.
+    pub critical_rad_per_s: Vec<f64>,
+    /// Bands within the sweep.
+    pub instabilities: Vec<Instability>,
+    /// Flutter speed.
+    pub flutter_speed_rad_per_s: Option<f64>,
+}
+
+/// Shares of the stiffness of the guide with the smallest gap at which the chart is computed: the critical speeds of
+/// usual saws change most between a thousandth and a tenth.
+const SHARES: [f64; 11] = [
+    3e-4, 1e-3, 3e-3, 6e-3, 0.012, 0.025, 0.05, 0.1, 0.2, 0.45, 0.9,
+];
+/// Amplitudes of the smallest gap within which shares are looked for.
+const FARTHEST: f64 = 1e3;
+/// Halvings of an interval of the logarithm of amplitudes.
+const HALVINGS: usize = 24;
+/// A difference of critical speeds that is none.
+const SAME: f64 = 1e-3;
+
+/// Equivalent stiffness of a spring that acts beyond a gap on both sides, relative to its stiffness, for a sinusoidal
+/// oscillation of the given amplitude over the gap (describing function):
+/// 1 − (2/π)(asin(1/x) + √(1 − 1/x²)/x) for x > 1, otherwise 0. On one side only it is half as large.
+///
+/// Reference: A. Gelb & W. E. Vander Velde, *Multiple-Input Describing Functions and Nonlinear System Design*, 1968.
+pub fn equivalent_share(amplitude_over_gap: f64) -> f64 {
+    if amplitude_over_gap <= 1.0 {
+        return 0.0;
+    }
+    let inverse = 1.0 / amplitude_over_gap;
+    1.0 - 2.0 / PI * (inverse.asin() + inverse * (1.0 - inverse * inverse).sqrt())
+}
+
+/// The mean stiffness of a guide over an oscillation.
+fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
+    let gap_m = guide.gap_m.unwrap_or_default();
+    let sides = if guide.side == GuideSide::Both {
+        1.0
+    } else {
+        0.5
+    };
+    let (stiffness, film) = (guide.stiffness_n_per_m, guide.film_stiffness_n_per_m);
+    film + sides * equivalent_share(amplitude_m / gap_m) * (stiffness - film)
+}
+
+/// The scene with one-sided guides replaced by linear ones of their mean stiffness.
+fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
+    let mut shares = Vec::new();
+    let linear = scene.edited(|file| {
+        let guides = file.guides.iter_mut();
+        for guide in guides.filter(|guide| guide.contact == ContactLaw::OneSided) {
+            let mean = equivalent_stiffness(guide, amplitude_m);
+            shares.push(mean / guide.stiffness_n_per_m);
+            *guide = GuideFile {
+                stiffness_n_per_m: mean,
+                contact: ContactLaw::Linear,
+                side: GuideSide::Both,
+                film_stiffness_n_per_m: 0.0,
+                ..*guide
+            };
+        }
+    })?;
+    Ok((linear, shares))
+}
+
+/// The amplitude at which a guide has a share of its stiffness, relative to its gap.
+fn amplitude_over_gap(share: f64) -> f64 {
+    let (mut low, mut high) = (1.0_f64, FARTHEST);
+    for _ in 0..60 {
+        let middle = (low * high).sqrt();
+        match equivalent_share(middle) < share {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    high
+}
+
+impl AmplitudeChart {
+    /// Analyses the saw of a linear analysis at several amplitudes.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub(super) fn new(linear: &Analysis) -> Result<Self, GapError> {
+        let swept = linear.scene.swept(linear.range_rad_per_s.into())?;
+        let guides = swept.file().guides.iter();
+        let gaps = guides.filter(|guide| guide.contact == ContactLaw::OneSided);
+        let smallest_m = gaps
+            .filter_map(|guide| guide.gap_m)
+            .fold(f64::INFINITY, f64::min);
+        let work = Work::of("amplitudes", SHARES.len() + 1);
+        let at = |amplitude_m: Option<f64>| -> Result<AtAmplitude, GapError> {
+            let (scene, shares) = at_amplitude(&swept, amplitude_m.unwrap_or_default())?;
+            let found = read(&Analysis::new(&scene)?, amplitude_m, shares);
+            work.advance();
+            Ok(found)
+        };
+        let free = at(None)?;
+        let amplitudes = SHARES
+            .iter()
+            .map(|share| at(Some(smallest_m * amplitude_over_gap(*share))));
+        let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
+        let count = free.shares.len();
+        let linear_row = read(linear, None, vec![1.0; count]);
+        let resolution = linear.model.plate.resolution;
+        let half_way_m = half_way(&swept, resolution, smallest_m)?;
+        Ok(AmplitudeChart {
+            free,
+            amplitudes,
+            linear: linear_row,
+            half_way_m,
+        })
+    }
+
+    /// The free blade, the amplitudes, and the linear chart.
+    pub fn rows(&self) -> impl Iterator<Item = &AtAmplitude> {
+        let ends = [&self.free, &self.linear];
+        let [free, linear] = ends.map(std::iter::once);
+        free.chain(&self.amplitudes).chain(linear)
+    }
+}
+
+fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAmplitude {
+    let (from, to) = analysis.range_rad_per_s;
+    let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+    AtAmplitude {
+        amplitude_m,
+        shares,
+        critical_rad_per_s: critical
+            .filter(|speed| (from..=to).contains(speed))
+            .collect(),
+        instabilities: analysis.chart.instabilities.clone(),
+        flutter_speed_rad_per_s: analysis.flutter_speed_rad_per_s,
+    }
+}
+
+/// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.
+fn half_way(
+    scene: &Scene,
+    resolution: Resolution,
+    smallest_m: f64,
+) -> Result<Option<f64>, GapError> {
+    let first = |scene: &Scene| -> Result<Option<f64>, GapError> {
+        let system = GyroscopicSystem::of_plate(&Plate::new(scene, resolution));
+        let critical = critical_speeds(&system)?;
+        Ok(critical.first().map(|c| c.speed_rad_per_s))
+    };
+    let at = |amplitude_m: f64| first(&at_amplitude(scene, amplitude_m)?.0);
+    let [Some(free), Some(linear)] = [at(0.0)?, first(scene)?] else {
+        return Ok(None);
+    };
+    if (free / linear - 1.0).abs() < SAME {
+        return Ok(None);
+    }
+    let middle = 0.5 * (free + linear);
+    let is_free = |speed: f64| (speed < middle) == (free < middle);
+    let (mut low, mut high) = (0.0_f64, FARTHEST.ln());
+    for _ in 0..HALVINGS {
+        let between = 0.5 * (low + high);
+        match at(smallest_m * between.exp())?.is_some_and(is_free) {
+            true => low = between,
+            false => high = between,
+        }
+    }
+    Ok(Some(smallest_m * high.exp()))
+}

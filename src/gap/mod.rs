@@ -1,0 +1,146 @@
+//! Guides with a gap: the Campbell diagram at an amplitude, and the deflection at the cut over the gap.
+//!
+//! A one-sided guide has no stiffness inside its gap, so that the linear chart of a scene is that of large amplitudes. Two
+//! results describe what lies between:
+//!
+//! * [`AmplitudeChart`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
+//!   over an oscillation of a given amplitude.
+//! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
+//!   from the equilibria of [`stretched`](crate::stretched).
+
+mod amplitude;
+mod deviation;
+
+pub use amplitude::{AmplitudeChart, AtAmplitude, equivalent_share};
+pub use deviation::{Deviation, DeviationMap};
+
+use crate::deflect;
+use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, AnalysisError};
+use crate::stretched::StretchedError;
+
+/// Why the gaps of a saw could not be evaluated.
+#[derive(Debug, thiserror::Error)]
+pub enum GapError {
+    /// An option was refused, or the scene has no one-sided guide.
+    #[error(transparent)]
+    Refused(#[from] RefusedValue),
+    /// A scene with another gap or stiffness was refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// No equilibrium was found.
+    #[error(transparent)]
+    Stretched(#[from] StretchedError),
+}
+
+/// Options of [`GuideGaps::new`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// Side force at the rim at the cut; by default that of the scene's run-up, or 1 N.
+    pub force_n: Option<f64>,
+    /// Speed of the map over gap and force; by default the operating speed, or half of the first critical speed.
+    pub rpm: Option<f64>,
+    /// Largest deflection at the cut that is allowed.
+    pub max_deviation_mm: Option<f64>,
+}
+
+/// Guides with a gap.
+#[derive(Debug)]
+pub struct GuideGaps {
+    /// The saw.
+    pub scene: Scene,
+    /// Its linear analysis, with guides of their full stiffness.
+    pub analysis: Analysis,
+    /// The chart over the amplitude.
+    pub amplitude: AmplitudeChart,
+    /// The deflection at the cut.
+    pub deviation: DeviationMap,
+    /// Largest deflection at the cut that is allowed.
+    pub max_deviation_m: Option<f64>,
+}
+
+/// A limit beyond any saw.
+const MAX_DEVIATION_MM: f64 = 1e3;
+
+impl Options {
+    /// Refuses invalid numbers, and a scene without a one-sided guide.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub fn checked(&self, scene: &Scene) -> Result<(), RefusedValue> {
+        if let Some(rpm) = self.rpm {
+            speed_rad_per_s("rpm", rpm)?;
+        }
+        if let Some(limit) = self.max_deviation_mm
+            && !(limit > 0.0 && limit <= MAX_DEVIATION_MM)
+        {
+            let allowed = "above 0 and at most 1000";
+            let remedy =
+                "give the largest deflection allowed at the cut in millimetres, such as 0.1";
+            return Err(RefusedValue::new(
+                "max_deviation_mm",
+                limit,
+                allowed,
+                remedy,
+            ));
+        }
+        let force_n = self.force(scene)?;
+        if force_n == 0.0 {
+            let allowed = "other than 0";
+            let remedy = "a side force presses the blade on its guides; give it, such as 5";
+            return Err(RefusedValue::new("force_n", force_n, allowed, remedy));
+        }
+        match scene.guides().iter().any(|guide| guide.lifting.is_some()) {
+            true => Ok(()),
+            false => Err(RefusedValue::missing(
+                "guides[].contact",
+                "\"one_sided\" for at least one guide",
+                "a linear guide acts at any deflection; give contact as \"one_sided\" and gap_m",
+            )),
+        }
+    }
+
+    fn force(&self, scene: &Scene) -> Result<f64, RefusedValue> {
+        let options = deflect::Options {
+            force_n: self.force_n,
+            ..deflect::Options::default()
+        };
+        Ok(options.side_force(scene)?.force_n)
+    }
+}
+
+impl GuideGaps {
+    /// Computes the chart over the amplitude and the deflection over gap, force and speed.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn new(scene: &Scene, options: &Options) -> Result<Self, GapError> {
+        options.checked(scene)?;
+        let analysis = Analysis::new(&scene.idling()?)?;
+        let amplitude = AmplitudeChart::new(&analysis)?;
+        let first = analysis.model.critical.first();
+        let speed = options.rpm.map(rad_per_s);
+        let speed = speed
+            .or(scene.operating_rad_per_s())
+            .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
+            .unwrap_or(analysis.range_rad_per_s.1);
+        let deviation = DeviationMap::new(&analysis, rpm(speed), options.force(scene)?)?;
+        Ok(GuideGaps {
+            scene: scene.clone(),
+            analysis,
+            amplitude,
+            deviation,
+            max_deviation_m: options.max_deviation_mm.map(|mm| 1e-3 * mm),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,144 @@
+//! The mean stiffness against an integral, and its limits; deflections against the linear guide.
+
+use std::f64::consts::TAU;
+
+use super::*;
+use crate::scene::{Accuracy, ContactLaw, Scene};
+
+fn lifting(gap_m: f64) -> Scene {
+    let scene = Scene::paper().edited(|file| {
+        (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(1000.0));
+        file.sweep = Some(crate::scene::SweepFile {
+            from_rpm: 0.0,
+            to_rpm: 2000.0,
+        });
+        let pad = &mut file.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(gap_m));
+    });
+    scene.unwrap()
+}
+
+/// The first Fourier coefficient of the force of a spring behind a gap.
+#[test]
+fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
+    let count = 200_000;
+    for ratio in [0.5, 1.0, 1.001, 1.1, 2.0, 30.0_f64] {
+        let force = |k: usize| {
+            let sin = (TAU * (k as f64 + 0.5) / count as f64).sin();
+            sin * ((ratio * sin - 1.0).max(0.0) - (-ratio * sin - 1.0).max(0.0))
+        };
+        let harmonic = 2.0 / count as f64 * (0..count).map(force).sum::<f64>() / ratio;
+        let found = equivalent_share(ratio);
+        assert!(
+            (found - harmonic).abs() < 1e-8,
+            "{ratio}: {found} {harmonic}"
+        );
+    }
+    assert!(equivalent_share(1e6) > 0.999_998);
+}
+
+/// Between the free blade and the linear chart: the rows approach both, and the amplitude half way is where it says.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
+    let found = GuideGaps::new(&lifting(4e-5), &Options::default()).unwrap();
+    let chart = &found.amplitude;
+    let first = |at: &AtAmplitude| at.critical_rad_per_s[0];
+    let free = Scene::paper().edited(|file| {
+        file.accuracy = Accuracy::Draft;
+        file.guides.clear();
+    });
+    let free = Analysis::new(&free.unwrap()).unwrap();
+    let expected = free.model.critical[0].speed_rad_per_s;
+    assert!((first(&chart.free) / expected - 1.0).abs() < 2e-3);
+    let lowest = &chart.amplitudes[0];
+    assert!((first(lowest) / first(&chart.free) - 1.0).abs() < 0.02);
+    let highest = chart.amplitudes.last().unwrap();
+    assert!((first(highest) / first(&chart.linear) - 1.0).abs() < 2e-3);
+    let half = chart.half_way_m.unwrap();
+    let middle = 0.5 * (first(&chart.free) + first(&chart.linear));
+    let rows = chart.amplitudes.iter();
+    for at in rows {
+        let is_below = at.amplitude_m.unwrap() < half;
+        assert_eq!(
+            first(at) < middle,
+            is_below == (first(&chart.free) < middle)
+        );
+    }
+    // Every pad force balances the side force, whatever the gap; a wider gap lets the blade go further.
+    let map = &found.deviation;
+    for (row, factor) in map.over_gap.iter().zip(&map.gap_factors) {
+        for (at, force) in row.iter().zip(&map.forces_n) {
+            let at = at.as_ref().unwrap();
+            match *factor == 0.0 {
+                true => assert!(at.pad_forces_n.is_empty()),
+                false => assert!((at.pad_forces_n[0] + force).abs() < 1e-5 * force),
+            }
+        }
+    }
+    for gaps in map.over_gap[1..].windows(2) {
+        let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].as_ref().unwrap().deviation_m);
+        assert!(wide > narrow, "{narrow} {wide}");
+    }
+}
+
+#[test]
+fn limits_are_interpolated_between_forces() {
+    let at = |deviation_m: f64| {
+        Some(Deviation {
+            deviation_m,
+            largest_m: deviation_m,
+            pad_forces_n: Vec::new(),
+        })
+    };
+    let map = DeviationMap {
+        angle_rad: 0.0,
+        rpm: 1000.0,
+        gap_factors: vec![0.0, 1.0, 2.0],
+        forces_n: vec![1.0, 2.0, 4.0],
+        over_gap: vec![
+            vec![at(1e-5), at(2e-5), at(4e-5)],
+            vec![at(4e-5), at(8e-5), at(2.4e-4)],
+            vec![at(2e-4), None, None],
+        ],
+        force_n: 1.0,
+        speeds_rpm: Vec::new(),
+        over_speed: Vec::new(),
+    };
+    let found = map.force_within_n(1.2e-4);
+    assert_eq!((found[0], found[2]), (Some(4.0), None));
+    assert!((found[1].unwrap() - 2.5).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn what_cannot_be_answered_is_refused() {
+    let options = Options::default();
+    let refused = options.checked(&Scene::paper()).unwrap_err();
+    assert_eq!(refused.key, "guides[].contact");
+    let scene = lifting(4e-5);
+    for (options, key) in [
+        (
+            Options {
+                force_n: Some(0.0),
+                ..options
+            },
+            "force_n",
+        ),
+        (
+            Options {
+                rpm: Some(-1.0),
+                ..options
+            },
+            "rpm",
+        ),
+        (
+            Options {
+                max_deviation_mm: Some(f64::NAN),
+                ..options
+            },
+            "max_deviation_mm",
+        ),
+    ] {
+        assert_eq!(options.checked(&scene).unwrap_err().key, key);
+    }
+}

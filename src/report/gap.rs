@@ -1,0 +1,184 @@
+//! `gap.json`: the chart over the amplitude at the guides, and the deflection at the cut over their gap.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::InstabilityEntry;
+use crate::gap::{AtAmplitude, Deviation, DeviationMap, GuideGaps};
+use crate::scene::{ContactLaw, SceneFile, rpm};
+
+/// `gap.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GapReport {
+    /// Version of the program that wrote the report.
+    pub sawflutter: String,
+    /// The scene, as typed.
+    pub scene: SceneFile,
+    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
+    /// says holds for them as they were typed.
+    #[serde(default)]
+    pub unusual_numbers: Vec<String>,
+    /// Size of the basis.
+    pub degrees_of_freedom: usize,
+    /// First speed.
+    pub from_rpm: f64,
+    /// Last speed.
+    pub to_rpm: f64,
+    /// Smallest gap of a one-sided guide.
+    pub smallest_gap_m: f64,
+    /// The blade inside all gaps, where only films act.
+    pub free: AtAmplitudeEntry,
+    /// Amplitudes beyond the smallest gap, ascending.
+    pub amplitudes: Vec<AtAmplitudeEntry>,
+    /// The linear chart of the scene, with guides of their full stiffness.
+    pub linear: AtAmplitudeEntry,
+    /// Amplitude at which the first critical speed lies half way between that of the free blade and that of the linear
+    /// chart: at smaller amplitudes the chart is that of the free blade. Null if the two differ by less than 0.1 %.
+    pub half_way_amplitude_m: Option<f64>,
+    /// The deflection at the cut.
+    pub deviation: DeviationEntry,
+    /// Remarks on the validity of the result.
+    pub warnings: Vec<String>,
+}
+
+/// A saw whose blade oscillates at its guides with one amplitude.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AtAmplitudeEntry {
+    /// Amplitude at the guides; null of the free blade and of the linear chart.
+    pub amplitude_m: Option<f64>,
+    /// Mean stiffness of each one-sided guide over the oscillation (describing function), relative to its full stiffness.
+    pub stiffness_shares: Vec<f64>,
+    /// Critical speeds within the sweep.
+    pub critical_rpm: Vec<f64>,
+    /// Bands of instability within the sweep.
+    pub instabilities: Vec<InstabilityEntry>,
+    /// Flutter speed; null if no flutter counts within the sweep.
+    pub flutter_speed_rpm: Option<f64>,
+}
+
+/// Stationary deflection of the rim at the cut under a side force there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DeviationEntry {
+    /// Angle of the force and of the deflection.
+    pub angle_deg: f64,
+    /// Speed of the map over gap and force.
+    pub rpm: f64,
+    /// Gaps of the map relative to those of the scene, one row each; 0 stands for linear guides.
+    pub gap_factors: Vec<f64>,
+    /// Side forces of the map.
+    pub forces_n: Vec<f64>,
+    /// Deflection at the cut, one row a gap; null where slopes exceed 0.1 and the model is not valid.
+    pub deflection_m: Vec<Vec<Option<f64>>>,
+    /// Largest deflection of the blade, as an absolute value.
+    pub largest_deflection_m: Vec<Vec<Option<f64>>>,
+    /// Force of each one-sided pad on the blade beyond its gap, for each pad one row a gap; null for linear guides.
+    pub pad_forces_n: Vec<Vec<Vec<Option<f64>>>>,
+    /// Largest deflection at the cut that is allowed; null if none was given.
+    pub max_deflection_m: Option<f64>,
+    /// Largest side force that keeps it, for each gap; null where the smallest force of the map exceeds it. Empty without a
+    /// limit.
+    pub force_within_n: Vec<Option<f64>>,
+    /// Side force of the series over the speed, with the gaps of the scene.
+    pub force_n: f64,
+    /// Speeds of the series.
+    pub speeds_rpm: Vec<f64>,
+    /// Deflection at the cut at these speeds; null where the blade leans by more than its thickness.
+    pub deflection_over_speed_m: Vec<Option<f64>>,
+    /// Forces of the pads at these speeds, one row a pad; null where the blade leans.
+    pub pad_forces_over_speed_n: Vec<Vec<Option<f64>>>,
+}
+
+impl GapReport {
+    /// Reports what was found.
+    pub fn new(found: &GuideGaps) -> Self {
+        let chart = found.analysis.report();
+        let threshold = found.scene.flutter_threshold_per_s();
+        let entry = |at: &AtAmplitude| AtAmplitudeEntry {
+            amplitude_m: at.amplitude_m,
+            stiffness_shares: at.shares.clone(),
+            critical_rpm: at
+                .critical_rad_per_s
+                .iter()
+                .map(|speed| rpm(*speed))
+                .collect(),
+            instabilities: at
+                .instabilities
+                .iter()
+                .map(|band| InstabilityEntry::new(band, threshold))
+                .collect(),
+            flutter_speed_rpm: at.flutter_speed_rad_per_s.map(rpm),
+        };
+        let amplitude = &found.amplitude;
+        let guides = found.scene.file().guides.iter();
+        let gaps = guides.filter(|guide| guide.contact == ContactLaw::OneSided);
+        GapReport {
+            sawflutter: chart.sawflutter,
+            scene: found.scene.file().clone(),
+            unusual_numbers: chart.unusual_numbers,
+            degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+            from_rpm: chart.campbell.from_rpm,
+            to_rpm: chart.campbell.to_rpm,
+            smallest_gap_m: gaps
+                .filter_map(|guide| guide.gap_m)
+                .fold(f64::MAX, f64::min),
+            free: entry(&amplitude.free),
+            amplitudes: amplitude.amplitudes.iter().map(entry).collect(),
+            linear: entry(&amplitude.linear),
+            half_way_amplitude_m: amplitude.half_way_m,
+            deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
+            warnings: chart.warnings,
+        }
+    }
+
+    /// The free blade, the amplitudes, and the linear chart.
+    pub fn rows(&self) -> impl Iterator<Item = &AtAmplitudeEntry> {
+        let [free, linear] = [&self.free, &self.linear].map(std::iter::once);
+        free.chain(&self.amplitudes).chain(linear)
+    }
+}
+
+impl DeviationEntry {
+    fn new(map: &DeviationMap, limit_m: Option<f64>) -> Self {
+        let table = |of: fn(&Deviation) -> f64| -> Vec<Vec<Option<f64>>> {
+            let of_row = |row: &Vec<Option<Deviation>>| values(row, of);
+            map.over_gap.iter().map(of_row).collect()
+        };
+        let all = map
+            .over_gap
+            .iter()
+            .flatten()
+            .chain(&map.over_speed)
+            .flatten();
+        let pads = 0..all
+            .map(|at| at.pad_forces_n.len())
+            .max()
+            .unwrap_or_default();
+        let of_pad = |pad: usize, row: &[Option<Deviation>]| -> Vec<Option<f64>> {
+            let force = |at: &Deviation| at.pad_forces_n.get(pad).copied();
+            row.iter().map(|at| at.as_ref().and_then(force)).collect()
+        };
+        let over_gap = |pad: usize| map.over_gap.iter().map(|row| of_pad(pad, row)).collect();
+        DeviationEntry {
+            angle_deg: map.angle_rad.to_degrees(),
+            rpm: map.rpm,
+            gap_factors: map.gap_factors.clone(),
+            forces_n: map.forces_n.clone(),
+            deflection_m: table(|at| at.deviation_m),
+            largest_deflection_m: table(|at| at.largest_m),
+            pad_forces_n: pads.clone().map(over_gap).collect(),
+            max_deflection_m: limit_m,
+            force_within_n: limit_m.map_or_else(Vec::new, |limit| map.force_within_n(limit)),
+            force_n: map.force_n,
+            speeds_rpm: map.speeds_rpm.clone(),
+            deflection_over_speed_m: values(&map.over_speed, |at| at.deviation_m),
+            pad_forces_over_speed_n: pads.map(|pad| of_pad(pad, &map.over_speed)).collect(),
+        }
+    }
+}
+
+fn values(found: &[Option<Deviation>], of: fn(&Deviation) -> f64) -> Vec<Option<f64>> {
+    found.iter().map(|at| at.as_ref().map(of)).collect()
+}

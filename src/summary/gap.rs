@@ -1,0 +1,140 @@
+//! Guides with a gap in words.
+
+use std::fmt::Write;
+
+use super::{WIDTH, shortened, unusual_numbers, wrapped};
+use crate::report::{AtAmplitudeEntry, GapReport};
+use crate::text::shown_to;
+
+impl GapReport {
+    /// The report in words, 80 columns wide, the answer first.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    unusual_numbers(text, &report.unusual_numbers)?;
+    writeln!(text, "{}", wrapped(&half_way(report)))?;
+    writeln!(
+        text,
+        "\nOver the amplitude at the guides (mean stiffness of an oscillation)"
+    )?;
+    writeln!(
+        text,
+        "  amplitude   stiffness   first critical   flutter speed   bands"
+    )?;
+    writeln!(
+        text,
+        "       [mm]                        [rpm]           [rpm]"
+    )?;
+    writeln!(text, "{}", row("inside gap", &report.free))?;
+    for at in &report.amplitudes {
+        let amplitude = at
+            .amplitude_m
+            .map_or_else(String::new, |m| shown_to(4, 1e3 * m));
+        writeln!(text, "{}", row(&amplitude, at))?;
+    }
+    writeln!(text, "{}", row("linear", &report.linear))?;
+    deviation(text, report)?;
+    writeln!(text, "\n{}", wrapped(MEANING))?;
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}
+
+const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
+     of the same amplitude at all of them; it is an approximation. Deflections are stationary ones; oscillations about them are not part of them.";
+
+fn half_way(report: &GapReport) -> String {
+    let gap = shown_to(3, 1e3 * report.smallest_gap_m);
+    match report.half_way_amplitude_m {
+        None => format!(
+            "The first critical speed inside the gap of {gap} mm is that of the linear chart to 0.1 %"
+        ),
+        Some(amplitude) => format!(
+            "Up to an amplitude of {} mm at the guides (gap {gap} mm) the first critical speed is closer to that of the free blade than to that of the linear chart",
+            shown_to(4, 1e3 * amplitude)
+        ),
+    }
+}
+
+fn row(name: &str, at: &AtAmplitudeEntry) -> String {
+    let share = at.stiffness_shares.iter().copied().fold(0.0, f64::max);
+    let speed = |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1}"));
+    format!(
+        "{name:>11} {:>9} % {:>16} {:>15} {:>7}",
+        shown_to(3, 1e2 * share),
+        speed(at.critical_rpm.first().copied()),
+        speed(at.flutter_speed_rpm),
+        at.instabilities.len()
+    )
+}
+
+fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
+    let map = &report.deviation;
+    writeln!(
+        text,
+        "\nDeflection of the rim at the cut at {:.0} rpm [mm] under a side force of",
+        map.rpm
+    )?;
+    let heads = map
+        .forces_n
+        .iter()
+        .map(|force| format!("{:>9}", format!("{} N", shown_to(3, *force))));
+    writeln!(text, "  gap [mm] {}", heads.collect::<String>())?;
+    for (factor, deflections) in map.gap_factors.iter().zip(&map.deflection_m) {
+        let gap = match *factor == 0.0 {
+            true => "linear".to_owned(),
+            false => shown_to(3, 1e3 * factor * report.smallest_gap_m),
+        };
+        let cells = deflections.iter().map(|m| {
+            let shown = m.map_or_else(|| "-".to_owned(), |m| format!("{:.4}", 1e3 * m));
+            format!("{shown:>9}")
+        });
+        writeln!(text, "{gap:>10} {}", cells.collect::<String>())?;
+    }
+    if let Some(limit) = map.max_deflection_m {
+        writeln!(
+            text,
+            "\nLargest side force within {} mm at the cut",
+            shown_to(3, 1e3 * limit)
+        )?;
+        for (factor, force) in map.gap_factors.iter().zip(&map.force_within_n) {
+            let gap = match *factor == 0.0 {
+                true => "linear guides".to_owned(),
+                false => format!(
+                    "gap {} mm",
+                    shown_to(3, 1e3 * factor * report.smallest_gap_m)
+                ),
+            };
+            let last = map.forces_n.last().map_or(0.0, |force| force.abs());
+            let force = match force {
+                None => "less than the smallest of the map".to_owned(),
+                Some(force) if *force >= last => format!("{} N or more", shown_to(3, last)),
+                Some(force) => format!("{} N", shown_to(3, *force)),
+            };
+            writeln!(text, "  {gap:<18} {force}")?;
+        }
+    }
+    writeln!(
+        text,
+        "\nOver the speed under {} N, with the gap of the scene",
+        shown_to(3, map.force_n)
+    )?;
+    writeln!(text, "     [rpm]   deflection [mm]   pad forces [N]")?;
+    let series = map.speeds_rpm.iter().zip(&map.deflection_over_speed_m);
+    for (k, (rpm, deflection)) in series.enumerate() {
+        let forces = map.pad_forces_over_speed_n.iter().filter_map(|pad| pad[k]);
+        let shown = deflection.map_or_else(|| "leans".to_owned(), |m| format!("{:.4}", 1e3 * m));
+        let forces: Vec<String> = forces.map(|force| shown_to(3, force)).collect();
+        let line = format!("{rpm:>10.0} {shown:>17}   {}", forces.join("  "));
+        writeln!(text, "{}", line.trim_end())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,96 @@
+//! Goal: `gap` says over which amplitudes the chart of guides with a gap holds, and how far the blade goes at the cut.
+//!
+//! Source: `--help`, docs/how-to/guide-gaps.md.
+
+use sawflutter::report::GapReport;
+use sawflutter::scene::{Accuracy, ContactLaw, Scene};
+use tempfile::TempDir;
+
+use super::program::{names_in, out, run, text};
+
+fn saw(folder: &TempDir) -> String {
+    let scene = Scene::paper().edited(|file| {
+        let pad = &mut file.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+        (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(1000.0));
+        if let Some(sweep) = &mut file.sweep {
+            sweep.to_rpm = 1700.0;
+        }
+    });
+    let json = serde_json::to_string(scene.unwrap().file()).unwrap();
+    let path = folder.path().join("saw.json");
+    std::fs::write(&path, json).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn text_files_and_json_agree() {
+    let folder = TempDir::new().unwrap();
+    let path = saw(&folder);
+    let options = ["--force-n", "2", "--max-deviation-mm", "0.3"];
+    let output = run(&[&["gap", &path], &options[..]].concat(), &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(names_in(&out(&folder)), ["gap.json", "gap.png", "gap.svg"]);
+    let summary = text(&output.stdout);
+    for line in summary.lines() {
+        assert!(
+            line.chars().count() <= 80 || line.starts_with("Written"),
+            "{line}"
+        );
+    }
+    let json = std::fs::read(folder.path().join("out/gap.json")).unwrap();
+    assert!(!text(&json).contains("NaN"));
+    let report: GapReport = serde_json::from_slice(&json).unwrap();
+    assert!(
+        summary.contains(&format!("{:.1}", report.free.critical_rpm[0])),
+        "{summary}"
+    );
+    assert!(
+        summary.contains(&format!("{:.1}", report.linear.critical_rpm[0])),
+        "{summary}"
+    );
+    let map = &report.deviation;
+    assert!((map.rpm - 1000.0).abs() < 1e-9);
+    assert_eq!(map.forces_n[2], 2.0);
+    let at_scene = map
+        .gap_factors
+        .iter()
+        .position(|factor| *factor == 1.0)
+        .unwrap();
+    let shown = 1e3 * map.deflection_m[at_scene][2].unwrap();
+    assert!(
+        summary.contains(&format!("{shown:.4}")),
+        "{shown} {summary}"
+    );
+    assert_eq!(map.force_within_n.len(), map.gap_factors.len());
+    assert!(
+        report
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("guides[0] lifts off"))
+    );
+}
+
+#[test]
+fn a_saw_without_a_gap_and_numbers_that_are_none_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let path = saw(&folder);
+    for (words, said) in [
+        (&["gap"][..], "guides[].contact"),
+        (&["gap", &path, "--force-n", "0"], "--force-n"),
+        (&["gap", &path, "--rpm", "-3"], "--rpm"),
+        (
+            &["gap", &path, "--max-deviation-mm", "0"],
+            "--max-deviation-mm",
+        ),
+    ] {
+        let output = run(words, &folder);
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        assert!(
+            text(&output.stderr).contains(said),
+            "{}",
+            text(&output.stderr)
+        );
+    }
+    assert!(!out(&folder).exists());
+}
